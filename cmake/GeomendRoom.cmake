@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+# A room of the house: one static library. geomend_room(base USES TBB::tbb SOURCES a.cpp b.cpp)
+# The target is geomend_<name>; headers are included as "<name>/file.h" from src, or "formats/..." from the root.
+
+add_library(geomend_settings INTERFACE)
+target_compile_features(geomend_settings INTERFACE cxx_std_20)
+target_compile_options(geomend_settings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-float-conversion
+  -Wcast-qual -Wformat=2 -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference
+  $<$<BOOL:${GEOMEND_WERROR}>:-Werror>
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference>)
+if(GEOMEND_SANITIZE)
+  target_compile_options(geomend_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(geomend_settings INTERFACE -fsanitize=address,undefined)
+endif()
+if(GEOMEND_FUZZ)
+  target_compile_options(geomend_settings INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+function(geomend_room name)
+  cmake_parse_arguments(ROOM "" "" "USES;PRIVATE_USES;SOURCES" ${ARGN})
+  add_library(geomend_${name} STATIC ${ROOM_SOURCES})
+  target_include_directories(geomend_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/geomend>)
+  target_link_libraries(geomend_${name} PUBLIC ${ROOM_USES} PRIVATE ${ROOM_PRIVATE_USES} $<BUILD_INTERFACE:geomend_settings>)
+  target_compile_features(geomend_${name} PUBLIC cxx_std_20)
+  set_target_properties(geomend_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  add_library(geomend::${name} ALIAS geomend_${name})
+  set_property(GLOBAL APPEND PROPERTY GEOMEND_ROOMS geomend_${name})
+endfunction()

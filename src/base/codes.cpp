@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "base/codes.h"
+
+#include <algorithm>
+#include <array>
+
+namespace geomend {
+
+namespace {
+
+using enum Severity;
+
+// F0xx: the file cannot be read or written. F1xx: it was read, and this is what stands in it.
+constexpr std::array catalogue = {
+    CodeInfo{"F001", error, "the file cannot be opened or read", "check the path and its permissions"},
+    CodeInfo{"F002", error, "the file is empty", "export it again from its source"},
+    CodeInfo{"F003", error, "the format is not recognised", "name it with --from"},
+    CodeInfo{"F004", error, "the file ends inside an object", "the file was cut short: copy or export it again"},
+    CodeInfo{"F005", error, "a number is malformed", "correct the number"},
+    CodeInfo{"F006", error, "a coordinate is not finite", "correct or remove the point"},
+    CodeInfo{"F007", error, "a reference names something that is not defined", "define it or correct the reference"},
+    CodeInfo{"F008", error, "a count does not match what follows", "correct the count"},
+    CodeInfo{"F009", error, "an id is defined twice", "renumber"},
+    CodeInfo{"F010", error, "a companion file is missing or cannot be read", "copy it beside the file that names it"},
+    CodeInfo{"F011", error, "a companion file does not have the size that its header asks for", "export both again"},
+    CodeInfo{"F012", error, "a record is malformed", "correct the record"},
+    CodeInfo{"F013", error, "this variant of the format is not supported", "export in another variant"},
+    CodeInfo{"F014", error, "the file asks for more than it can hold, or nests too deeply", "the file is damaged"},
+    CodeInfo{"F015", error, "compressed data are damaged", "compress or copy it again"},
+    CodeInfo{"F016", error, "inputs disagree in units, vertical sign or coordinate system",
+             "use --option crs=ignore if they are known to agree"},
+    CodeInfo{"F017", error, "nothing in the file is of a kind that can be read", "check that it is the right file"},
+    CodeInfo{"F018", error, "the option is not known or its value is wrong", "see the manual page of the format"},
+    CodeInfo{"F020", error, "the output cannot be written", "check the folder, its permissions and the free space"},
+    CodeInfo{"F021", error, "the target format cannot hold this without loss", "choose another format, or accept the loss with --lossy"},
+    CodeInfo{"F022", error, "work was stopped", ""},
+    CodeInfo{"F023", error, "a time or memory limit was hit", "raise the limit"},
+    CodeInfo{"F101", warning, "the last object has no END", "--accept-unterminated, after checking that nothing is missing"},
+    CodeInfo{"F102", info, "a record is not known", ""},
+    CodeInfo{"F103", warning, "degenerate element: the same node twice", "repair"},
+    CodeInfo{"F104", warning, "duplicate element", "repair"},
+    CodeInfo{"F105", warning, "too few values in a record: padded with no-data", ""},
+    CodeInfo{"F106", warning, "a key triangle is reversed against its surface", "repair"},
+    CodeInfo{"F107", warning, "more values in a record than declared: the rest is not used", ""},
+    CodeInfo{"F108", warning, "a list does not end with 0", ""},
+    CodeInfo{"F109", warning, "a list names a number that has no record", ""},
+    CodeInfo{"F110", warning, "a stated border or contact does not lie on an edge of the mesh", "repair"},
+    CodeInfo{"F111", info, "points at the same position were welded at zero distance", ""},
+    CodeInfo{"F112", info, "no coordinate system is stated", ""},
+    CodeInfo{"F113", warning, "what the file states disagrees with its geometry", "validate tells where"},
+    CodeInfo{"F114", info, "cells are wound the other way", "repair"},
+    CodeInfo{"F115", warning, "names are used more than once", ""},
+    CodeInfo{"F116", warning, "a key triangle is not a triangle of its surface", "repair"},
+    CodeInfo{"F117", info, "no-data stands where a coordinate is expected", ""},
+    CodeInfo{"F118", warning, "a record is not where it is expected, or is glued to its values", ""},
+    CodeInfo{"F119", warning, "an object or a part holds nothing", ""},
+    CodeInfo{"F120", warning, "a non-finite property value stands for missing", ""},
+    CodeInfo{"F121", warning, "a stated region does not exist or has no boundary", "repair"},
+};
+
+}  // namespace
+
+std::span<const CodeInfo> code_catalogue() { return catalogue; }
+
+const CodeInfo* find_code(std::string_view code) {
+    const auto row = std::ranges::find(catalogue, code, &CodeInfo::code);
+    return row == catalogue.end() ? nullptr : &*row;
+}
+
+}  // namespace geomend

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "base/input.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <system_error>
+#include <utility>
+
+namespace geomend {
+
+struct Input::Storage {
+    void* mapped = nullptr;
+    std::size_t mapped_size = 0;
+    std::string buffer;
+
+    Storage() = default;
+    Storage(const Storage&) = delete;
+    Storage& operator=(const Storage&) = delete;
+    ~Storage() {
+        if (mapped != nullptr) ::munmap(mapped, mapped_size);
+    }
+};
+
+namespace {
+
+// Deflate grows data at most 1032 times; text of models grows 3 to 10 times. A file that claims more than
+// this is not a model but an attack on memory.
+constexpr std::size_t largest_inflated = std::size_t{16} << 30;
+constexpr std::size_t chunk = std::size_t{1} << 20;
+
+class Descriptor {
+public:
+    explicit Descriptor(int fd, bool owned = true) : fd_(fd), owned_(owned) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (owned_ && fd_ >= 0) ::close(fd_);
+    }
+    int get() const { return fd_; }
+
+private:
+    int fd_;
+    bool owned_;
+};
+
+std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
+
+Result<std::string> read_all(int fd, const std::string& name) {
+    std::string bytes;
+    std::size_t used = 0;
+    for (;;) {
+        if (bytes.size() - used < chunk) bytes.resize(bytes.size() + bytes.size() / 2 + chunk);
+        const ssize_t got = ::read(fd, bytes.data() + used, bytes.size() - used);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return unreadable("F001", {name}, "cannot read: " + reason(errno));
+        if (got == 0) break;
+        used += static_cast<std::size_t>(got);
+        if (used > largest_inflated) return unreadable("F014", {name}, "more than 16 GiB came from the pipe: give a file instead");
+    }
+    bytes.resize(used);
+    return bytes;
+}
+
+bool is_gzip(std::string_view bytes) { return bytes.size() >= 3 && bytes[0] == '\x1f' && bytes[1] == '\x8b' && bytes[2] == '\x08'; }
+
+struct Inflater {
+    z_stream stream{};
+    bool ready = ::inflateInit2(&stream, 15 + 16) == Z_OK;
+    Inflater() = default;
+    Inflater(const Inflater&) = delete;
+    Inflater& operator=(const Inflater&) = delete;
+    ~Inflater() {
+        if (ready) ::inflateEnd(&stream);
+    }
+};
+
+// Several gzip members one after the other are one stream (RFC 1952, 2.2).
+Result<std::string> inflate_all(std::string_view packed, const std::string& name) {
+    Inflater inflater;
+    if (!inflater.ready) throw std::bad_alloc();
+    z_stream& z = inflater.stream;
+    std::string out;
+    std::size_t used = 0;
+    std::size_t taken = 0;
+    bool member_ended = false;
+    while (taken < packed.size() || !member_ended) {
+        if (out.size() - used < chunk) out.resize(out.size() + out.size() / 2 + chunk);
+        const std::size_t offer = std::min<std::size_t>(packed.size() - taken, std::size_t{1} << 30);
+        z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + taken));
+        z.avail_in = static_cast<uInt>(offer);
+        const std::size_t room = std::min<std::size_t>(out.size() - used, std::size_t{1} << 30);
+        z.next_out = reinterpret_cast<Bytef*>(out.data() + used);
+        z.avail_out = static_cast<uInt>(room);
+        const int status = ::inflate(&z, Z_NO_FLUSH);
+        const std::size_t produced = room - z.avail_out;
+        const std::size_t consumed = offer - z.avail_in;
+        used += produced;
+        taken += consumed;
+        if (used > largest_inflated) return unreadable("F014", {name}, "the compressed data grow beyond 16 GiB");
+        member_ended = status == Z_STREAM_END;
+        if (member_ended) {
+            if (!is_gzip(packed.substr(taken))) break;
+            ::inflateReset(&z);
+            member_ended = false;
+        } else if (status != Z_OK || (produced == 0 && consumed == 0)) {
+            const std::string what =
+                status == Z_OK || status == Z_BUF_ERROR ? "end early" : (z.msg != nullptr ? z.msg : "cannot be inflated");
+            return unreadable("F015", {name, 0, 0, static_cast<std::int64_t>(taken)}, "the gzip data are damaged: " + what);
+        }
+    }
+    out.resize(used);
+    return out;
+}
+
+}  // namespace
+
+Result<Input> Input::open(const std::string& path) {
+    Input input;
+    const bool standard = path == "-";
+    input.name_ = standard ? "standard input" : path;
+    if (!standard) input.path_ = path;
+    const Descriptor fd(standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard);
+    if (fd.get() < 0) return unreadable("F001", {input.name_}, "cannot open: " + reason(errno));
+    struct stat about {};
+    if (::fstat(fd.get(), &about) != 0) return unreadable("F001", {input.name_}, "cannot stat: " + reason(errno));
+    if (S_ISDIR(about.st_mode)) return unreadable("F001", {input.name_}, "this is a folder, not a file");
+
+    auto storage = std::make_shared<Storage>();
+    if (S_ISREG(about.st_mode) && about.st_size > 0) {
+        const auto size = static_cast<std::size_t>(about.st_size);
+        void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd.get(), 0);
+        if (address == MAP_FAILED) return unreadable("F001", {input.name_}, "cannot map: " + reason(errno));
+        ::madvise(address, size, MADV_WILLNEED);
+        storage->mapped = address;
+        storage->mapped_size = size;
+        input.bytes_ = {static_cast<const char*>(address), size};
+    } else if (!S_ISREG(about.st_mode)) {
+        auto all = read_all(fd.get(), input.name_);
+        if (!all) return std::move(all).why();
+        storage->buffer = std::move(*all);
+        input.bytes_ = storage->buffer;
+    }
+    input.stored_size_ = input.bytes_.size();
+    if (is_gzip(input.bytes_)) {
+        auto inflated = inflate_all(input.bytes_, input.name_);
+        if (!inflated) return std::move(inflated).why();
+        auto unpacked = std::make_shared<Storage>();
+        unpacked->buffer = std::move(*inflated);
+        input.bytes_ = unpacked->buffer;
+        storage = std::move(unpacked);
+    }
+    input.storage_ = std::move(storage);
+    return input;
+}
+
+Input Input::from_memory(std::string bytes, std::string name) {
+    Input input;
+    auto storage = std::make_shared<Storage>();
+    storage->buffer = std::move(bytes);
+    input.bytes_ = storage->buffer;
+    input.stored_size_ = input.bytes_.size();
+    input.storage_ = std::move(storage);
+    input.path_ = name;
+    input.name_ = std::move(name);
+    return input;
+}
+
+std::string Input::base_name() const {
+    std::string name = path_.filename().string();
+    if (name.ends_with(".gz")) name.resize(name.size() - 3);
+    return name;
+}
+
+std::filesystem::path Input::companion_path(std::string_view file_name) const {
+    const std::filesystem::path wanted{std::string(file_name)};
+    return wanted.is_absolute() ? wanted : path_.parent_path() / wanted;
+}
+
+bool Input::has_companion(std::string_view file_name) const {
+    std::error_code error;
+    return !file_name.empty() && std::filesystem::is_regular_file(companion_path(file_name), error);
+}
+
+Result<Input> Input::companion(std::string_view file_name) const {
+    const std::string path = companion_path(file_name).string();
+    std::error_code error;
+    if (file_name.empty() || !std::filesystem::is_regular_file(path, error)) {
+        return unreadable("F010", {name_}, "the companion file '" + std::string(file_name) + "' is missing: tried " + path);
+    }
+    return open(path);
+}
+
+}  // namespace geomend

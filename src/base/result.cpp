@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "base/result.h"
+
+namespace geomend {
+
+std::string to_string(const Location& where) {
+    std::string text = where.file;
+    if (where.line > 0) {
+        text += ':' + std::to_string(where.line);
+        if (where.column > 0) text += ':' + std::to_string(where.column);
+    } else if (where.offset >= 0) {
+        text += ": byte " + std::to_string(where.offset);
+    }
+    return text;
+}
+
+Failure failure(FailureKind kind, std::string code, Location where, std::string message) {
+    Failure f;
+    f.kind = kind;
+    f.error.code = std::move(code);
+    f.error.severity = Severity::error;
+    f.error.where = std::move(where);
+    f.error.message = std::move(message);
+    return f;
+}
+
+Failure unreadable(std::string code, Location where, std::string message) {
+    return failure(FailureKind::unreadable, std::move(code), std::move(where), std::move(message));
+}
+
+}  // namespace geomend

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/vec3.h"
+#include "model/attribute.h"
+#include "model/coordinate_system.h"
+#include "model/feature.h"
+#include "model/object_info.h"
+#include "model/objects.h"
+#include "model/polygons.h"
+
+namespace geomend {
+
+/// A 32-bit index of one kind of thing, so that a surface is not taken for a region.
+template <class Tag>
+struct Id {
+    std::uint32_t value = no_index;
+    constexpr Id() = default;
+    constexpr explicit Id(std::uint32_t v) : value(v) {}
+    constexpr explicit Id(std::size_t v) : value(static_cast<std::uint32_t>(v)) {}
+    constexpr bool valid() const { return value != no_index; }
+    constexpr auto operator<=>(const Id&) const = default;
+};
+using VertexId = Id<struct VertexTag>;
+using CornerId = Id<struct CornerTag>;
+using LineId = Id<struct LineTag>;
+using SurfaceId = Id<struct SurfaceTag>;
+using RegionId = Id<struct RegionTag>;
+using InterfaceId = Id<struct InterfaceTag>;
+using ContactId = Id<struct ContactTag>;
+
+/// A boundary representation as plain arrays. Positions live on model vertices; a surface has nodes of its
+/// own, so that two surfaces on one contact carry different values. Two surfaces conform along a line exactly
+/// when they use the same model vertices. It may be broken: judging it is the validators' matter.
+struct BrepData {
+    std::string name;
+    CoordinateSystem crs;
+    std::vector<Annotation> annotations;
+
+    std::vector<Vec3> vertices;                ///< elevation-up
+    std::vector<Attribute> vertex_attributes;  ///< location point, over vertices (cell meshes); may be empty
+
+    struct Corner {
+        std::string name;
+        VertexId vertex;
+    };
+    std::vector<Corner> corners;
+
+    struct Line {
+        std::string name;
+        std::vector<VertexId> vertices;   ///< in order, at least 2; a closed line repeats its first vertex at the end
+        std::array<CornerId, 2> corners;  ///< at its ends; equal for a closed line
+        ContactId contact;
+        bool closed() const { return corners[0] == corners[1]; }
+    };
+    std::vector<Line> lines;
+
+    /// Where a surface's border (or a slit in it) runs along a line; both sides of a slit are two entries.
+    struct SurfaceLine {
+        LineId line;
+        bool internal = false;  ///< the surface lies on both sides of the line
+    };
+    /// Neighbour of a polygon across an edge; no_index at a border or on a line.
+    struct Surface {
+        std::string name;
+        InterfaceId interface_id;
+        FeatureRole role = FeatureRole::unknown;
+        std::string role_text;
+        std::vector<VertexId> nodes;            ///< node -> model vertex
+        Polygons polygons;                      ///< over nodes
+        std::vector<std::uint32_t> neighbours;  ///< like polygons.corners: across the edge corner i -> i+1
+        std::vector<Attribute> attributes;      ///< over nodes (point) or polygons (polygon)
+        std::vector<SurfaceLine> lines;
+        std::array<RegionId, 2> regions;  ///< behind [0] and in front [1] of the normals; invalid: none or Universe
+        std::uint32_t source_object = no_index, source_part = no_index;
+        std::vector<Annotation> annotations;
+    };
+    std::vector<Surface> surfaces;
+
+    struct Side {
+        SurfaceId surface;
+        bool front = true;  ///< the region lies on the side the normals point into
+    };
+    struct Region {
+        std::string name;
+        std::vector<Side> sides;
+        double volume = 0;  ///< positive when its sides close around it; NaN where it is not known
+        bool volume_known = false;
+        /// Cells that fill it; none for a hollow region.
+        std::vector<VertexId> nodes;  ///< node -> model vertex; two regions on one surface have nodes of their own
+        std::vector<CellType> cell_types;
+        std::vector<std::uint64_t> cell_offsets = {0};
+        std::vector<std::uint32_t> cell_nodes;  ///< over nodes
+        std::vector<Attribute> attributes;      ///< over nodes (point), cells (cell) or for the whole (object)
+        std::vector<Annotation> annotations;
+    };
+    std::vector<Region> regions;
+    std::vector<Side> universe;  ///< the exterior's sides; empty where it is not known
+    double universe_volume = 0;
+
+    struct Interface {
+        std::string name;
+        FeatureRole role = FeatureRole::unknown;
+        std::string role_text;
+        std::string feature;
+        std::vector<SurfaceId> surfaces;
+    };
+    std::vector<Interface> interfaces;
+    /// All lines bordered by the same set of interfaces.
+    struct Contact {
+        std::string name;
+        std::vector<InterfaceId> interfaces;  ///< ascending
+        std::vector<LineId> lines;
+    };
+    std::vector<Contact> contacts;
+    struct RegionList {
+        std::string name;
+        std::vector<RegionId> regions;
+    };
+    std::vector<RegionList> layers;
+    std::vector<RegionList> fault_blocks;
+
+    std::uint32_t internal_lines_of_regions = 0;   ///< lines inside a region (ends of internal surfaces)
+    std::uint32_t internal_lines_of_surfaces = 0;  ///< lines inside a surface
+};
+
+/// An immutable boundary representation whose indices are known to be in range and whose adjacency is reciprocal.
+class Brep {
+public:
+    /// Checks every index and the reciprocity of neighbours; a violation is a programming mistake and
+    /// fails with FailureKind::internal and the first wrong index.
+    static Result<Brep> make(BrepData data);
+
+    const BrepData* operator->() const { return &data_; }
+    const BrepData& operator*() const { return data_; }
+
+private:
+    explicit Brep(BrepData data) : data_(std::move(data)) {}
+    BrepData data_;
+};
+
+}  // namespace geomend
