@@ -1,2 +1,267 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "base/parallel.h"
+#include "geometry/cell_volume.h"
+#include "geometry/polyhedron_volume.h"
+
+namespace geomend {
+
+namespace {
+
+constexpr std::size_t block_size = 4096;
+
+/// Sum of measure(i) over 0..count: each fixed block in order, then the blocks in order.
+template <class Measure>
+double ordered_sum(std::size_t count, const Measure& measure) {
+    std::vector<double> blocks((count + block_size - 1) / block_size);
+    parallel_for_each_index(blocks.size(), [&](std::size_t block) {
+        double sum = 0;
+        const std::size_t last = std::min(count, (block + 1) * block_size);
+        for (std::size_t i = block * block_size; i < last; ++i) sum += measure(i);
+        blocks[block] = sum;
+    });
+    double sum = 0;
+    for (const double block : blocks) sum += block;
+    return sum;
+}
+
+double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+
+double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * length(cross(minus(b, a), minus(c, a))); }
+
+double polygon_area(const std::vector<Vec3>& points, std::span<const std::uint32_t> polygon) {
+    const std::size_t n = polygon.size();
+    if (n < 3) return 0;
+    if (n == 3) return triangle_area(points[polygon[0]], points[polygon[1]], points[polygon[2]]);
+    const auto lowest = static_cast<std::size_t>(std::min_element(polygon.begin(), polygon.end()) - polygon.begin());
+    const Vec3& apex = points[polygon[lowest]];
+    const auto normal = [&](std::size_t k) {
+        return cross(minus(points[polygon[(lowest + k) % n]], apex), minus(points[polygon[(lowest + k + 1) % n]], apex));
+    };
+    Vec3 total{};
+    for (std::size_t k = 1; k + 1 < n; ++k) {
+        const Vec3 part = normal(k);
+        for (std::size_t axis = 0; axis < 3; ++axis) total[axis] += part[axis];
+    }
+    double sum = 0;
+    for (std::size_t k = 1; k + 1 < n; ++k) {
+        const Vec3 part = normal(k);
+        sum += dot(part, total) < 0 ? -length(part) : length(part);
+    }
+    return 0.5 * std::abs(sum);
+}
+
+/// The corners of a surface-like cell, without the extra nodes of second-order types.
+std::span<const std::uint32_t> cell_corners(const CellMesh& mesh, std::size_t cell) {
+    const auto nodes = mesh.cell_nodes(cell);
+    const std::uint32_t corners = node_count(linear_type(mesh.types[cell]));
+    return corners == 0 || corners >= nodes.size() ? nodes : nodes.first(corners);
+}
+
+template <std::size_t N>
+std::array<Vec3, N> corner_points(const CellMesh& mesh, std::span<const std::uint32_t> nodes) {
+    std::array<Vec3, N> p;
+    for (std::size_t i = 0; i < N; ++i) p[i] = mesh.points[nodes[i]];
+    return p;
+}
+
+template <std::size_t N>
+double prism(const CellMesh& mesh, std::span<const std::uint32_t> nodes) {
+    const auto p = corner_points<N>(mesh, nodes);
+    return prism_volume(p, nodes.first(N));
+}
+
+struct Box {
+    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    Vec3 high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+    void add(const Vec3& p) {
+        if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], p[axis]);
+            high[axis] = std::max(high[axis], p[axis]);
+        }
+    }
+    void add(const Box& other) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], other.low[axis]);
+            high[axis] = std::max(high[axis], other.high[axis]);
+        }
+    }
+    std::optional<std::array<Vec3, 2>> result() const {
+        if (low[0] > high[0]) return std::nullopt;
+        return std::array<Vec3, 2>{low, high};
+    }
+};
+
+Box box_of(const std::vector<Vec3>& points) {
+    std::vector<Box> blocks((points.size() + block_size - 1) / block_size);
+    parallel_for_each_index(blocks.size(), [&](std::size_t block) {
+        const std::size_t last = std::min(points.size(), (block + 1) * block_size);
+        for (std::size_t i = block * block_size; i < last; ++i) blocks[block].add(points[i]);
+    });
+    Box all;
+    for (const Box& block : blocks) all.add(block);
+    return all;
+}
+
+Box lattice_box(const Raster& raster) {
+    Box box;
+    if (!raster.coordinates[0].empty()) {
+        Vec3 low, high;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto [least, most] = std::ranges::minmax_element(raster.coordinates[axis]);
+            low[axis] = *least;
+            high[axis] = *most;
+        }
+        box.add(low);
+        box.add(high);
+        return box;
+    }
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        box.add(sample_position(raster, (corner & 1) != 0 ? raster.dims[0] - 1 : 0, (corner & 2) != 0 ? raster.dims[1] - 1 : 0,
+                                (corner & 4) != 0 ? raster.dims[2] - 1 : 0));
+    }
+    return box;
+}
+
+/// The lattice of a horizon grid stretches from its lowest to its highest defined node, above the lattice's own z.
+std::optional<std::array<Vec3, 2>> horizon_bounds(const Raster& raster) {
+    const Attribute& height = raster.info.attributes[raster.height_attribute];
+    Box box = lattice_box(raster), heights;
+    const std::size_t count = value_count(height);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double h = value_as_double(height, i);
+        if (!is_no_data(height, h)) heights.add(Vec3{0, 0, h + raster.origin[2]});
+    }
+    if (!heights.result() || !box.result()) return std::nullopt;
+    box.low[2] = heights.low[2];
+    box.high[2] = heights.high[2];
+    return box.result();
+}
+
+std::optional<std::array<Vec3, 2>> bounds_of(const Raster& raster) {
+    if (raster.height_attribute < raster.info.attributes.size()) return horizon_bounds(raster);
+    return lattice_box(raster).result();
+}
+
+std::optional<std::array<Vec3, 2>> bounds_of(const StructuredGrid& grid) {
+    Box box = box_of(grid.points);
+    for (const StructuredGrid::Split& split : grid.splits) box.add(split.position);
+    return box.result();
+}
+
+std::optional<std::array<Vec3, 2>> bounds_of(const Well& well) {
+    if (!well.path.empty()) return box_of(well.path).result();
+    Box box;
+    box.add(well.head);
+    return box.result();
+}
+
+template <class Thing>
+std::optional<std::array<Vec3, 2>> bounds_of(const Thing& thing) {
+    return box_of(thing.points).result();
+}
+
+/// Corners of cells that do not stand at the lattice's own nodes (Gocad SPLIT), by cell.
+using SplitCorners = std::map<std::size_t, std::vector<std::pair<std::size_t, Vec3>>>;
+
+SplitCorners split_corners(const StructuredGrid& grid) {
+    // VTK corner of a cell by its offsets in i, j, k.
+    constexpr std::array<std::size_t, 8> corner_of = {0, 1, 3, 2, 4, 5, 7, 6};
+    SplitCorners corners;
+    const std::size_t ni = grid.dims[0] - 1, nj = grid.dims[1] - 1, nk = grid.dims[2] - 1;
+    for (const StructuredGrid::Split& split : grid.splits) {
+        for (std::size_t b = 0; b < 8; ++b) {
+            if ((split.cells >> b & 1) == 0) continue;
+            // Bit b stands for the cell that is this many steps before the node.
+            const std::size_t di = b & 1, dj = b >> 1 & 1, dk = b >> 2;
+            if (split.node[0] < di || split.node[1] < dj || split.node[2] < dk) continue;
+            const std::size_t i = split.node[0] - di, j = split.node[1] - dj, k = split.node[2] - dk;
+            if (i < ni && j < nj && k < nk) corners[(k * nj + j) * ni + i].emplace_back(corner_of[b], split.position);
+        }
+    }
+    return corners;
+}
+
+std::array<Vec3, 8> lattice_cell(const StructuredGrid& grid, std::size_t i, std::size_t j, std::size_t k) {
+    const std::size_t row = grid.dims[0], layer = row * grid.dims[1], at = k * layer + j * row + i;
+    const auto& p = grid.points;
+    return {p[at], p[at + 1], p[at + row + 1], p[at + row], p[at + layer], p[at + layer + 1], p[at + layer + row + 1], p[at + layer + row]};
+}
+
+}  // namespace
+
+double area(const Surface& surface) {
+    return ordered_sum(surface.polygons.size(), [&](std::size_t i) { return polygon_area(surface.points, surface.polygons[i]); });
+}
+
+double area(const CellMesh& mesh) {
+    return ordered_sum(mesh.cell_count(), [&](std::size_t i) {
+        return dimension(mesh.types[i]) == 2 ? polygon_area(mesh.points, cell_corners(mesh, i)) : 0.0;
+    });
+}
+
+double cell_volume(const CellMesh& mesh, std::size_t cell) {
+    const auto nodes = mesh.cell_nodes(cell);
+    const auto& p = mesh.points;
+    switch (linear_type(mesh.types[cell])) {
+        case CellType::tetrahedron:
+            return tetrahedron_volume(p[nodes[0]], p[nodes[1]], p[nodes[2]], p[nodes[3]]);
+        case CellType::hexahedron:
+            return hexahedron_volume(corner_points<8>(mesh, nodes));
+        case CellType::pyramid:
+            return pyramid_volume(corner_points<5>(mesh, nodes));
+        case CellType::wedge:
+            return -prism<6>(mesh, nodes);
+        case CellType::pentagonal_prism:
+            return prism<10>(mesh, nodes);
+        case CellType::hexagonal_prism:
+            return prism<12>(mesh, nodes);
+        case CellType::polyhedron:
+            return polyhedron_volume(mesh, cell);
+        default:
+            return 0;
+    }
+}
+
+double volume(const CellMesh& mesh) {
+    return ordered_sum(mesh.cell_count(), [&](std::size_t i) { return std::abs(cell_volume(mesh, i)); });
+}
+
+double volume(const StructuredGrid& grid) {
+    if (grid.dims[0] < 2 || grid.dims[1] < 2 || grid.dims[2] < 2) return 0;
+    const SplitCorners splits = split_corners(grid);
+    const std::size_t ni = grid.dims[0] - 1, nj = grid.dims[1] - 1;
+    return ordered_sum(lattice_cell_count(grid.dims), [&](std::size_t cell) {
+        if (!grid.dead_cells.empty() && grid.dead_cells[cell] != 0) return 0.0;
+        std::array<Vec3, 8> corners = lattice_cell(grid, cell % ni, cell / ni % nj, cell / ni / nj);
+        if (const auto moved = splits.find(cell); moved != splits.end()) {
+            for (const auto& [corner, position] : moved->second) corners[corner] = position;
+        }
+        return std::abs(hexahedron_volume(corners));
+    });
+}
+
+double volume(const Raster& raster) {
+    if (raster.dims[0] < 2 || raster.dims[1] < 2 || raster.dims[2] < 2) return 0;
+    if (!raster.coordinates[0].empty()) {
+        double product = 1;
+        for (const std::vector<double>& axis : raster.coordinates) product *= std::abs(axis.back() - axis.front());
+        return product;
+    }
+    const double cell = std::abs(flux6(raster.step[0], raster.step[1], raster.step[2]));
+    return cell * static_cast<double>(lattice_cell_count(raster.dims));
+}
+
+std::optional<std::array<Vec3, 2>> bounds(const Object& object) {
+    return std::visit([](const auto& thing) { return bounds_of(thing); }, object);
+}
+
+}  // namespace geomend
