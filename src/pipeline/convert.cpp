@@ -1,1 +1,114 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/convert.h"
+
+#include <algorithm>
+#include <new>
+
+#include "base/output.h"
+#include "formats/registry.h"
+#include "pipeline/merge.h"
+#include "pipeline/shape.h"
+
+namespace geomend {
+
+namespace {
+
+Result<const Format*> target_format(const ConvertRequest& request) {
+    if (request.to.empty()) {
+        if (request.output == "-")
+            return failure(FailureKind::usage, "F018", {}, "standard output has no extension: name the format with --to");
+        return format_for_writing(request.output);
+    }
+    const Format* named = format_by_name(request.to);
+    if (named == nullptr) return failure(FailureKind::usage, "F018", {}, "--to " + request.to + ": no such format (see 'geomend formats')");
+    if (named->name != request.to && request.output != "-") {
+        // A family name: the extension chooses among its formats.
+        if (auto by_extension = format_for_writing(request.output); by_extension && (*by_extension)->family == named->family)
+            return *by_extension;
+    }
+    if (named->write != nullptr) return named;
+    return failure(FailureKind::usage, "F018", {}, "--to " + request.to + ": this format can only be read");
+}
+
+Result<void> refuse_unterminated(const Dataset& dataset, const ConvertRequest& request) {
+    if (request.accept_unterminated) return {};
+    const auto found = std::ranges::find(dataset.findings, "F101", &Finding::code);
+    if (found == dataset.findings.end()) return {};
+    Failure why = unreadable("F101", found->where, found->message + "; --accept-unterminated takes it as it is");
+    return why;
+}
+
+Result<Dataset> load_all(const ConvertRequest& request) {
+    const bool ignore_crs = option_value(request.load.options, "crs") == "ignore";
+    Result<Dataset> all = load(request.inputs.front(), request.load);
+    if (!all) return all;
+    if (auto ended = refuse_unterminated(*all, request); !ended) return std::move(ended).why();
+    for (std::size_t i = 1; i < request.inputs.size(); ++i) {
+        Result<Dataset> more = load(request.inputs[i], request.load);
+        if (!more) return more;
+        if (auto ended = refuse_unterminated(*more, request); !ended) return std::move(ended).why();
+        if (!ignore_crs) {
+            if (auto agreed = check_agreement(*all, request.inputs.front(), *more, request.inputs[i]); !agreed)
+                return std::move(agreed).why();
+        }
+        merge(*all, std::move(*more));
+    }
+    return all;
+}
+
+Failure cannot_hold(const std::string& output, const Format& format, const std::vector<Loss>& losses) {
+    Failure why = failure(FailureKind::cannot_hold, "F021", {output},
+                          std::string(format.title) + " cannot hold all of this model: nothing was written (--lossy writes what fits)");
+    for (const Loss& loss : losses) {
+        if (loss.loss_class != LossClass::substance) continue;
+        Finding f;
+        f.code = "F021";
+        f.severity = Severity::error;
+        f.count = loss.count;
+        f.message = (loss.entity.empty() ? "" : loss.entity + ": ") + loss.what + (loss.why.empty() ? "" : " (" + loss.why + ")");
+        why.also.push_back(std::move(f));
+    }
+    return why;
+}
+
+bool loses_substance(const std::vector<Loss>& losses) {
+    return std::ranges::any_of(losses, [](const Loss& l) { return l.loss_class == LossClass::substance; });
+}
+
+Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "stopped; nothing was written"); }
+
+Result<ConvertReport> convert_unguarded(const ConvertRequest& request) {
+    const auto format = target_format(request);
+    if (!format) return format.why();
+    auto dataset = load_all(request);
+    if (!dataset) return std::move(dataset).why();
+    const Monitor* monitor = request.load.monitor;
+    if (monitor != nullptr && monitor->stopped()) return stopped();
+    shape_for(*dataset, **format);
+
+    ConvertReport report;
+    report.format = (*format)->name;
+    report.findings = std::move(dataset->findings);
+    report.losses = std::move(dataset->losses);
+    OutputSet output(request.output);
+    auto written = (*format)->write(*dataset, output, {request.load.options, monitor});
+    if (!written) return std::move(written).why();
+    for (Loss& loss : *written) add_loss(report.losses, std::move(loss));
+    std::ranges::stable_sort(report.losses, {}, &Loss::loss_class);
+    if (!request.lossy && loses_substance(report.losses)) return cannot_hold(request.output, **format, report.losses);
+    if (monitor != nullptr && monitor->stopped()) return stopped();
+    if (auto committed = output.commit(); !committed) return std::move(committed).why();
+    return report;
+}
+
+}  // namespace
+
+Result<ConvertReport> convert(const ConvertRequest& request) {
+    try {
+        return convert_unguarded(request);
+    } catch (const std::bad_alloc&) {
+        return failure(FailureKind::limit, "F023", {request.output}, "there is not enough memory for this conversion; nothing was written");
+    }
+}
+
+}  // namespace geomend

@@ -1,1 +1,198 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/info.h"
+
+#include <cmath>
+#include <new>
+
+#include "geometry/measures.h"
+#include "topology/brep_from_dataset.h"
+
+namespace geomend {
+
+namespace {
+
+void count_object(const PointSet& o, ObjectSummary& s) { s.counts["points"] = o.points.size(); }
+
+void count_object(const PolylineSet& o, ObjectSummary& s) {
+    s.counts["points"] = o.points.size();
+    s.counts["edges"] = o.edges.size();
+    if (o.parts.size() > 1) s.counts["parts"] = o.parts.size();
+}
+
+void count_polygon(std::size_t corners, ObjectSummary& s) {
+    ++s.counts["polygons"];
+    if (corners == 3) ++s.counts["triangles"];
+    if (corners == 4) ++s.counts["quads"];
+}
+
+void count_object(const Surface& o, ObjectSummary& s) {
+    s.counts["points"] = o.points.size();
+    s.counts["polygons"] = s.counts["triangles"] = 0;
+    if (o.polygons.all_triangles()) s.counts["polygons"] = s.counts["triangles"] = o.polygons.size();
+    else
+        for (std::size_t i = 0; i < o.polygons.size(); ++i) count_polygon(o.polygons[i].size(), s);
+    if (o.parts.size() > 1) s.counts["parts"] = o.parts.size();
+    s.area = area(o);
+}
+
+void count_object(const CellMesh& o, ObjectSummary& s) {
+    s.counts["points"] = o.points.size();
+    s.counts["elements"] = o.cell_count();
+    s.counts["cells"] = 0;
+    bool any_volume = false, any_area = false;
+    for (std::size_t i = 0; i < o.cell_count(); ++i) {
+        switch (dimension(o.types[i])) {
+            case 0:
+                ++s.counts["vertices"];
+                break;
+            case 1:
+                ++s.counts["edges"];
+                break;
+            case 2:
+                count_polygon(o.cell_nodes(i).size() == 3 || linear_type(o.types[i]) == CellType::triangle ? 3
+                              : linear_type(o.types[i]) == CellType::quad                                  ? 4
+                                                                                                           : o.cell_nodes(i).size(),
+                              s);
+                any_area = true;
+                break;
+            default:
+                ++s.counts["cells"];
+                ++s.cell_types[to_string(o.types[i])];
+                any_volume = true;
+        }
+    }
+    if (any_volume) s.volume = volume(o);
+    if (any_area) s.area = area(o);
+}
+
+void count_lattice(const std::array<std::uint32_t, 3>& dims, ObjectSummary& s) {
+    s.dims = dims;
+    s.counts["points"] = sample_count(dims);
+    const int directions = int(dims[0] > 1) + int(dims[1] > 1) + int(dims[2] > 1);
+    if (directions == 3) s.counts["cells"] = lattice_cell_count(dims);
+    if (directions == 2) s.counts["polygons"] = lattice_cell_count(dims);
+}
+
+void count_object(const StructuredGrid& o, ObjectSummary& s) {
+    count_lattice(o.dims, s);
+    if (!s.counts.contains("cells")) return;
+    std::uint64_t dead = 0;
+    for (const std::uint8_t d : o.dead_cells) dead += d != 0;
+    if (dead > 0) s.counts["active_cells"] = s.counts["cells"] - dead;
+    s.cell_types["hexahedron"] = s.counts["cells"];
+    s.volume = volume(o);
+}
+
+void count_object(const Raster& o, ObjectSummary& s) {
+    count_lattice(o.dims, s);
+    if (s.counts.contains("cells")) s.volume = volume(o);
+}
+
+void count_object(const Well& o, ObjectSummary& s) {
+    s.counts["points"] = o.path.size();
+    s.counts["edges"] = o.path.empty() ? 0 : o.path.size() - 1;
+    if (!o.markers.empty()) s.counts["markers"] = o.markers.size();
+    if (!o.zones.empty()) s.counts["zones"] = o.zones.size();
+    if (!o.curves.empty()) s.counts["curves"] = o.curves.size();
+}
+
+// VTK and MSH files store elevations whatever sign the model came with.
+ZPositive frame_of(const Dataset& dataset, const CoordinateSystem& crs) {
+    const bool always_up = dataset.format == "vtk" || dataset.format == "gmsh";
+    return always_up ? ZPositive::elevation : crs.z_positive;
+}
+
+void into_frame(std::array<Vec3, 2>& box, ZPositive frame) {
+    if (frame == ZPositive::elevation) return;
+    const double low = box[0][2], high = box[1][2];
+    box[0][2] = 0.0 - high;
+    box[1][2] = 0.0 - low;
+}
+
+ObjectSummary summarise_object(const Dataset& dataset, const Object& object) {
+    ObjectSummary s;
+    const ObjectInfo& info = info_of(object);
+    s.name = info.name;
+    s.kind = kind_name(object);
+    s.role = info.role_text.empty() ? (info.role == FeatureRole::unknown ? "" : to_string(info.role)) : info.role_text;
+    s.feature = info.feature;
+    s.groups = info.groups;
+    s.units = info.crs.axis_units;
+    s.z_positive = frame_of(dataset, info.crs);
+    std::visit([&](const auto& o) { count_object(o, s); }, object);
+    if (!axis_units_agree(info.crs)) s.area = s.volume = std::nullopt;
+    s.bounds = bounds(object);
+    if (s.bounds) into_frame(*s.bounds, s.z_positive);
+    for (const Attribute& a : info.attributes)
+        s.attributes.push_back({a.name, to_string(a.location), type_name(a.values), a.unit, a.components});
+    for (const NamedSet& set : info.sets) s.sets.push_back({set.name, to_string(set.location), set.members.size()});
+    return s;
+}
+
+BrepSummary summarise_brep(const BrepData& b) {
+    BrepSummary s;
+    s.name = b.name;
+    s.corners = b.corners.size();
+    s.lines = b.lines.size();
+    s.surfaces = b.surfaces.size();
+    s.regions = b.regions.size();
+    s.vertices = b.vertices.size();
+    for (const auto& surface : b.surfaces) {
+        s.polygons += surface.polygons.size();
+        for (std::size_t p = 0; p < surface.polygons.size(); ++p) s.triangles += surface.polygons[p].size() == 3;
+    }
+    for (const char* role : {"fault", "horizon", "boundary", "unknown"}) s.features[role] = 0;
+    for (const auto& i : b.interfaces) ++s.features[to_string(i.role)];
+    s.interfaces = b.interfaces.size();
+    s.contacts = b.contacts.size();
+    s.layers = b.layers.size();
+    s.fault_blocks = b.fault_blocks.size();
+    s.internal_lines_of_regions = b.internal_lines_of_regions;
+    s.internal_lines_of_surfaces = b.internal_lines_of_surfaces;
+    const bool measurable = axis_units_agree(b.crs);
+    for (const auto& region : b.regions) {
+        BrepSummary::RegionRow row{region.name, std::nullopt, region.cell_types.size()};
+        if (measurable && region.volume_known && std::isfinite(region.volume)) row.volume = std::abs(region.volume);
+        s.region_volumes.push_back(std::move(row));
+    }
+    if (measurable && !b.universe.empty() && std::isfinite(b.universe_volume)) s.universe_volume = std::abs(b.universe_volume);
+    return s;
+}
+
+}  // namespace
+
+FileSummary summarise(const std::string& path, const Dataset& dataset) {
+    FileSummary summary;
+    summary.file = path;
+    summary.format = dataset.format;
+    summary.variant = dataset.variant;
+    for (const Object& object : dataset.objects) summary.objects.push_back(summarise_object(dataset, object));
+    for (const Brep& brep : dataset.breps) summary.breps.push_back(summarise_brep(*brep));
+    const auto take = [&](const CoordinateSystem& crs) {
+        if (!summary.crs.stated && crs.stated) summary.crs = crs;
+    };
+    for (const StatedModel& model : dataset.models) take(model.crs);
+    for (const Object& object : dataset.objects) take(info_of(object).crs);
+    summary.findings = dataset.findings;
+    summary.losses = dataset.losses;
+    return summary;
+}
+
+FileSummary summarise(const std::string& path, const LoadOptions& options) {
+    FileSummary failed;
+    failed.file = path;
+    auto dataset = load(path, options);
+    if (!dataset) {
+        failed.error = std::move(dataset).why();
+        return failed;
+    }
+    try {
+        topology::build_breps(*dataset);
+        return summarise(path, *dataset);
+    } catch (const std::bad_alloc&) {
+        failed.error = failure(FailureKind::limit, "F023", {path}, "there is not enough memory for this model");
+        return failed;
+    }
+}
+
+}  // namespace geomend

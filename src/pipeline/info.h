@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/dataset.h"
+#include "pipeline/load.h"
+
+namespace geomend {
+
+/// What `geomend info` tells of one object.
+struct ObjectSummary {
+    std::string name, kind;
+    std::string role, feature;
+    std::vector<std::string> groups;
+    std::map<std::string, std::uint64_t> counts;       ///< "points", "edges", ...; only those that apply
+    std::map<std::string, std::uint64_t> cell_types;   ///< of three-dimensional cells; only those that occur
+    std::optional<std::array<std::uint32_t, 3>> dims;  ///< numbers of points
+    std::optional<std::array<Vec3, 2>> bounds;         ///< in the file's own frame
+    ZPositive z_positive = ZPositive::elevation;
+    std::array<std::string, 3> units;
+    std::optional<double> area, volume;
+    struct AttributeRow {
+        std::string name, location, type, unit;
+        std::uint32_t components = 1;
+    };
+    std::vector<AttributeRow> attributes;
+    struct SetRow {
+        std::string name, location;
+        std::uint64_t members = 0;
+    };
+    std::vector<SetRow> sets;
+};
+
+/// What it tells of one boundary representation.
+struct BrepSummary {
+    std::string name;
+    std::uint64_t corners = 0, lines = 0, surfaces = 0, regions = 0, vertices = 0, triangles = 0, polygons = 0;
+    std::map<std::string, std::uint64_t> features;  ///< interfaces by role
+    std::uint64_t interfaces = 0, contacts = 0, layers = 0, fault_blocks = 0;
+    std::uint64_t internal_lines_of_regions = 0, internal_lines_of_surfaces = 0;
+    struct RegionRow {
+        std::string name;
+        std::optional<double> volume;  ///< none where the region does not close or the axis units differ
+        std::uint64_t cells = 0;
+    };
+    std::vector<RegionRow> region_volumes;
+    std::optional<double> universe_volume;
+};
+
+/// What it tells of one file; `error` where it cannot be read.
+struct FileSummary {
+    std::string file, format, variant;
+    std::vector<ObjectSummary> objects;
+    std::vector<BrepSummary> breps;
+    CoordinateSystem crs;
+    std::vector<Finding> findings;
+    std::vector<Loss> losses;
+    std::optional<Failure> error;
+};
+
+/// Reads a file, builds its boundary representations at zero distance and measures them.
+FileSummary summarise(const std::string& path, const LoadOptions& options);
+
+/// The same of a Dataset whose breps have been built.
+FileSummary summarise(const std::string& path, const Dataset& dataset);
+
+/// The array of INTERFACE's `info --json`, one object per file, with a line feed at the end.
+std::string info_json(std::span<const FileSummary> files);
+/// One file for people to read.
+std::string info_text(const FileSummary& file, bool verbose);
+
+}  // namespace geomend

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/info.h"
+#include "pipeline/json_parts.h"
+
+namespace geomend {
+
+namespace {
+
+Json units_json(const std::array<std::string, 3>& units) { return Json::array({units[0], units[1], units[2]}); }
+
+const char* sign_name(ZPositive z) { return z == ZPositive::depth ? "depth" : "elevation"; }
+
+bool any_stated(const std::array<std::string, 3>& units) { return !units[0].empty() || !units[1].empty() || !units[2].empty(); }
+
+Json object_json(const ObjectSummary& o) {
+    Json j{{"name", o.name}, {"kind", o.kind}};
+    if (!o.role.empty()) j["role"] = o.role;
+    if (!o.feature.empty()) j["feature"] = o.feature;
+    if (!o.groups.empty()) j["groups"] = o.groups;
+    Json counts = Json::object();
+    for (const auto& [what, n] : o.counts) counts[what] = n;
+    if (!o.cell_types.empty()) {
+        Json types = Json::object();
+        for (const auto& [type, n] : o.cell_types) types[type] = n;
+        counts["cell_types"] = std::move(types);
+    }
+    j["counts"] = std::move(counts);
+    if (o.dims) j["dims"] = *o.dims;
+    if (o.bounds) j["bounds"] = Json::array({(*o.bounds)[0], (*o.bounds)[1]});
+    j["z_positive"] = sign_name(o.z_positive);
+    if (any_stated(o.units)) j["units"] = units_json(o.units);
+    if (o.area) j["area"] = *o.area;
+    if (o.volume) j["volume"] = *o.volume;
+    Json attributes = Json::array();
+    for (const auto& a : o.attributes) {
+        Json one{{"name", a.name}, {"location", a.location}, {"components", a.components}, {"type", a.type}};
+        if (!a.unit.empty()) one["unit"] = a.unit;
+        attributes.push_back(std::move(one));
+    }
+    j["attributes"] = std::move(attributes);
+    if (!o.sets.empty()) {
+        Json sets = Json::array();
+        for (const auto& s : o.sets) sets.push_back(Json{{"name", s.name}, {"location", s.location}, {"members", s.members}});
+        j["sets"] = std::move(sets);
+    }
+    return j;
+}
+
+Json brep_json(const BrepSummary& b, bool named) {
+    Json j = Json::object();
+    if (named) j["name"] = b.name;
+    j["corners"] = b.corners;
+    j["lines"] = b.lines;
+    j["surfaces"] = b.surfaces;
+    j["regions"] = b.regions;
+    j["vertices"] = b.vertices;
+    j["triangles"] = b.triangles;
+    if (b.polygons != b.triangles) j["polygons"] = b.polygons;
+    Json features = Json::object();
+    for (const auto& [role, n] : b.features) features[role] = n;
+    j["features"] = std::move(features);
+    j["interfaces"] = b.interfaces;
+    j["contacts"] = b.contacts;
+    j["layers"] = b.layers;
+    if (b.fault_blocks > 0) j["fault_blocks"] = b.fault_blocks;
+    j["internal_lines"] = Json{{"region", b.internal_lines_of_regions}, {"surface", b.internal_lines_of_surfaces}};
+    Json volumes = Json::array();
+    for (const auto& r : b.region_volumes) {
+        Json one{{"name", r.name}};
+        if (r.volume) one["volume"] = *r.volume;
+        if (r.cells > 0) one["cells"] = r.cells;
+        volumes.push_back(std::move(one));
+    }
+    j["region_volumes"] = std::move(volumes);
+    if (b.universe_volume) j["universe_volume"] = *b.universe_volume;
+    return j;
+}
+
+BrepSummary sum_of(const std::vector<BrepSummary>& all) {
+    BrepSummary sum;
+    for (const BrepSummary& b : all) {
+        sum.corners += b.corners;
+        sum.lines += b.lines;
+        sum.surfaces += b.surfaces;
+        sum.regions += b.regions;
+        sum.vertices += b.vertices;
+        sum.triangles += b.triangles;
+        sum.polygons += b.polygons;
+        for (const auto& [role, n] : b.features) sum.features[role] += n;
+        sum.interfaces += b.interfaces;
+        sum.contacts += b.contacts;
+        sum.layers += b.layers;
+        sum.fault_blocks += b.fault_blocks;
+        sum.internal_lines_of_regions += b.internal_lines_of_regions;
+        sum.internal_lines_of_surfaces += b.internal_lines_of_surfaces;
+        sum.region_volumes.insert(sum.region_volumes.end(), b.region_volumes.begin(), b.region_volumes.end());
+        if (b.universe_volume) sum.universe_volume = sum.universe_volume.value_or(0) + *b.universe_volume;
+    }
+    return sum;
+}
+
+Json crs_json(const CoordinateSystem& crs) {
+    Json j{{"name", crs.name}};
+    if (!crs.projection.empty()) j["projection"] = crs.projection;
+    if (!crs.datum.empty()) j["datum"] = crs.datum;
+    if (any_stated(crs.axis_names)) j["axis_names"] = units_json(crs.axis_names);
+    if (any_stated(crs.axis_units)) j["axis_units"] = units_json(crs.axis_units);
+    j["z_positive"] = sign_name(crs.z_positive);
+    return j;
+}
+
+Json file_json(const FileSummary& f) {
+    Json j{{"file", f.file}};
+    if (f.error) {
+        j["error"] = failure_json(*f.error);
+        return j;
+    }
+    j["format"] = f.format;
+    if (!f.variant.empty()) j["variant"] = f.variant;
+    Json objects = Json::array();
+    for (const ObjectSummary& o : f.objects) objects.push_back(object_json(o));
+    j["objects"] = std::move(objects);
+    if (!f.breps.empty()) j["brep"] = brep_json(sum_of(f.breps), false);
+    if (f.breps.size() > 1) {
+        Json each = Json::array();
+        for (const BrepSummary& b : f.breps) each.push_back(brep_json(b, true));
+        j["breps"] = std::move(each);
+    }
+    if (f.crs.stated) j["crs"] = crs_json(f.crs);
+    Json findings = Json::array();
+    for (const Finding& finding : f.findings) findings.push_back(finding_json(finding));
+    if (!findings.empty()) j["findings"] = std::move(findings);
+    j["loss"] = losses_json(f.losses);
+    return j;
+}
+
+}  // namespace
+
+std::string info_json(std::span<const FileSummary> files) {
+    Json all = Json::array();
+    for (const FileSummary& f : files) all.push_back(file_json(f));
+    return json_text(all);
+}
+
+}  // namespace geomend

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+
+#include "base/number_text.h"
+#include "pipeline/info.h"
+
+namespace geomend {
+
+namespace {
+
+std::string counted(std::uint64_t n, const std::string& what) { return std::to_string(n) + ' ' + what; }
+
+// Six digits are enough for people; --json has them all.
+std::string short_number(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.6g", value);
+    return buffer;
+}
+
+std::string joined(const std::vector<std::string>& parts, const char* between) {
+    std::string text;
+    for (const std::string& part : parts) {
+        if (!text.empty()) text += between;
+        text += part;
+    }
+    return text;
+}
+
+std::string unit_suffix(const std::array<std::string, 3>& units, const char* power) {
+    if (units[0].empty() || units[0] != units[1] || units[1] != units[2]) return {};
+    return ' ' + units[0] + power;
+}
+
+std::string counts_line(const ObjectSummary& o) {
+    std::vector<std::string> parts;
+    if (o.dims) {
+        const auto& d = *o.dims;
+        parts.push_back(std::to_string(d[0]) + " x " + std::to_string(d[1]) + " x " + std::to_string(d[2]));
+    }
+    for (const auto& [what, n] : o.counts) {
+        if (what == "polygons" && o.counts.contains("triangles") && o.counts.at("triangles") == n) continue;
+        if (what == "elements" && o.counts.contains("cells") && o.counts.at("cells") == n) continue;
+        parts.push_back(counted(n, what));
+    }
+    std::string text = joined(parts, ", ");
+    std::vector<std::string> types;
+    for (const auto& [type, n] : o.cell_types) types.push_back(counted(n, type));
+    if (!types.empty()) text += " (" + joined(types, ", ") + ')';
+    return text;
+}
+
+std::string object_text(const ObjectSummary& o, bool verbose) {
+    std::string text = "  " + o.kind + " '" + o.name + "'";
+    if (!o.role.empty()) text += ", " + o.role;
+    if (!o.feature.empty() && o.feature != o.name) text += " of '" + o.feature + "'";
+    if (!o.groups.empty()) text += ", in " + joined(o.groups, "/");
+    text += ": " + counts_line(o) + '\n';
+    if (o.area) text += "    area " + short_number(*o.area) + unit_suffix(o.units, "2") + '\n';
+    if (o.volume) text += "    volume " + short_number(*o.volume) + unit_suffix(o.units, "3") + '\n';
+    if (o.bounds) {
+        const char* axes[] = {"x", "y", o.z_positive == ZPositive::depth ? "z (depth)" : "z"};
+        text += "    bounds";
+        for (std::size_t a = 0; a < 3; ++a) {
+            text += std::string(" ") + axes[a] + ' ' + number_text((*o.bounds)[0][a]) + " .. " + number_text((*o.bounds)[1][a]);
+            if (!o.units[a].empty()) text += ' ' + o.units[a];
+            if (a < 2) text += ',';
+        }
+        text += '\n';
+    }
+    std::vector<std::string> names;
+    for (const auto& a : o.attributes) {
+        std::string name = a.name;
+        if (!a.unit.empty()) name += " [" + a.unit + ']';
+        if (a.components > 1) name += " x" + std::to_string(a.components);
+        if (verbose) name += " (" + a.location + ", " + a.type + ')';
+        names.push_back(std::move(name));
+    }
+    if (!names.empty()) text += "    attributes " + joined(names, ", ") + '\n';
+    names.clear();
+    for (const auto& s : o.sets) names.push_back(s.name + " (" + counted(s.members, s.location) + "s)");
+    if (!names.empty()) text += "    sets " + joined(names, ", ") + '\n';
+    return text;
+}
+
+std::string brep_text(const BrepSummary& b) {
+    std::string text = "  boundary representation";
+    if (!b.name.empty()) text += " '" + b.name + "'";
+    text += ": " + counted(b.corners, "corners") + ", " + counted(b.lines, "lines") + ", " + counted(b.surfaces, "surfaces") + ", " +
+            counted(b.regions, "regions") + " (" + counted(b.vertices, "vertices") + ", " + counted(b.triangles, "triangles") + ")\n";
+    std::vector<std::string> parts;
+    for (const auto& [role, n] : b.features) {
+        if (n > 0) parts.push_back(counted(n, role));
+    }
+    text += "    " + counted(b.interfaces, "interfaces");
+    if (!parts.empty()) text += " (" + joined(parts, ", ") + ')';
+    text += ", " + counted(b.contacts, "contacts") + ", " + counted(b.layers, "layers") + '\n';
+    for (const auto& r : b.region_volumes) {
+        text += "    region '" + r.name + "': ";
+        text += r.volume ? "volume " + short_number(*r.volume) : std::string("volume not known");
+        if (r.cells > 0) text += ", " + counted(r.cells, "cells");
+        text += '\n';
+    }
+    if (b.universe_volume) text += "    all together: volume " + short_number(*b.universe_volume) + '\n';
+    return text;
+}
+
+}  // namespace
+
+std::string info_text(const FileSummary& f, bool verbose) {
+    std::string text = f.file + ": " + f.format;
+    if (!f.variant.empty()) text += ", " + f.variant;
+    text += ", " + counted(f.objects.size(), f.objects.size() == 1 ? "object" : "objects") + '\n';
+    if (f.crs.stated) {
+        text += "  coordinate system '" + f.crs.name + "'";
+        if (!f.crs.projection.empty()) text += ", projection " + f.crs.projection;
+        if (!f.crs.datum.empty()) text += ", datum " + f.crs.datum;
+        text += f.crs.z_positive == ZPositive::depth ? ", z is depth\n" : ", z is elevation\n";
+    }
+    for (const BrepSummary& b : f.breps) text += brep_text(b);
+    constexpr std::size_t shown = 40;
+    for (std::size_t i = 0; i < f.objects.size() && (verbose || i < shown); ++i) text += object_text(f.objects[i], verbose);
+    if (!verbose && f.objects.size() > shown)
+        text += "  ... and " + std::to_string(f.objects.size() - shown) + " more objects (--verbose lists all)\n";
+    return text;
+}
+
+}  // namespace geomend

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "base/monitor.h"
+#include "formats/format.h"
+#include "model/dataset.h"
+
+namespace geomend {
+
+/// What the user says of the inputs.
+struct LoadOptions {
+    std::string from;  ///< format or family name; empty: by content, then by extension
+    FormatOptions options;
+    const Monitor* monitor = nullptr;
+};
+
+/// Reads one file ("-" is standard input) with the format that fits it. No topology is built.
+Result<Dataset> load(const std::string& path, const LoadOptions& options);
+
+}  // namespace geomend

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/shape.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "topology/brep_from_dataset.h"
+#include "topology/model_from_brep.h"
+
+namespace geomend {
+
+namespace {
+
+bool has_entities(const CellMesh& mesh) { return !mesh.entities.empty() && !mesh.cell_entity.empty(); }
+
+bool is_meshed(const Object& object) {
+    const auto* mesh = std::get_if<CellMesh>(&object);
+    return mesh != nullptr && has_entities(*mesh);
+}
+
+bool states_a_model(const Dataset& dataset) { return !dataset.models.empty() || std::ranges::any_of(dataset.objects, is_meshed); }
+
+// True when every model stands on surfaces, as in Model3d.
+bool is_faced(const Dataset& dataset) {
+    if (dataset.models.empty()) return false;
+    for (const StatedModel& model : dataset.models) {
+        for (const StatedModel::Face& face : model.faces) {
+            if (face.object >= dataset.objects.size() || !std::holds_alternative<Surface>(dataset.objects[face.object])) return false;
+        }
+    }
+    return true;
+}
+
+// True when there is just one mesh with entities, whose points need no welding, and nothing else.
+bool is_tagged_mesh(const Dataset& dataset, const Format& target) {
+    if (dataset.objects.size() != 1 || !is_meshed(dataset.objects.front())) return false;
+    const auto& mesh = std::get<CellMesh>(dataset.objects.front());
+    return dataset.format == target.family || mesh.alias.empty();
+}
+
+// The objects that no brep was built from stay beside the models.
+std::vector<Object> objects_outside(Dataset& dataset) {
+    std::vector<bool> used(dataset.objects.size(), false);
+    for (const Brep& brep : dataset.breps) {
+        for (const auto& surface : brep->surfaces) {
+            if (surface.source_object < used.size()) used[surface.source_object] = true;
+        }
+    }
+    std::vector<Object> outside;
+    for (std::size_t i = 0; i < dataset.objects.size(); ++i) {
+        if (!used[i]) outside.push_back(std::move(dataset.objects[i]));
+    }
+    return outside;
+}
+
+void to_faced_models(Dataset& dataset) {
+    topology::build_breps(dataset);
+    if (dataset.breps.empty()) return;
+    std::vector<Object> outside = objects_outside(dataset);
+    std::vector<Brep> breps = std::move(dataset.breps);
+    dataset.objects.clear();
+    dataset.models.clear();
+    dataset.breps.clear();
+    for (const Brep& brep : breps) {
+        Dataset model = topology::faced_model(brep, dataset.losses);
+        const auto shift = static_cast<std::uint32_t>(dataset.objects.size());
+        for (StatedModel& stated : model.models) {
+            for (StatedModel::Face& face : stated.faces) face.object += shift;
+            dataset.models.push_back(std::move(stated));
+        }
+        std::ranges::move(model.objects, std::back_inserter(dataset.objects));
+    }
+    std::ranges::move(outside, std::back_inserter(dataset.objects));
+}
+
+void to_tagged_meshes(Dataset& dataset) {
+    topology::build_breps(dataset);
+    if (dataset.breps.empty()) return;
+    std::vector<Object> outside = objects_outside(dataset);
+    std::vector<Brep> breps = std::move(dataset.breps);
+    dataset.objects.clear();
+    dataset.models.clear();
+    dataset.breps.clear();
+    for (const Brep& brep : breps) dataset.objects.emplace_back(topology::tagged_mesh(brep, dataset.losses));
+    std::ranges::move(outside, std::back_inserter(dataset.objects));
+}
+
+}  // namespace
+
+void shape_for(Dataset& dataset, const Format& target) {
+    if (!states_a_model(dataset)) return;
+    switch (target.wants) {
+        case WriterWants::objects:
+            break;
+        case WriterWants::brep:
+            topology::build_breps(dataset);
+            break;
+        case WriterWants::faced_model:
+            if (!is_faced(dataset)) to_faced_models(dataset);
+            break;
+        case WriterWants::tagged_mesh:
+            if (!is_tagged_mesh(dataset, target)) to_tagged_meshes(dataset);
+            break;
+    }
+}
+
+}  // namespace geomend

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include "base/result.h"
+#include "formats/format.h"
+#include "model/dataset.h"
+
+namespace geomend {
+
+/// Brings a Dataset into the shape that a writer wants (Format::wants) where that is exact: builds boundary
+/// representations, turns tagged meshes into faced models and the other way round. A Dataset that already has the
+/// shape, or that states no model, stays as it is. Losses of the change are added to dataset.losses.
+void shape_for(Dataset& dataset, const Format& target);
+
+}  // namespace geomend
