@@ -51,11 +51,12 @@ void on_signal(int signal) {
 }
 
 void watch_crashes() {
+    for (const int signal : {SIGABRT, SIGTERM}) std::signal(signal, &on_signal);
     if (__sanitizer_set_death_callback != nullptr) {
         __sanitizer_set_death_callback(&tell_what_was_tried);
         return;
     }
-    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM}) std::signal(signal, &on_signal);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) std::signal(signal, &on_signal);
     // The seeds are small: whoever asks for gigabytes believes a count that no bytes stand behind.
     const rlimit limit{std::uint64_t{3} << 30, std::uint64_t{3} << 30};
     if (::setrlimit(RLIMIT_AS, &limit) != 0) std::perror("setrlimit");
