@@ -64,14 +64,15 @@ build_jobs() {
     echo $((processors < memory ? processors : memory))
 }
 
-# configure_and_build PRESET [TARGET]
+# configure_and_build PRESET [TARGET...]: all targets where none is named.
 configure_and_build() {
-    local log=build/configure-$1.log
+    local preset=$1 log=build/configure-$1.log
+    shift
     mkdir -p build
-    cmake --preset "$1" >"$log" 2>&1 || {
+    cmake --preset "$preset" >"$log" 2>&1 || {
         cat "$log" >&2
-        fail "cmake could not configure the preset $1"
+        fail "cmake could not configure the preset $preset"
     }
-    say "Building in build/$1"
-    cmake --build "build/$1" --parallel "$(build_jobs)" ${2:+--target "$2"}
+    say "Building in build/$preset"
+    cmake --build "build/$preset" --parallel "$(build_jobs)" ${1+--target "$@"}
 }
