@@ -1,2 +1,47 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-int main() { return 0; }
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
+namespace {
+
+using geomend::cli::ExitStatus;
+
+ExitStatus run(int argc, char** argv) {
+    CLI::App program("Converts and inspects geological models: Gocad, VTK, Gmsh, horizon grids", "geomend");
+    program.set_version_flag("--version", "geomend " GEOMEND_VERSION);
+    program.require_subcommand(1);
+    program.footer(
+        "Exit status: 0 done, 2 wrong command line, 3 an input cannot be read, 4 the output cannot be written or hold the model,\n"
+        "5 a limit was hit, 70 internal fault. See geomend(1).");
+    ExitStatus status = ExitStatus::done;
+    geomend::cli::add_info(program, status);
+    geomend::cli::add_convert(program, status);
+    geomend::cli::add_formats(program, status);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        // Help and version come this way, too, with success.
+        return program.exit(e) == 0 ? ExitStatus::done : ExitStatus::usage;
+    }
+    return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    geomend::cli::stop_on_signals();
+    try {
+        return static_cast<int>(run(argc, argv));
+    } catch (const std::bad_alloc&) {
+        std::fputs("geomend: out of memory\n", stderr);
+        return static_cast<int>(ExitStatus::limit);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "geomend: internal fault: %s\nPlease report it with the command line and the file.\n", e.what());
+        return static_cast<int>(ExitStatus::internal);
+    }
+}

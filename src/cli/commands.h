@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/exit_status.h"
+
+namespace geomend::cli {
+
+/// Each adds one command to the program; `status` gets the result when the command was the one given.
+void add_info(CLI::App& program, ExitStatus& status);
+void add_convert(CLI::App& program, ExitStatus& status);
+void add_formats(CLI::App& program, ExitStatus& status);
+
+}  // namespace geomend::cli

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "cli/common_options.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+
+#include "base/codes.h"
+
+namespace geomend::cli {
+
+namespace {
+
+// Signal handlers can reach nothing but globals.
+std::atomic<bool> stop_requested{false};
+
+extern "C" void on_signal(int signal) {
+    if (stop_requested.exchange(true)) ::_exit(128 + signal);
+}
+
+std::mutex progress_mutex;
+bool progress_shown = false;
+
+void show_progress(std::string_view what, double done) {
+    const std::lock_guard lock(progress_mutex);
+    std::fprintf(stderr, "\r\033[K%3.0f%% %.*s", 100 * done, static_cast<int>(what.size()), what.data());
+    progress_shown = true;
+}
+
+const char* severity_word(Severity severity) {
+    constexpr std::array words{"note", "warning", "error"};
+    return words[static_cast<std::size_t>(severity)];
+}
+
+void print_finding(const Finding& f) {
+    const std::string where = to_string(f.where);
+    std::fprintf(stderr, "%s%s%s: %s [%s]\n", where.c_str(), where.empty() ? "" : ": ", severity_word(f.severity), f.message.c_str(),
+                 f.code.c_str());
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, CommonOptions& o, bool writes) {
+    command.add_option("--from", o.from, "Input format (else by content, then by extension)")->type_name("FORMAT");
+    if (writes) command.add_option("--to", o.to, "Output format (else by extension)")->type_name("FORMAT");
+    command.add_flag("--json", o.json, "Machine-readable result on standard output");
+    command.add_flag("--quiet", o.quiet, "Nothing on standard error but errors");
+    command.add_flag("--verbose", o.verbose, "Also what is merely worth knowing");
+    command.add_flag("--accept-unterminated", o.accept_unterminated, "Take a last object that has no END");
+    command.add_option("--threads", o.threads, "Number of threads for the whole run (default: all processors)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
+    command.add_option("--progress", o.progress, "Progress on standard error (default auto: on a terminal)")
+        ->type_name("auto|always|never")
+        ->check(CLI::IsMember({"auto", "always", "never"}));
+    command.add_option("--tolerance", o.tolerance, "Welding length for checks and repairs; reading and converting never weld by it")
+        ->type_name("L")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--near", o.near, "Search length for near misses in checks; not used by reading and converting")
+        ->type_name("L")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--option", o.options, "Format option, may be repeated")->type_name("KEY=VALUE")->allow_extra_args(false);
+}
+
+Result<FormatOptions> format_options(const std::vector<std::string>& texts) {
+    FormatOptions all;
+    for (const std::string& text : texts) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            return failure(FailureKind::usage, "F018", {}, "--option " + text + ": expected KEY=VALUE");
+        }
+        all.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    return all;
+}
+
+Monitor make_monitor(const CommonOptions& options) {
+    Monitor monitor;
+    monitor.stop = &stop_requested;
+    const bool show = !options.quiet && (options.progress == "always" || (options.progress == "auto" && ::isatty(STDERR_FILENO) == 1));
+    if (show) monitor.on_progress = show_progress;
+    return monitor;
+}
+
+void end_progress() {
+    const std::lock_guard lock(progress_mutex);
+    if (progress_shown) std::fputs("\r\033[K", stderr);
+    progress_shown = false;
+}
+
+void stop_on_signals() {
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    ::sigaction(SIGINT, &action, nullptr);
+    ::sigaction(SIGTERM, &action, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of the write
+}
+
+ExitStatus report(const Failure& f) {
+    end_progress();
+    std::string where = to_string(f.error.where);
+    if (!where.empty()) where += ": ";
+    const CodeInfo* row = find_code(f.error.code);
+    std::fprintf(stderr, "geomend: %s%s [%s]\n", where.c_str(), f.error.message.c_str(), f.error.code.c_str());
+    constexpr std::size_t shown = 20;
+    for (std::size_t i = 0; i < f.also.size() && i < shown; ++i) print_finding(f.also[i]);
+    if (f.also.size() > shown) std::fprintf(stderr, "  ... and %zu more\n", f.also.size() - shown);
+    if (row != nullptr && !row->fix.empty() && f.error.severity == Severity::error) {
+        std::fprintf(stderr, "  what to do: %.*s\n", static_cast<int>(row->fix.size()), row->fix.data());
+    }
+    return exit_status(f.kind);
+}
+
+void report(const std::vector<Finding>& findings, bool verbose) {
+    end_progress();
+    for (const Finding& f : findings) {
+        if (verbose || f.severity != Severity::info) print_finding(f);
+    }
+}
+
+ExitStatus print(const std::string& text) {
+    end_progress();
+    const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (whole) return ExitStatus::done;
+    return report(failure(FailureKind::unwritable, "F020", {"standard output"}, "cannot write"));
+}
+
+}  // namespace geomend::cli

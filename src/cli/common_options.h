@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/monitor.h"
+#include "base/parallel.h"
+#include "cli/exit_status.h"
+#include "pipeline/load.h"
+
+namespace geomend::cli {
+
+enum class ProgressMode : std::uint8_t { automatic, always, never };
+
+/// The options that every command takes.
+struct CommonOptions {
+    std::string from, to;
+    bool json = false, quiet = false, verbose = false, accept_unterminated = false;
+    std::size_t threads = 0;
+    std::string progress = "auto";
+    double tolerance = -1, near = -1;  ///< negative: by rule
+    std::vector<std::string> options;  ///< KEY=VALUE
+};
+
+/// Adds them to a command; `writes` adds --to.
+void add_common_options(CLI::App& command, CommonOptions& options, bool writes);
+
+/// KEY=VALUE texts as pairs; failure (usage) where one has no '='.
+Result<FormatOptions> format_options(const std::vector<std::string>& texts);
+
+/// A monitor that shows progress on standard error as asked for, and stops on SIGINT and SIGTERM.
+Monitor make_monitor(const CommonOptions& options);
+/// Clears the progress line, so that other output starts on a clean one.
+void end_progress();
+/// Installs the handlers of SIGINT and SIGTERM; a second signal ends the process at once.
+void stop_on_signals();
+
+/// Prints a failure (with what else was found) on standard error and gives its exit status.
+ExitStatus report(const Failure& failure);
+/// Prints findings on standard error: warnings and errors, with `verbose` also information.
+void report(const std::vector<Finding>& findings, bool verbose);
+/// Writes text to standard output; a failure (full disk, closed pipe) is told by the status.
+ExitStatus print(const std::string& text);
+
+}  // namespace geomend::cli

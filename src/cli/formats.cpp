@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "formats/registry.h"
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "pipeline/json_parts.h"
+
+namespace geomend::cli {
+
+namespace {
+
+struct KeepsColumn {
+    const char* name;
+    Keeping Keeps::*member;
+};
+
+constexpr KeepsColumn columns[] = {
+    {"points", &Keeps::points},
+    {"polylines", &Keeps::polylines},
+    {"surfaces", &Keeps::surfaces},
+    {"polygons", &Keeps::polygons},
+    {"cells", &Keeps::cells},
+    {"polyhedra", &Keeps::polyhedra},
+    {"structured_grids", &Keeps::structured_grids},
+    {"rasters", &Keeps::rasters},
+    {"wells", &Keeps::wells},
+    {"brep", &Keeps::brep},
+    {"several_objects", &Keeps::several_objects},
+    {"names", &Keeps::names},
+    {"roles", &Keeps::roles},
+    {"attributes", &Keeps::attributes},
+    {"units", &Keeps::units},
+    {"no_data", &Keeps::no_data},
+    {"crs", &Keeps::crs},
+    {"exact_coordinates", &Keeps::exact_coordinates},
+};
+
+const char* word(Keeping k) {
+    constexpr const char* words[] = {"no", "partly", "yes"};
+    return words[static_cast<std::size_t>(k)];
+}
+
+std::string table_json() {
+    Json all = Json::array();
+    for (const Format& f : all_formats()) {
+        Json j{{"name", f.name},
+               {"family", f.family},
+               {"title", f.title},
+               {"extensions", f.extensions},
+               {"read", f.read != nullptr},
+               {"write", f.write != nullptr}};
+        Json keeps = Json::object();
+        for (const KeepsColumn& c : columns) keeps[c.name] = word(f.keeps.*c.member);
+        j["keeps"] = std::move(keeps);
+        j["loss"] = f.lossy_note;
+        j["tried_on"] = f.tried_on;
+        all.push_back(std::move(j));
+    }
+    return json_text(all);
+}
+
+void append_list(std::string& text, const Format& f, Keeping wanted, const char* label) {
+    std::string list;
+    for (const KeepsColumn& c : columns) {
+        if (f.keeps.*c.member != wanted) continue;
+        if (!list.empty()) list += ", ";
+        list += c.name;
+    }
+    if (!list.empty()) text += std::string("    ") + label + ": " + list + '\n';
+}
+
+std::string table_text() {
+    std::string text;
+    for (const Format& f : all_formats()) {
+        std::string extensions;
+        for (const auto e : f.extensions) extensions += (extensions.empty() ? "" : " ") + std::string(e);
+        text += std::string(f.name) + " (" + extensions + "): " + std::string(f.title) + "; ";
+        text += f.read != nullptr && f.write != nullptr ? "read and written\n" : f.read != nullptr ? "read\n" : "written\n";
+        append_list(text, f, Keeping::yes, "keeps");
+        append_list(text, f, Keeping::partly, "keeps partly");
+        if (!f.lossy_note.empty()) text += "    loses: " + std::string(f.lossy_note) + '\n';
+        if (!f.tried_on.empty()) text += "    tried on: " + std::string(f.tried_on) + '\n';
+    }
+    return text;
+}
+
+}  // namespace
+
+void add_formats(CLI::App& program, ExitStatus& status) {
+    auto* command = program.add_subcommand("formats", "Table of formats and of what each keeps");
+    auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "Machine-readable table");
+    command->callback([json, &status] { status = print(*json ? table_json() : table_text()); });
+}
+
+}  // namespace geomend::cli
