@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "formats/gocad/node_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "formats/gocad/number_scan.h"
+#include "formats/gocad/region_indicators.h"
+
+namespace geomend::gocad {
+
+namespace {
+
+constexpr std::uint64_t most_nodes = no_index - 1;
+
+// CNXYZ, CNXY, CNZ, ... after the values; bare XYZ in solids.
+bool is_control_flag(std::string_view token) {
+    if (token.starts_with("CN") || token.starts_with("cn")) token.remove_prefix(2);
+    return !token.empty() && token.size() <= 3 && token.find_first_not_of("XYZxyz") == std::string_view::npos;
+}
+
+}  // namespace
+
+void NodeTable::begin() {
+    begun_ = true;
+    head_.geometry_begun = true;
+    const ObjectFrame& frame = scanner_.frame;
+    const std::uint64_t expected = frame.node_lines;
+    points.reserve(expected);
+    ids_.expect(expected);
+    attributes_ = head_.properties.make_attributes(AttributeLocation::point, expected, frame.body.size(), scanner_.log);
+    for (const Attribute& a : attributes_) {
+        columns_.emplace_back();
+        columns_.back().reserve(expected * a.components);
+        fill_.insert(fill_.end(), a.components, a.no_data.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    scratch_.resize(fill_.size());
+}
+
+void NodeTable::add_id(std::int64_t id, std::uint64_t line) {
+    if (!ids_.add(id)) {
+        scanner_.log.add(
+            "F009", line, 0, [&] { return "node " + std::to_string(id) + " is defined twice"; }, {}, id);
+    }
+}
+
+const char* NodeTable::scan_vertex(const char* p, const char* end, bool with_values, std::uint64_t line) {
+    if (!begun_) begin();
+    if (with_values != !columns_.empty()) return nullptr;
+    std::int64_t id = 0;
+    Vec3 at;
+    if (!scan_id(p, end, id) || !scan_real(p, end, at[0]) || !scan_real(p, end, at[1]) || !scan_real(p, end, at[2])) return nullptr;
+    if (!std::isfinite(at[0]) || !std::isfinite(at[1]) || !std::isfinite(at[2])) return nullptr;
+    for (double& value : scratch_) {
+        if (!scan_real(p, end, value) || !std::isfinite(value)) return nullptr;
+    }
+    p = scan_line_end(p, end);
+    if (p == nullptr || points.size() >= most_nodes) return nullptr;
+    add_id(id, line);
+    points.push_back(at);
+    if (with_values) push_values(scratch_.size());
+    return p;
+}
+
+const char* NodeTable::scan_atom(const char* p, const char* end, std::uint64_t line) {
+    if (!begun_) begin();
+    std::int64_t id = 0, reference = 0;
+    if (!scan_id(p, end, id) || !scan_id(p, end, reference)) return nullptr;
+    p = scan_line_end(p, end);
+    if (p == nullptr || points.size() >= most_nodes) return nullptr;
+    add_id(id, line);
+    atoms_.push_back({size(), false, reference, line});
+    points.push_back({});
+    push_values(0);
+    return p;
+}
+
+// The first `given` values of scratch_ stand; the rest is missing.
+void NodeTable::push_values(std::size_t given) {
+    std::size_t k = 0;
+    for (std::size_t a = 0; a != columns_.size(); ++a) {
+        for (std::uint32_t c = 0; c != attributes_[a].components; ++c, ++k) columns_[a].push_back(k < given ? scratch_[k] : fill_[k]);
+    }
+}
+
+bool NodeTable::take(std::string_view keyword, TextCursor& line) {
+    const auto is = [&](std::string_view word) { return same_word(keyword, word); };
+    if (is("VRTX")) read_vertex(line, false);
+    else if (is("PVRTX")) read_vertex(line, true);
+    else if (is("ATOM") || is("SHAREDVRTX")) read_atom(line, false);
+    else if (is("PATOM") || is("SHAREDPVRTX")) read_atom(line, true);
+    else return false;
+    return true;
+}
+
+bool NodeTable::read_id(TextCursor& line, std::int64_t& id, std::string_view what) {
+    line.at_line_end();
+    const std::uint32_t column = line.column();
+    const NumberStatus status = line.integer(id);
+    if (status == NumberStatus::ok && id <= largest_id && id >= -largest_id) return true;
+    scanner_.log.add("F005", line.line(), column, [&] {
+        return "expected " + std::string(what) + " (a whole number), found '" + std::string(trimmed(line.line_text())) + "'";
+    });
+    return false;
+}
+
+void NodeTable::add_flag(std::string_view flag) {
+    const auto known = std::ranges::find(flags_, flag, &FlagSet::flag);
+    if (known != flags_.end()) known->nodes.push_back(size());
+    else flags_.push_back({std::string(flag), {size()}});
+}
+
+// Values and control flags, in either order. On return scratch_ is filled and pushed.
+void NodeTable::read_tail(TextCursor& line, bool with_values) {
+    ObjectLog& log = scanner_.log;
+    std::size_t given = 0, extra = 0;
+    for (;;) {
+        line.at_line_end();
+        const std::uint32_t column = line.column();
+        const std::string_view token = line.token();
+        if (token.empty()) break;
+        if (is_control_flag(token)) {
+            add_flag(token);
+            continue;
+        }
+        double value = 0;
+        const NumberStatus status = parse_real(token, value);
+        if (status != NumberStatus::ok) {
+            log.add(
+                "F005", line.line(), column, [&] { return "expected a property value, found '" + std::string(token) + "'"; }, "value");
+            break;
+        }
+        if (given == scratch_.size()) {
+            ++extra;
+            continue;
+        }
+        if (!std::isfinite(value)) {
+            log.add("F120", line.line(), column, [&] { return "'" + std::string(token) + "' stands as a property value"; });
+        }
+        scratch_[given++] = value;
+    }
+    if (extra != 0) log.add("F107", line.line(), 0, "a node line has more values than PROPERTIES declares");
+    if (!with_values && given != 0) log.add("F118", line.line(), 0, "a VRTX line has property values: expected PVRTX");
+    if (given < scratch_.size()) {
+        log.add("F105", line.line(), 0, [&] {
+            return "expected " + std::to_string(scratch_.size()) + " property values, found " + std::to_string(given) +
+                   ": the rest is no-data";
+        });
+    }
+    push_values(given);
+}
+
+void NodeTable::read_vertex(TextCursor& line, bool with_values) {
+    if (!begun_) begin();
+    ObjectLog& log = scanner_.log;
+    std::int64_t id = 0;
+    if (!read_id(line, id, "a node id")) return;
+    Vec3 at{};
+    for (double& coordinate : at) {
+        line.at_line_end();
+        const std::uint32_t column = line.column();
+        const NumberStatus status = line.real(coordinate);
+        if (status == NumberStatus::ok && std::isfinite(coordinate)) continue;
+        if (status == NumberStatus::ok) {
+            log.add(
+                "F006", line.line(), column, [&] { return "a coordinate of node " + std::to_string(id) + " is not finite"; }, {}, id);
+            coordinate = 0;
+            continue;
+        }
+        log.add(
+            "F005", line.line(), column,
+            [&] {
+                return "expected three coordinates of node " + std::to_string(id) + ", found '" + std::string(trimmed(line.line_text())) +
+                       "'";
+            },
+            "coordinate", id);
+        coordinate = 0;
+        break;
+    }
+    if (points.size() >= most_nodes) return log.add("F014", line.line(), 0, "more than 4294967294 nodes in one object");
+    read_tail(line, with_values);
+    add_id(id, line.line());
+    points.push_back(at);
+}
+
+void NodeTable::read_atom(TextCursor& line, bool with_values) {
+    if (!begun_) begin();
+    std::int64_t id = 0, reference = 0;
+    if (!read_id(line, id, "a node id") || !read_id(line, reference, "the id of the node it stands at")) return;
+    if (points.size() >= most_nodes) return scanner_.log.add("F014", line.line(), 0, "more than 4294967294 nodes in one object");
+    if (with_values || !line.at_line_end()) read_tail(line, with_values);
+    else push_values(0);
+    add_id(id, line.line());
+    atoms_.push_back({size(), with_values, reference, line.line()});
+    points.push_back({});
+}
+
+void NodeTable::copy_values(std::uint32_t from, std::uint32_t to) {
+    for (std::size_t a = 0; a != columns_.size(); ++a) {
+        const std::size_t n = attributes_[a].components;
+        std::copy_n(columns_[a].begin() + static_cast<std::ptrdiff_t>(from * n), n,
+                    columns_[a].begin() + static_cast<std::ptrdiff_t>(to * n));
+    }
+}
+
+// An atom may point to an atom, forwards or backwards. Each chain is walked to its primary node, then its atoms are
+// settled from the far end back, so that each atom is settled once.
+void NodeTable::resolve_atoms() {
+    if (atoms_.empty()) return;
+    alias.assign(points.size(), no_index);
+    constexpr std::uint32_t settled = no_index;
+    std::vector<std::uint32_t> pending(points.size(), settled);  // node -> its atom, until it is settled
+    for (std::uint32_t i = 0; i != atoms_.size(); ++i) pending[atoms_[i].node] = i;
+    std::vector<std::uint32_t> chain;
+    std::vector<std::uint8_t> in_chain(atoms_.size(), 0);
+    for (std::uint32_t i = 0; i != atoms_.size(); ++i) {
+        chain.clear();
+        std::uint32_t node = atoms_[i].node;
+        while (node != no_index && pending[node] != settled) {
+            const Atom& atom = atoms_[pending[node]];
+            if (in_chain[pending[node]]) {
+                scanner_.log.add(
+                    "F007", atom.line, 0, [&] { return "the atoms refer to each other in a circle"; }, "circle", ids_.id_of(atom.node));
+                node = no_index;
+                break;
+            }
+            in_chain[pending[node]] = 1;
+            chain.push_back(pending[node]);
+            node = ids_.find(atom.reference);
+            if (node == no_index) {
+                scanner_.log.add(
+                    "F007", atom.line, 0,
+                    [&] {
+                        return "ATOM " + std::to_string(ids_.id_of(atom.node)) + ": node " + std::to_string(atom.reference) +
+                               " is not defined";
+                    },
+                    "atom", atom.reference);
+            }
+        }
+        std::uint32_t next = node;  // what the last atom of the chain refers to
+        for (auto link = chain.rbegin(); link != chain.rend(); ++link) {
+            const Atom& atom = atoms_[*link];
+            pending[atom.node] = settled;
+            in_chain[*link] = 0;
+            if (next != no_index) {
+                alias[atom.node] = alias[next] != no_index ? alias[next] : next;
+                points[atom.node] = points[next];
+                if (!atom.own_values) copy_values(next, atom.node);
+            }
+            next = next == no_index ? no_index : atom.node;
+        }
+    }
+}
+
+void NodeTable::finish() {
+    if (!begun_ && head_.properties.declared()) begin();
+    resolve_atoms();
+    if (head_.depth()) {
+        for (Vec3& at : points) at[2] = -at[2];
+    }
+    for (std::size_t a = 0; a != columns_.size(); ++a) {
+        attributes_[a].values = std::move(columns_[a]);
+        head_.info.attributes.push_back(std::move(attributes_[a]));
+    }
+    for (FlagSet& set : flags_) {
+        head_.info.sets.push_back({std::string(control_set_prefix) + set.flag, AttributeLocation::point, std::move(set.nodes)});
+    }
+}
+
+NodeWriter::NodeWriter(const std::vector<Vec3>& points, const std::vector<std::uint32_t>& alias, const Labels& labels,
+                       const ObjectInfo& info, std::vector<const Attribute*> attributes)
+    : points_(points), alias_(alias), labels_(labels), attributes_(std::move(attributes)), sign_(z_sign(info.crs)) {
+    for (const NamedSet& set : info.sets) {
+        if (set.location == AttributeLocation::point && set.name.starts_with(control_set_prefix)) flags_.push_back(&set);
+    }
+}
+
+void NodeWriter::append_flags(std::string& out, std::size_t index) const {
+    for (const NamedSet* set : flags_) {
+        if (!std::ranges::binary_search(set->members, static_cast<std::uint32_t>(index))) continue;
+        out += ' ';
+        out.append(set->name, control_set_prefix.size());
+    }
+}
+
+void NodeWriter::append(std::string& out, std::size_t first, std::size_t last, bool light) const {
+    const bool with_values = !attributes_.empty();
+    const std::string_view vertex = with_values ? "PVRTX " : "VRTX ";
+    const std::string_view atom = light ? (with_values ? "SHAREDPVRTX " : "SHAREDVRTX ") : (with_values ? "PATOM " : "ATOM ");
+    for (std::size_t i = first; i != last; ++i) {
+        const bool is_atom = !alias_.empty() && alias_[i] != no_index;
+        out += is_atom ? atom : vertex;
+        append_number(out, labels_[i]);
+        out += ' ';
+        if (is_atom) {
+            append_number(out, labels_[alias_[i]]);
+        } else {
+            append_number(out, points_[i][0]);
+            out += ' ';
+            append_number(out, points_[i][1]);
+            out += ' ';
+            append_number(out, sign_ * points_[i][2]);
+        }
+        if (with_values) append_values(out, attributes_, i);
+        if (!flags_.empty()) append_flags(out, i);
+        out += '\n';
+    }
+}
+
+Labels writable_labels(const Labels& labels, std::size_t count) {
+    const auto fits = [](std::int64_t id) { return id <= largest_id && id >= 0; };
+    Labels plain;
+    if (labels.ids.empty()) {
+        if (fits(labels.first) && labels.first < 1'000'000'000'000) plain.first = labels.first;
+        return plain;
+    }
+    if (labels.ids.size() != count || !std::ranges::all_of(labels.ids, fits)) return plain;
+    NodeIds ids;
+    ids.expect(count);
+    for (const std::int64_t id : labels.ids) {
+        if (!ids.add(id)) return plain;
+    }
+    return labels;
+}
+
+}  // namespace geomend::gocad

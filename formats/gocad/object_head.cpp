@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "formats/gocad/object_head.h"
+
+#include <algorithm>
+
+#include "formats/gocad/region_indicators.h"
+
+namespace geomend::gocad {
+
+namespace {
+
+// Beyond this, unknown records are only counted: a file of nothing but unknown words must not fill the memory.
+constexpr std::size_t most_records = 10000;
+
+std::string_view without_quotes(std::string_view text) {
+    text = trimmed(text);
+    if (!text.empty() && text.front() == '"') {
+        text.remove_prefix(1);
+        if (!text.empty() && text.back() == '"') text.remove_suffix(1);
+    }
+    return trimmed(text);
+}
+
+/// The value of a header line if its key is `name`.
+std::optional<std::string_view> name_of(std::string_view entry) {
+    const std::size_t colon = entry.find(':');
+    if (colon == std::string_view::npos || !same_word(trimmed(entry.substr(0, colon)), "name")) return {};
+    return without_quotes(entry.substr(colon + 1));
+}
+
+}  // namespace
+
+void ObjectHead::annotate(std::string key, std::string value) { info.annotations.push_back({std::move(key), std::move(value)}); }
+
+void ObjectHead::header_entry(std::string_view entry) {
+    entry = trimmed(entry);
+    if (entry.empty()) return;
+    const auto name = name_of(entry);
+    if (name && !name_found_) {
+        info.name = *name;
+        name_found_ = true;
+    }
+    annotate("gocad.header", std::string(entry));
+}
+
+void ObjectHead::read_header(TextCursor& line) {
+    const std::uint64_t first = line.line();
+    std::string_view rest = line.rest();
+    if (!rest.empty() && rest.front() == '{') rest.remove_prefix(1);
+    else if (!rest.empty()) return header_entry(rest);  // a brace is missing: take it as a line of its own
+    for (;;) {
+        rest = trimmed(rest);
+        const bool closes = !rest.empty() && rest.back() == '}';
+        if (closes) rest.remove_suffix(1);
+        header_entry(rest);
+        if (closes) return;
+        if (!line.next_line()) break;
+        rest = line.line_text();
+    }
+    scanner_.log.add("F012", first, 1, "this HEADER is not closed: expected '}' before the end of the object");
+}
+
+std::string ObjectHead::whole_record(std::string_view keyword, TextCursor& line) {
+    std::string text(trimmed(line.line_text()));
+    const std::uint64_t first = line.line();
+    std::string closing;
+    if (text.back() == '{') closing = "}";
+    else if (keyword.size() > 6 && same_word(keyword.substr(0, 6), "BEGIN_")) closing = "END_" + std::string(keyword.substr(6));
+    else if (same_word(keyword, "PROPERTY_CN")) closing = "END_PROPERTY_CN";
+    if (closing.empty()) return text;
+    while (line.next_line()) {
+        const std::string_view next = trimmed(line.line_text());
+        text += '\n';
+        text += next;
+        if (same_word(line.token(), closing) || (closing == "}" && next.ends_with('}'))) return text;
+    }
+    scanner_.log.add(
+        "F012", first, 1,
+        [&] { return "this " + std::string(keyword) + " is not closed: expected '" + closing + "' before the end of the object"; },
+        keyword);
+    return text;
+}
+
+void ObjectHead::read_class_header(std::string_view keyword, TextCursor& line) {
+    annotate("gocad.property_class_header", whole_record(keyword, line));
+}
+
+bool ObjectHead::region_line(std::string_view keyword, TextCursor& line) {
+    std::vector<RegionBit>& list = same_word(keyword, "REGION") ? regions : tetra_regions;
+    RegionBit region;
+    region.name = line.quoted_token();
+    const std::uint32_t column = line.column();
+    if (region.name.empty() || line.integer(region.bit) != NumberStatus::ok || region.bit < 0) {
+        scanner_.log.add("F012", line.line(), column, "expected a region name and the number of its bit");
+        return true;
+    }
+    if (list.size() >= most_records) {
+        scanner_.log.add("F014", line.line(), 0, "more than 10000 regions are declared");
+        return true;
+    }
+    const auto place = std::ranges::upper_bound(list, region.bit, {}, &RegionBit::bit);
+    list.insert(place, std::move(region));
+    return true;
+}
+
+bool ObjectHead::take_known(std::string_view keyword, TextCursor& line) {
+    const auto is = [&](std::string_view word) { return same_word(keyword, word); };
+    if (is("HEADER")) {
+        read_header(line);
+    } else if (is("HDR")) {
+        header_entry(line.rest());
+    } else if (is("GOCAD_ORIGINAL_COORDINATE_SYSTEM")) {
+        read_coordinate_block(line, info.crs, scanner_.log);
+    } else if (is("GEOLOGICAL_FEATURE")) {
+        info.feature = without_quotes(line.rest());
+    } else if (is("GEOLOGICAL_TYPE")) {
+        info.role_text = without_quotes(line.rest());
+        info.role = feature_role(info.role_text);
+    } else if (is("STRATIGRAPHIC_POSITION")) {
+        annotate("gocad.stratigraphic_position", std::string(line.rest()));
+    } else if (is("PROPERTY_CLASS_HEADER") || is("TETRA_PROPERTY_CLASS_HEADER") || is("TRGL_PROPERTY_CLASS_HEADER")) {
+        read_class_header(keyword, line);
+    } else if (is("REGION") || is("TETRA_REGION")) {
+        return region_line(keyword, line);
+    } else if (keyword.size() > 6 && same_word(keyword.substr(0, 6), "TETRA_")) {
+        return tetra_properties.take(keyword.substr(6), line, scanner_.log);
+    } else if (keyword.size() > 5 && same_word(keyword.substr(0, 5), "TRGL_")) {
+        return trgl_properties.take(keyword.substr(5), line, scanner_.log);
+    } else {
+        return properties.take(keyword, line, scanner_.log);
+    }
+    return true;
+}
+
+void ObjectHead::keep(std::string_view keyword, TextCursor& line) {
+    std::string record = whole_record(keyword, line);
+    if (++kept_records_ <= most_records) {
+        annotate(geometry_begun ? "gocad.record_after" : "gocad.record", std::move(record));
+    } else {
+        add_loss(scanner_.losses, {LossClass::identity, info.name, "unknown records", "more than 10000 in one object"});
+    }
+}
+
+void ObjectHead::take(std::string_view keyword, TextCursor& line) {
+    if (keyword.front() == '#') {
+        if (++kept_records_ <= most_records) annotate("gocad.comment", std::string(trimmed(line.line_text())));
+        else add_loss(scanner_.losses, {LossClass::style, info.name, "comments", "more than 10000 in one object"});
+        return;
+    }
+    if (take_known(keyword, line)) return;
+    const std::string word(keyword);
+    if (!same_word(word, "CLASSIFICATION") && !same_word(word, "PROPERTY_CN")) {
+        scanner_.log.add(
+            "F102", line.line(), 1, [&] { return "'" + word + "' is not known here; it is kept as it stands"; }, word);
+    }
+    keep(word, line);
+}
+
+void ObjectHead::finish() {
+    if (!info.crs.stated && scanner_.inherited_crs.stated) info.crs = scanner_.inherited_crs;
+}
+
+void write_object_head(OutputFile& out, std::string_view type, const ObjectInfo& info) {
+    out << "GOCAD " << type << " 1\nHEADER {\n";
+    bool named = false;
+    for (const Annotation& a : info.annotations) {
+        if (a.key != "gocad.header") continue;
+        const auto name = name_of(a.value);
+        if (name && named) continue;
+        if (name && *name != info.name) out << "name:" << info.name << '\n';
+        else out << a.value << '\n';
+        named |= name.has_value();
+    }
+    if (!named && !info.name.empty()) out << "name:" << info.name << '\n';
+    out << "}\n";
+    write_coordinate_block(out, info.crs);
+    if (!info.feature.empty()) out << "GEOLOGICAL_FEATURE " << info.feature << '\n';
+    if (!info.role_text.empty()) out << "GEOLOGICAL_TYPE " << info.role_text << '\n';
+    else if (info.role != FeatureRole::unknown) out << "GEOLOGICAL_TYPE " << gocad_word(info.role) << '\n';
+    for (const Annotation& a : info.annotations) {
+        if (a.key == "gocad.stratigraphic_position") out << "STRATIGRAPHIC_POSITION " << a.value << '\n';
+        else if (a.key == "gocad.record" || a.key == "gocad.comment") out << a.value << '\n';
+    }
+}
+
+void write_records_after(OutputFile& out, const ObjectInfo& info) {
+    for (const Annotation& a : info.annotations) {
+        if (a.key == "gocad.record_after") out << a.value << '\n';
+    }
+}
+
+void write_class_headers(OutputFile& out, const ObjectInfo& info) {
+    bool z_told = false;
+    for (const Annotation& a : info.annotations) {
+        if (a.key != "gocad.property_class_header") continue;
+        out << a.value << '\n';
+        z_told |= a.value.find("is_z") != std::string::npos;
+    }
+    if (!z_told) out << "PROPERTY_CLASS_HEADER Z {\nis_z:on\n}\n";
+}
+
+}  // namespace geomend::gocad
