@@ -164,7 +164,7 @@ void write_ascii_data(OutputFile& out, const std::array<std::uint32_t, 3>& dims,
     text += with_positions ? " X Y Z" : " I J K";
     std::vector<double> no_data;
     for (const Attribute* a : attributes) {
-        for (std::uint32_t c = 0; c < a->components; ++c) text += ' ' + quoted(a->name);
+        for (std::uint32_t c = 0; c < a->components; ++c) text += " " + name_token(a->name);
         no_data.push_back(written_no_data(*a));
     }
     text += with_positions ? " I J K\n*\n" : "\n*\n";

@@ -71,7 +71,7 @@ private:
                 scanner_.log.add("F119", scanner_.frame.line, 0, "regions are declared, but no file says which samples belong to them");
             }
             for (const RegionBit& region : head_.regions) {
-                head_.info.annotations.push_back({"gocad.record", "REGION " + quoted(region.name) + ' ' + std::to_string(region.bit)});
+                head_.info.annotations.push_back({"gocad.record", "REGION " + name_token(region.name) + ' ' + std::to_string(region.bit)});
             }
             return;
         }
