@@ -54,13 +54,18 @@ NumberStatus parse_slowly(std::string_view text, double& value) {
     return error == std::errc{} ? NumberStatus::ok : NumberStatus::out_of_range;
 }
 
-// from_chars gives result_out_of_range for underflow as well as for overflow.
+// from_chars gives result_out_of_range for underflow as well as for overflow; a wider type tells which.
 NumberStatus settle_range(std::string_view text, double& value) {
-    const std::size_t e = text.find_first_of("eE");
-    const bool tiny =
-        e != std::string_view::npos ? text.find('-', e) != std::string_view::npos : text.find_first_of("123456789") > text.find('.');
+    long double wide = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), wide);
+    bool tiny = std::fabs(wide) < 1;
+    if (error != std::errc{}) {
+        const std::size_t e = text.find_first_of("eE");
+        tiny = e != std::string_view::npos && text.substr(e + 1, 1) == "-";
+        wide = 0;
+    }
     if (!tiny) return NumberStatus::out_of_range;
-    value = text.front() == '-' ? -0.0 : 0.0;
+    value = std::copysign(static_cast<double>(wide), text.front() == '-' ? -1.0 : 1.0);
     return NumberStatus::ok;
 }
 

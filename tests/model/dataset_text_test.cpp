@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "model/dataset_text.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace geomend {
+namespace {
+
+Dataset example() {
+    Dataset d;
+    d.annotations.push_back({"gocad.header", "version:1"});
+    Surface s;
+    s.info.name = "H\xe9lice \"1\"";  // Latin-1, with quotes
+    s.info.role = FeatureRole::fault;
+    s.info.role_text = "normal_fault";
+    s.info.feature = "F1";
+    s.info.crs.stated = true;
+    s.info.crs.name = "UTM";
+    s.info.crs.axis_units = {"m", "m", "ft"};
+    s.info.crs.z_positive = ZPositive::depth;
+    s.info.crs.z_positive_stated = true;
+    s.info.groups = {"outer", "inner"};
+    s.info.annotations.push_back({"gocad.header", "*solid*color:#ff0000"});
+    Attribute a;
+    a.name = "throw";
+    a.values = std::vector<double>{1};
+    a.unit = "m";
+    a.no_data = -99999;
+    a.legal_max = std::numeric_limits<double>::infinity();
+    a.code_names = {{1, "sand"}};
+    a.annotations = {{"gocad.subclass", "QUANTITY Float"}};
+    s.info.attributes.push_back(a);
+    s.parts = {{0, 0}, {3, 1}};
+    d.objects.emplace_back(s);
+    CellMesh m;
+    m.entities.push_back({3, 7, "Top", FeatureRole::unknown, "", {}, {}, {}});
+    m.entities.push_back({2, 7, "H1", FeatureRole::horizon, "top", {}, {}, {}});
+    d.objects.emplace_back(m);
+    StatedModel model;
+    model.name = "m";
+    StatedModel::Face face;
+    face.number = 4;
+    face.object = 0;
+    face.part = 1;
+    face.interface_name = "F1";
+    face.role = FeatureRole::fault;
+    face.key = {Vec3{0.1, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 400000.33333333331}};
+    model.faces.push_back(face);
+    model.regions.push_back({5, "Universe", true, {{0, true}, {0, false}}});
+    model.features.push_back({"F1", {0}});
+    model.layers.push_back({"L", {0}, {65}});
+    model.corners.push_back({"c", {1, 2, 3}});
+    d.models.push_back(model);
+    return d;
+}
+
+// The same geometry as a format would bring it back, without any words.
+Dataset bare() {
+    Dataset d = example();
+    for (Object& o : d.objects) {
+        ObjectInfo& info = info_of(o);
+        ObjectInfo plain;
+        for (const Attribute& a : info.attributes) {
+            Attribute b;
+            b.name = a.name;
+            b.location = a.location;
+            b.values = a.values;
+            plain.attributes.push_back(b);
+        }
+        info = plain;
+    }
+    for (auto& e : std::get<CellMesh>(d.objects[1]).entities) {
+        e.name.clear();
+        e.role = FeatureRole::unknown;
+        e.role_text.clear();
+    }
+    d.models.clear();
+    d.annotations.clear();
+    return d;
+}
+
+TEST(DatasetText, BringsEverythingBack) {
+    const Dataset whole = example();
+    const std::string text = dataset_text(whole);
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+    Dataset back = bare();
+    ASSERT_TRUE(apply_dataset_text(text, back));
+    EXPECT_EQ(dataset_text(back), text);
+    const auto& info = info_of(back.objects[0]);
+    EXPECT_EQ(info.name, "H\xe9lice \"1\"");
+    EXPECT_EQ(info.crs, info_of(whole.objects[0]).crs);
+    EXPECT_EQ(info.attributes[0].no_data, -99999);
+    EXPECT_EQ(std::get<CellMesh>(back.objects[1]).entities[1].name, "H1");
+    ASSERT_EQ(back.models.size(), 1u);
+    EXPECT_EQ(back.models[0].faces[0].key, whole.models[0].faces[0].key);
+    EXPECT_FALSE(back.models[0].regions[0].sides[1].front);
+    EXPECT_EQ(back.models[0].layers[0].unresolved, std::vector<std::int64_t>{65});
+}
+
+TEST(DatasetText, IsRefusedWhenItIsNone) {
+    for (const char* text : {"", "{", "[]", "{}", "{\"geomend\":2}", "null", "{\"geomend\":\"1\"}"}) {
+        Dataset d = bare();
+        EXPECT_FALSE(apply_dataset_text(text, d)) << text;
+    }
+}
+
+TEST(DatasetText, PassesOverMembersOfTheWrongKind) {
+    Dataset d = bare();
+    EXPECT_TRUE(apply_dataset_text(
+        R"({"geomend":1,"objects":[{"name":5,"crs":[],"attributes":{"x":1},"groups":"g"},7,8],"models":[3,{"faces":7}]})", d));
+    EXPECT_EQ(info_of(d.objects[0]).name, "");
+}
+
+TEST(DatasetText, LeavesOutModelsWhoseFacesAreNotThere) {
+    Dataset d = bare();
+    EXPECT_TRUE(apply_dataset_text(
+        R"({"geomend":1,"models":[{"faces":[{"object":9,"part":0}]},{"faces":[{"object":0,"part":2}]},{"faces":[{"object":0,"part":1}]}]})",
+        d));
+    EXPECT_EQ(d.models.size(), 1u);
+}
+
+}  // namespace
+}  // namespace geomend
