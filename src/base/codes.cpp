@@ -56,6 +56,9 @@ constexpr std::array catalogue = {
     CodeInfo{"F119", warning, "an object or a part holds nothing", ""},
     CodeInfo{"F120", warning, "a non-finite property value stands for missing", ""},
     CodeInfo{"F121", warning, "a stated region does not exist or has no boundary", "repair"},
+    CodeInfo{"F122", info, "elements of one entity are in different physical groups", ""},
+    CodeInfo{"F123", info, "elements are repeated for each physical group of their entity", ""},
+    CodeInfo{"F130", info, "ghost cells that another piece owns were left out", ""},
 };
 
 }  // namespace

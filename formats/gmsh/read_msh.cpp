@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "formats/gmsh/read_msh.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "base/text_cursor.h"
+#include "formats/gmsh/reading.h"
+#include "model/dataset_text.h"
+
+namespace geomend::gmsh {
+
+Failure stopped(const Input& input) { return failure(FailureKind::cancelled, "F022", {input.name()}, "reading was stopped"); }
+
+namespace {
+
+using Step = Result<void> (*)(Reading&, const Section&);
+
+bool named(const Section& section, std::initializer_list<std::string_view> names) { return std::ranges::find(names, section.name) != names.end(); }
+
+// Sections may stand in any order in the file; they are read in the order in which they need each other.
+Result<void> read_all_named(Reading& r, std::initializer_list<std::string_view> names, bool only_once, Step step) {
+    bool seen = false;
+    for (const Section& section : r.layout.sections) {
+        if (!named(section, names)) continue;
+        if (seen && only_once) {
+            Scanner s(r.input, section.content, section.name, {});
+            return unreadable("F009", s.location(section.content.data()), "a second section $" + std::string(section.name));
+        }
+        seen = true;
+        if (auto ok = step(r, section); !ok) return ok;
+    }
+    return {};
+}
+
+Finding finding_about(const Reading& r, const char* code, Severity severity, std::string message, std::uint64_t count) {
+    Finding f;
+    f.code = code;
+    f.severity = severity;
+    f.message = std::move(message);
+    f.where.file = r.input.name();
+    f.count = count;
+    return f;
+}
+
+void report_elements(Reading& r) {
+    if (r.degenerate > 0) {
+        Finding f = finding_about(r, "F103", Severity::warning, "elements use a node more than once", r.degenerate);
+        for (const std::uint32_t cell : r.degenerate_cells) {
+            f.index.push_back(cell);
+            f.elements.push_back(r.mesh.cell_labels[cell]);
+        }
+        f.element_kind = "element";
+        r.findings.push_back(std::move(f));
+    }
+    for (const auto& [number, count] : r.dropped_nodes) {
+        const ElementType& type = *element_type(number);
+        r.losses.push_back({LossClass::substance, "", "the " + std::to_string(type.nodes - type.kept) + " further nodes of elements of type " + std::to_string(number),
+                            std::string("they are read as ") + to_string(type.cell), count});
+    }
+    if (r.mesh.cell_count() == 0) {
+        r.findings.push_back(finding_about(r, "F119", Severity::warning, "the file holds nodes, but no elements", r.mesh.points.size()));
+    }
+}
+
+void report_interfaces(Reading& r) {
+    std::uint64_t loose = 0;
+    if (r.partitioned.empty()) return;
+    for (const std::uint32_t e : r.mesh.cell_entity) loose += e == no_index ? 1 : 0;
+    if (loose == 0) return;
+    r.findings.push_back(finding_about(r, "F102", Severity::info, "elements on interfaces between partitions belong to no entity of the model", loose));
+}
+
+void add_partitions(Reading& r) {
+    if (r.partitions.empty()) return;
+    Attribute a;
+    a.name = "gmsh:partition";
+    a.location = AttributeLocation::cell;
+    a.no_data = 0;
+    a.values = std::move(r.partitions);
+    r.mesh.info.attributes.push_back(std::move(a));
+}
+
+// An entity takes the name of its group where it has a single one.
+void name_entities(CellMesh& mesh) {
+    for (CellMesh::Entity& entity : mesh.entities) {
+        if (entity.groups.size() == 1) entity.name = mesh.groups[entity.groups[0]].name;
+    }
+}
+
+Result<void> index_elements(Reading& r, const Section&) {
+    if (r.cells_indexed) return {};
+    r.cells_indexed = true;
+    const auto twice = r.cells.build(r.mesh.cell_labels, r.mesh.cell_count());
+    if (!twice) return {};
+    return unreadable("F009", {r.input.name()}, "section $Elements: element tag " + std::to_string(r.mesh.cell_labels[*twice]) + " is defined twice");
+}
+
+Result<void> read_mesh(Reading& r) {
+    if (auto ok = read_all_named(r, {"PhysicalNames"}, true, read_physical_names); !ok) return ok;
+    if (auto ok = read_all_named(r, {"Entities"}, true, read_entities); !ok) return ok;
+    if (auto ok = read_all_named(r, {"PartitionedEntities"}, true, read_partitioned_entities); !ok) return ok;
+    if (auto ok = read_all_named(r, {"NOD", "Nodes", "ParametricNodes"}, true, read_nodes); !ok) return ok;
+    if (auto ok = read_all_named(r, {"ELM", "Elements"}, true, read_elements); !ok) return ok;
+    const bool by_class = r.layout.version == MshVersion::v1 || r.layout.version == MshVersion::v2;
+    if (by_class) {
+        if (auto ok = entities_from_classes(r); !ok) return ok;
+    } else if (r.mesh.entities.empty()) {
+        r.mesh.cell_entity.clear();
+    }
+    if (auto ok = index_elements(r, {}); !ok) return ok;
+    report_elements(r);
+    report_interfaces(r);
+    add_partitions(r);
+    if (auto ok = read_all_named(r, {"NodeData", "ElementData", "ElementNodeData"}, false, read_data); !ok) return ok;
+    return read_all_named(r, {"Periodic"}, true, read_periodic);
+}
+
+bool is_read_elsewhere(const Section& section) {
+    return named(section, {"PhysicalNames", "Entities", "PartitionedEntities", "NOD", "Nodes", "ParametricNodes", "ELM", "Elements", "NodeData",
+                           "ElementData", "ElementNodeData", "Periodic", "Geomend"});
+}
+
+std::string variant_text(const MshLayout& layout) {
+    std::string text = "MSH " + layout.version_text;
+    if (layout.encoding.binary) text += " binary";
+    return text;
+}
+
+}  // namespace
+
+void keep_unknown(Reading& r, const Section& section) {
+    constexpr std::size_t largest_kept = std::size_t{1} << 16;
+    constexpr std::size_t most_kept = 64;
+    const auto kept = std::ranges::count(r.mesh.info.annotations, "gmsh.section", &Annotation::key);
+    const bool text = std::ranges::all_of(section.content, [](char c) { return static_cast<unsigned char>(c) >= ' ' || (c >= '\t' && c <= '\r'); });
+    if (text && section.content.size() <= largest_kept && static_cast<std::size_t>(kept) < most_kept) {
+        r.mesh.info.annotations.push_back({"gmsh.section", "$" + std::string(section.name) + "\n" + std::string(section.content)});
+        return;
+    }
+    add_loss(r.losses, {LossClass::style, "", "section $" + std::string(section.name.substr(0, 60)), "it is not known, and is binary or large", 1});
+}
+
+Result<Dataset> read_msh(const Input& input, const ReadOptions& options) {
+    auto layout = lay_out(input);
+    if (!layout) return std::move(layout).why();
+    Reading r(input, options, std::move(*layout));
+    const bool has_nodes = std::ranges::any_of(r.layout.sections, [](const Section& s) { return named(s, {"NOD", "Nodes", "ParametricNodes"}); });
+    if (!has_nodes) return unreadable("F017", {input.name()}, "the file holds no nodes: expected a section $Nodes");
+    if (auto ok = read_mesh(r); !ok) return std::move(ok).why();
+    name_entities(r.mesh);
+    for (const Section& section : r.layout.sections) {
+        if (!is_read_elsewhere(section)) keep_unknown(r, section);
+    }
+    r.mesh.info.name = std::filesystem::path(input.base_name()).stem().string();
+
+    Dataset dataset;
+    dataset.format = "gmsh";
+    dataset.variant = variant_text(r.layout);
+    dataset.findings = std::move(r.findings);
+    dataset.losses = std::move(r.losses);
+    dataset.objects.emplace_back(std::move(r.mesh));
+    for (const Section& section : r.layout.sections) {
+        if (section.name == "Geomend") apply_dataset_text(trimmed(section.content), dataset);
+    }
+    return dataset;
+}
+
+}  // namespace geomend::gmsh
