@@ -29,13 +29,7 @@ void NodeTable::begin() {
     const std::uint64_t expected = frame.node_lines;
     points.reserve(expected);
     ids_.expect(expected);
-    attributes_ = head_.properties.make_attributes(AttributeLocation::point, expected, frame.body.size(), scanner_.log);
-    for (const Attribute& a : attributes_) {
-        columns_.emplace_back();
-        columns_.back().reserve(expected * a.components);
-        fill_.insert(fill_.end(), a.components, a.no_data.value_or(std::numeric_limits<double>::quiet_NaN()));
-    }
-    scratch_.resize(fill_.size());
+    values_.begin(head_.properties, AttributeLocation::point, expected, scanner_);
 }
 
 void NodeTable::add_id(std::int64_t id, std::uint64_t line) {
@@ -47,19 +41,17 @@ void NodeTable::add_id(std::int64_t id, std::uint64_t line) {
 
 const char* NodeTable::scan_vertex(const char* p, const char* end, bool with_values, std::uint64_t line) {
     if (!begun_) begin();
-    if (with_values != !columns_.empty()) return nullptr;
+    if (with_values != (values_.width() != 0)) return nullptr;
     std::int64_t id = 0;
     Vec3 at;
     if (!scan_id(p, end, id) || !scan_real(p, end, at[0]) || !scan_real(p, end, at[1]) || !scan_real(p, end, at[2])) return nullptr;
     if (!std::isfinite(at[0]) || !std::isfinite(at[1]) || !std::isfinite(at[2])) return nullptr;
-    for (double& value : scratch_) {
-        if (!scan_real(p, end, value) || !std::isfinite(value)) return nullptr;
-    }
+    if (!values_.scan(p, end)) return nullptr;
     p = scan_line_end(p, end);
     if (p == nullptr || points.size() >= most_nodes) return nullptr;
     add_id(id, line);
     points.push_back(at);
-    if (with_values) push_values(scratch_.size());
+    if (with_values) values_.push(values_.width());
     return p;
 }
 
@@ -72,16 +64,8 @@ const char* NodeTable::scan_atom(const char* p, const char* end, std::uint64_t l
     add_id(id, line);
     atoms_.push_back({size(), false, reference, line});
     points.push_back({});
-    push_values(0);
+    values_.push(0);
     return p;
-}
-
-// The first `given` values of scratch_ stand; the rest is missing.
-void NodeTable::push_values(std::size_t given) {
-    std::size_t k = 0;
-    for (std::size_t a = 0; a != columns_.size(); ++a) {
-        for (std::uint32_t c = 0; c != attributes_[a].components; ++c, ++k) columns_[a].push_back(k < given ? scratch_[k] : fill_[k]);
-    }
 }
 
 bool NodeTable::take(std::string_view keyword, TextCursor& line) {
@@ -111,44 +95,16 @@ void NodeTable::add_flag(std::string_view flag) {
     else flags_.push_back({std::string(flag), {size()}});
 }
 
-// Values and control flags, in either order. On return scratch_ is filled and pushed.
+// Values and control flags, in either order.
 void NodeTable::read_tail(TextCursor& line, bool with_values) {
-    ObjectLog& log = scanner_.log;
-    std::size_t given = 0, extra = 0;
-    for (;;) {
-        line.at_line_end();
-        const std::uint32_t column = line.column();
-        const std::string_view token = line.token();
-        if (token.empty()) break;
-        if (is_control_flag(token)) {
-            add_flag(token);
-            continue;
-        }
-        double value = 0;
-        const NumberStatus status = parse_real(token, value);
-        if (status != NumberStatus::ok) {
-            log.add(
-                "F005", line.line(), column, [&] { return "expected a property value, found '" + std::string(token) + "'"; }, "value");
-            break;
-        }
-        if (given == scratch_.size()) {
-            ++extra;
-            continue;
-        }
-        if (!std::isfinite(value)) {
-            log.add("F120", line.line(), column, [&] { return "'" + std::string(token) + "' stands as a property value"; });
-        }
-        scratch_[given++] = value;
+    read_values(values_, line, scanner_.log, [&](std::string_view token) {
+        const bool flag = is_control_flag(token);
+        if (flag) add_flag(token);
+        return flag;
+    });
+    if (!with_values && values_.given() != 0) {
+        scanner_.log.add("F118", line.line(), 0, "a line whose keyword has no P has property values");
     }
-    if (extra != 0) log.add("F107", line.line(), 0, "a node line has more values than PROPERTIES declares");
-    if (!with_values && given != 0) log.add("F118", line.line(), 0, "a VRTX line has property values: expected PVRTX");
-    if (given < scratch_.size()) {
-        log.add("F105", line.line(), 0, [&] {
-            return "expected " + std::to_string(scratch_.size()) + " property values, found " + std::to_string(given) +
-                   ": the rest is no-data";
-        });
-    }
-    push_values(given);
 }
 
 void NodeTable::read_vertex(TextCursor& line, bool with_values) {
@@ -189,19 +145,16 @@ void NodeTable::read_atom(TextCursor& line, bool with_values) {
     std::int64_t id = 0, reference = 0;
     if (!read_id(line, id, "a node id") || !read_id(line, reference, "the id of the node it stands at")) return;
     if (points.size() >= most_nodes) return scanner_.log.add("F014", line.line(), 0, "more than 4294967294 nodes in one object");
-    if (with_values || !line.at_line_end()) read_tail(line, with_values);
-    else push_values(0);
-    add_id(id, line.line());
-    atoms_.push_back({size(), with_values, reference, line.line()});
-    points.push_back({});
-}
-
-void NodeTable::copy_values(std::uint32_t from, std::uint32_t to) {
-    for (std::size_t a = 0; a != columns_.size(); ++a) {
-        const std::size_t n = attributes_[a].components;
-        std::copy_n(columns_[a].begin() + static_cast<std::ptrdiff_t>(from * n), n,
-                    columns_[a].begin() + static_cast<std::ptrdiff_t>(to * n));
+    bool own_values = with_values;
+    if (with_values || !line.at_line_end()) {
+        read_tail(line, with_values);
+        own_values |= values_.given() != 0;
+    } else {
+        values_.push(0);
     }
+    add_id(id, line.line());
+    atoms_.push_back({size(), own_values, reference, line.line()});
+    points.push_back({});
 }
 
 // An atom may point to an atom, forwards or backwards. Each chain is walked to its primary node, then its atoms are
@@ -246,7 +199,7 @@ void NodeTable::resolve_atoms() {
             if (next != no_index) {
                 alias[atom.node] = alias[next] != no_index ? alias[next] : next;
                 points[atom.node] = points[next];
-                if (!atom.own_values) copy_values(next, atom.node);
+                if (!atom.own_values) values_.copy(next, atom.node);
             }
             next = next == no_index ? no_index : atom.node;
         }
@@ -259,10 +212,7 @@ void NodeTable::finish() {
     if (head_.depth()) {
         for (Vec3& at : points) at[2] = -at[2];
     }
-    for (std::size_t a = 0; a != columns_.size(); ++a) {
-        attributes_[a].values = std::move(columns_[a]);
-        head_.info.attributes.push_back(std::move(attributes_[a]));
-    }
+    values_.finish(head_.info.attributes);
     for (FlagSet& set : flags_) {
         head_.info.sets.push_back({std::string(control_set_prefix) + set.flag, AttributeLocation::point, std::move(set.nodes)});
     }

@@ -7,6 +7,7 @@
 
 #include "formats/gocad/node_ids.h"
 #include "formats/gocad/object_head.h"
+#include "formats/gocad/value_columns.h"
 
 namespace geomend::gocad {
 
@@ -55,18 +56,13 @@ private:
     bool read_id(TextCursor& line, std::int64_t& id, std::string_view what);
     void read_tail(TextCursor& line, bool with_values);
     void add_flag(std::string_view flag);
-    void push_values(std::size_t given);
     void resolve_atoms();
-    void copy_values(std::uint32_t from, std::uint32_t to);
 
     ObjectScanner& scanner_;
     ObjectHead& head_;
     NodeIds ids_;
     bool begun_ = false;
-    std::vector<Attribute> attributes_;
-    std::vector<std::vector<double>> columns_;  ///< per attribute
-    std::vector<double> fill_;                  ///< per value: no-data
-    std::vector<double> scratch_;               ///< values of one line
+    ValueColumns values_;
     std::vector<Atom> atoms_;
     struct FlagSet {
         std::string flag;
