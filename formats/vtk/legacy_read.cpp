@@ -6,6 +6,7 @@
 #include "base/text_cursor.h"
 #include "formats/vtk/legacy.h"
 #include "formats/vtk/legacy_file.h"
+#include "formats/vtk/vtk_structure.h"
 #include "model/dataset_text.h"
 
 namespace geomend::vtk {
@@ -115,10 +116,11 @@ private:
     bool cell_fault(CellProblem problem, std::uint64_t cell);
     void hide_cells(StructuredGrid& grid);
     void note_points(ObjectInfo& info, const char* dataset);
+    void back_to_structure(Object& object);
 
     LegacyScanner& s_;
     LegacyFile& file_;
-    std::string text_;  // what geomend itself put into the file
+    std::string text_, structure_;  // what geomend itself put into the file
     std::vector<Finding> findings_;
 };
 
@@ -149,8 +151,9 @@ bool Mapper::sections(ObjectInfo& info, std::uint64_t points, std::uint64_t cell
 void Mapper::fields(ObjectInfo& info) {
     for (LegacyArray& array : file_.fields) {
         const auto* strings = std::get_if<std::vector<std::string>>(&array.values);
-        if (array.name == "geomend" && strings != nullptr && strings->size() == 1) {
-            text_ = strings->front();
+        const bool ours = strings != nullptr && strings->size() == 1 && (array.name == text_field || array.name == structure_field);
+        if (ours) {
+            (array.name == text_field ? text_ : structure_) = strings->front();
             continue;
         }
         const std::string shape = std::to_string(array.components) + ' ' + std::to_string(array.tuples);
@@ -372,6 +375,40 @@ bool Mapper::polydata(Object& object) {
     return true;
 }
 
+// The raster that a grid was, where its points still stand on the lattice exactly.
+bool raster_of(const StructuredGrid& grid, std::string_view structure, Raster& raster) {
+    if (!grid.dead_cells.empty() || grid.points.empty()) return false;
+    raster.dims = grid.dims;
+    raster.origin = grid.points.front();
+    const std::array<std::size_t, 3> next{1, grid.dims[0], std::size_t{grid.dims[0]} * grid.dims[1]};
+    for (std::size_t d = 0; d < 3; ++d) {
+        if (grid.dims[d] == 1) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) raster.step[d][axis] = grid.points[next[d]][axis] - grid.points[0][axis];
+    }
+    raster.info = grid.info;
+    Object object = std::move(raster);
+    if (!restore_structure(structure, object)) return false;
+    raster = std::get<Raster>(std::move(object));
+    std::size_t at = 0;
+    for (std::uint32_t k = 0; k < raster.dims[2]; ++k)
+        for (std::uint32_t j = 0; j < raster.dims[1]; ++j)
+            for (std::uint32_t i = 0; i < raster.dims[0]; ++i) {
+                if (sample_position(raster, i, j, k) != grid.points[at++]) return false;
+            }
+    return true;
+}
+
+void Mapper::back_to_structure(Object& object) {
+    if (const auto* grid = std::get_if<StructuredGrid>(&object);
+        grid != nullptr && structure_.find(R"("kind":"raster")") != std::string::npos) {
+        Raster raster;
+        if (raster_of(*grid, structure_, raster)) object = std::move(raster);
+        return;
+    }
+    if (!restore_structure(structure_, object))
+        info_of(object).annotations.push_back({"vtk.field", std::string(structure_field) + ' ' + structure_});
+}
+
 constexpr std::string_view kind_word(LegacyKind kind) {
     switch (kind) {
         case LegacyKind::structured_points:
@@ -427,6 +464,7 @@ bool Mapper::run(Dataset& data) {
         std::vector<Annotation> own = std::move(info.annotations);
         if (!file_.title.empty()) own.push_back({"vtk.title", file_.title});
         info.annotations.clear();
+        if (!structure_.empty()) back_to_structure(object);
         data.objects.push_back(std::move(object));
         if (!text_.empty() && !apply_dataset_text(text_, data))
             info_of(data.objects[0]).annotations.push_back({"vtk.field", "geomend " + text_});
