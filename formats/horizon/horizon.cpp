@@ -1,8 +1,85 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "formats/horizon/horizon.h"
 
+#include <array>
+
+#include "formats/horizon/cps3_grid.h"
+#include "formats/horizon/irap_grid.h"
+#include "formats/horizon/irap_points.h"
+#include "formats/horizon/lines_formats.h"
+#include "formats/horizon/petrel_points.h"
+#include "formats/horizon/zmap.h"
+
 namespace geomend::horizon {
 
-std::span<const Format> formats() { return {}; }
+namespace {
+
+constexpr std::string_view irap_grid_extensions[] = {".irap", ".fgr", ".irapasc"};
+constexpr std::string_view irap_binary_extensions[] = {".gri", ".irapbin"};
+constexpr std::string_view zmap_extensions[] = {".zmap", ".zmp", ".dat"};
+constexpr std::string_view cps3_extensions[] = {".cps3", ".cps"};
+constexpr std::string_view cps3_lines_extensions[] = {".cps3lines", ".flt"};
+constexpr std::string_view points_extensions[] = {".irapp", ".xyz", ".poi", ".rmsattr"};
+constexpr std::string_view petrel_extensions[] = {".petrelpoints"};
+constexpr std::string_view polygons_extensions[] = {".pol", ".irapl"};
+
+constexpr std::string_view tried = "fixtures only: no real file was found";
+constexpr std::string_view grid_note =
+    "substance: second and further objects, other attributes, rotation where it has none; identity: role, units, coordinate system, sign "
+    "of z";
+constexpr std::string_view plain_note =
+    "substance: second and further objects, attributes; identity: role, units, coordinate system, sign of z";
+
+constexpr Keeps grid_keeps(Keeping names, Keeping no_data, Keeping exact) {
+    Keeps keeps;
+    keeps.rasters = Keeping::partly;
+    keeps.names = names;
+    keeps.no_data = no_data;
+    keeps.exact_coordinates = exact;
+    return keeps;
+}
+
+constexpr Keeps points_keeps(Keeping attributes, Keeping units) {
+    Keeps keeps;
+    keeps.points = Keeping::yes;
+    keeps.attributes = attributes;
+    keeps.units = units;
+    keeps.no_data = attributes;
+    keeps.exact_coordinates = Keeping::yes;
+    return keeps;
+}
+
+constexpr Keeps lines_keeps(Keeping names) {
+    Keeps keeps;
+    keeps.polylines = Keeping::yes;
+    keeps.names = names;
+    keeps.exact_coordinates = Keeping::yes;
+    return keeps;
+}
+
+constexpr std::array rows = {
+    Format{"irap-grid", "horizon", "IRAP classic grid, ASCII", irap_grid_extensions, sniff_irap_grid, read_irap_grid, write_irap_grid,
+           WriterWants::objects, grid_keeps(Keeping::no, Keeping::partly, Keeping::yes), grid_note, tried},
+    Format{"irap-grid-binary", "horizon", "IRAP classic grid, binary (single precision)", irap_binary_extensions, sniff_irap_grid_binary,
+           read_irap_grid_binary, write_irap_grid_binary, WriterWants::objects, grid_keeps(Keeping::no, Keeping::partly, Keeping::no),
+           grid_note, tried},
+    Format{"zmap", "horizon", "ZMAP+ grid", zmap_extensions, sniff_zmap, read_zmap, write_zmap, WriterWants::objects,
+           grid_keeps(Keeping::yes, Keeping::yes, Keeping::partly), grid_note, tried},
+    Format{"cps3", "horizon", "CPS-3 grid", cps3_extensions, sniff_cps3_grid, read_cps3_grid, write_cps3_grid, WriterWants::objects,
+           grid_keeps(Keeping::yes, Keeping::yes, Keeping::yes), grid_note, tried},
+    Format{"cps3-lines", "horizon", "CPS-3 lines", cps3_lines_extensions, sniff_cps3_lines, read_cps3_lines, write_cps3_lines,
+           WriterWants::objects, lines_keeps(Keeping::partly), plain_note, tried},
+    Format{"irap-points", "horizon", "IRAP/RMS points (attributes with --option attributes=rms)", points_extensions, sniff_irap_points,
+           read_irap_points, write_irap_points, WriterWants::objects, points_keeps(Keeping::partly, Keeping::no), plain_note, tried},
+    Format{"petrel-points", "horizon", "Petrel points with attributes", petrel_extensions, sniff_petrel_points, read_petrel_points,
+           write_petrel_points, WriterWants::objects, points_keeps(Keeping::yes, Keeping::partly),
+           "substance: second and further objects; identity: name, role, units of attributes, sign of z", tried},
+    Format{"irap-polygons", "horizon", "IRAP/RMS polygons", polygons_extensions, sniff_irap_polygons, read_irap_polygons,
+           write_irap_polygons, WriterWants::objects, lines_keeps(Keeping::no), plain_note, tried},
+};
+
+}  // namespace
+
+std::span<const Format> formats() { return rows; }
 
 }  // namespace geomend::horizon
