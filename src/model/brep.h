@@ -68,16 +68,16 @@ struct BrepData {
         LineId line;
         bool internal = false;  ///< the surface lies on both sides of the line
     };
-    /// Neighbour of a polygon across an edge; no_index at a border or on a line.
     struct Surface {
         std::string name;
         InterfaceId interface_id;
         FeatureRole role = FeatureRole::unknown;
         std::string role_text;
-        std::vector<VertexId> nodes;            ///< node -> model vertex
-        Polygons polygons;                      ///< over nodes
-        std::vector<std::uint32_t> neighbours;  ///< like polygons.corners: across the edge corner i -> i+1
-        std::vector<Attribute> attributes;      ///< over nodes (point) or polygons (polygon)
+        std::vector<VertexId> nodes;  ///< node -> model vertex
+        Polygons polygons;            ///< over nodes
+        /// Like polygons.corners: the polygon across the edge corner i -> i+1; no_index at a border or on a line.
+        std::vector<std::uint32_t> neighbours;
+        std::vector<Attribute> attributes;  ///< over nodes (point) or polygons (polygon)
         std::vector<SurfaceLine> lines;
         std::array<RegionId, 2> regions;  ///< behind [0] and in front [1] of the normals; invalid: none or Universe
         std::uint32_t source_object = no_index, source_part = no_index;
@@ -99,7 +99,11 @@ struct BrepData {
         std::vector<CellType> cell_types;
         std::vector<std::uint64_t> cell_offsets = {0};
         std::vector<std::uint32_t> cell_nodes;  ///< over nodes
-        std::vector<Attribute> attributes;      ///< over nodes (point), cells (cell) or for the whole (object)
+        /// Faces of polyhedra, as in CellMesh but over nodes; empty when there are none.
+        std::vector<std::uint64_t> cell_faces, face_offsets;
+        std::vector<std::uint32_t> face_nodes;
+        std::vector<Attribute> attributes;       ///< over nodes (point), cells (cell) or for the whole (object)
+        std::uint32_t source_object = no_index;  ///< the object that its cells come from
         std::vector<Annotation> annotations;
     };
     std::vector<Region> regions;
@@ -112,8 +116,15 @@ struct BrepData {
         std::string role_text;
         std::string feature;
         std::vector<SurfaceId> surfaces;
+        std::vector<Annotation> annotations;  ///< of the object that it comes from
     };
     std::vector<Interface> interfaces;
+    /// Geological features over surfaces of any interfaces (Gocad SURFACE lists).
+    struct Feature {
+        std::string name;
+        std::vector<SurfaceId> surfaces;
+    };
+    std::vector<Feature> features;
     /// All lines bordered by the same set of interfaces.
     struct Contact {
         std::string name;
@@ -124,6 +135,7 @@ struct BrepData {
     struct RegionList {
         std::string name;
         std::vector<RegionId> regions;
+        std::vector<std::int64_t> unresolved;  ///< numbers without a region, kept for the way back
     };
     std::vector<RegionList> layers;
     std::vector<RegionList> fault_blocks;

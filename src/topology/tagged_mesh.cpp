@@ -3,7 +3,6 @@
 
 namespace geomend::topology {
 
-Dataset faced_model(const Brep&, std::vector<Loss>&) { return {}; }
 CellMesh tagged_mesh(const Brep&, std::vector<Loss>&) { return {}; }
 
 }  // namespace geomend::topology

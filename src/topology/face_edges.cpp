@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/face_edges.h"
+
+#include <algorithm>
+#include <span>
+
+namespace geomend::topology {
+
+PolygonEdges::PolygonEdges(const Polygons& polygons) : polygons_(&polygons) {
+    if (polygons.all_triangles()) return;
+    polygon_of_.resize(polygons.corners.size());
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+        std::fill(polygon_of_.begin() + static_cast<std::ptrdiff_t>(polygons.offsets[p]),
+                  polygon_of_.begin() + static_cast<std::ptrdiff_t>(polygons.offsets[p + 1]), static_cast<std::uint32_t>(p));
+    }
+}
+
+namespace {
+
+/// One use of an edge, filed under its lower node.
+struct Use {
+    std::uint32_t other;   // the higher node
+    std::uint32_t corner;  // where it starts
+};
+
+bool is_degenerate(std::span<const std::uint32_t> polygon) {
+    if (polygon.size() < 3) return true;
+    if (polygon.size() == 3) return polygon[0] == polygon[1] || polygon[1] == polygon[2] || polygon[2] == polygon[0];
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        if (polygon[i] == polygon[(i + 1) % polygon.size()]) return true;
+    }
+    return false;
+}
+
+bool same_nodes(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+    return a.size() == b.size() && std::is_permutation(a.begin(), a.end(), b.begin());
+}
+
+/// Uses of all edges, grouped by their lower node and sorted by the higher one inside each group.
+struct EdgeTable {
+    std::vector<std::uint32_t> first;  // per node, into uses
+    std::vector<Use> uses;
+
+    EdgeTable(const BrepData::Surface& surface, const PolygonEdges& edges, const std::vector<std::uint8_t>& skip) {
+        const auto corner_count = surface.polygons.corners.size();
+        first.assign(surface.nodes.size() + 1, 0);
+        const auto lower = [&](std::size_t c) { return std::min(edges.start_node(c), edges.end_node(c)); };
+        for (std::size_t c = 0; c < corner_count; ++c) {
+            if (skip.empty() || skip[edges.polygon(c)] == 0) ++first[lower(c) + 1];
+        }
+        for (std::size_t n = 1; n < first.size(); ++n) first[n] += first[n - 1];
+        uses.resize(first.back());
+        std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+        for (std::size_t c = 0; c < corner_count; ++c) {
+            if (!skip.empty() && skip[edges.polygon(c)] != 0) continue;
+            const std::uint32_t a = edges.start_node(c), b = edges.end_node(c);
+            uses[next[std::min(a, b)]++] = {std::max(a, b), static_cast<std::uint32_t>(c)};
+        }
+        for (std::size_t n = 0; n + 1 < first.size(); ++n) {
+            std::sort(uses.begin() + first[n], uses.begin() + first[n + 1],
+                      [](const Use& x, const Use& y) { return x.other != y.other ? x.other < y.other : x.corner < y.corner; });
+        }
+    }
+
+    template <class Body>
+    void for_each_edge(const Body& body) const {
+        for (std::size_t n = 0; n + 1 < first.size(); ++n) {
+            for (std::size_t i = first[n]; i < first[n + 1];) {
+                std::size_t j = i + 1;
+                while (j < first[n + 1] && uses[j].other == uses[i].other) ++j;
+                body(std::span<const Use>(uses).subspan(i, j - i));
+                i = j;
+            }
+        }
+    }
+};
+
+/// Polygons that repeat an earlier one share all its edges, hence are found around any edge.
+std::vector<std::uint32_t> repeats(const BrepData::Surface& surface, const PolygonEdges& edges, const EdgeTable& table) {
+    std::vector<std::uint32_t> found;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> candidates;  // sum of the nodes, polygon
+    table.for_each_edge([&](std::span<const Use> around) {
+        if (around.size() < 2) return;
+        candidates.clear();
+        for (const Use& use : around) {
+            const std::uint32_t p = edges.polygon(use.corner);
+            std::uint64_t sum = 0;
+            for (const std::uint32_t node : surface.polygons[p]) sum += node;
+            candidates.emplace_back(sum, p);
+        }
+        if (around.size() == 2 && candidates[0].first != candidates[1].first) return;
+        std::sort(candidates.begin(), candidates.end());
+        std::size_t kept = 0;  // the first of its kind
+        for (std::size_t i = 1; i < candidates.size(); ++i) {
+            const std::uint32_t p = candidates[kept].second, q = candidates[i].second;
+            const bool repeat =
+                p != q && candidates[kept].first == candidates[i].first && same_nodes(surface.polygons[p], surface.polygons[q]);
+            if (repeat) {
+                found.push_back(q);
+            } else {
+                kept = i;
+            }
+        }
+    });
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+}
+
+}  // namespace
+
+FaceEdges connect_polygons(BrepData::Surface& surface) {
+    FaceEdges result;
+    const PolygonEdges edges(surface.polygons);
+    surface.neighbours.assign(surface.polygons.corners.size(), no_index);
+    std::vector<std::uint8_t> skip;
+    for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+        if (!is_degenerate(surface.polygons[p])) continue;
+        result.degenerate.push_back(static_cast<std::uint32_t>(p));
+        skip.resize(surface.polygons.size());
+        skip[p] = 1;
+    }
+    EdgeTable table(surface, edges, skip);
+    result.duplicate = repeats(surface, edges, table);
+    if (!result.duplicate.empty()) {
+        skip.resize(surface.polygons.size());
+        for (const std::uint32_t p : result.duplicate) skip[p] = 1;
+        table = EdgeTable(surface, edges, skip);
+    }
+    table.for_each_edge([&](std::span<const Use> around) {
+        if (around.size() != 2) {
+            for (const Use& use : around) result.border.push_back(use.corner);
+            return;
+        }
+        const std::uint32_t p = edges.polygon(around[0].corner), q = edges.polygon(around[1].corner);
+        if (p == q) return;  // the polygon meets itself there, as around a hole
+        surface.neighbours[around[0].corner] = q;
+        surface.neighbours[around[1].corner] = p;
+    });
+    return result;
+}
+
+}  // namespace geomend::topology

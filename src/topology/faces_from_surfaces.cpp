@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/faces_from_surfaces.h"
+
+#include <numeric>
+#include <unordered_map>
+#include <variant>
+
+namespace geomend::topology {
+
+namespace {
+
+Attribute without_values(const Attribute& a) {
+    Attribute copy;
+    copy.name = a.name;
+    copy.location = a.location;
+    copy.components = a.components;
+    copy.unit = a.unit;
+    copy.kind = a.kind;
+    copy.property_class = a.property_class;
+    copy.no_data = a.no_data;
+    copy.legal_min = a.legal_min;
+    copy.legal_max = a.legal_max;
+    copy.component_names = a.component_names;
+    copy.code_names = a.code_names;
+    copy.annotations = a.annotations;
+    return copy;
+}
+
+struct Range {
+    std::size_t first, last;
+};
+
+Range points_of(const Surface& s, std::size_t part) {
+    if (s.parts.empty()) return {0, s.points.size()};
+    return {part == 0 ? 0 : s.parts[part].first_point, part + 1 < s.parts.size() ? s.parts[part + 1].first_point : s.points.size()};
+}
+
+Range polygons_of(const Surface& s, std::size_t part) {
+    if (s.parts.empty()) return {0, s.polygons.size()};
+    return {part == 0 ? 0 : s.parts[part].first_polygon, part + 1 < s.parts.size() ? s.parts[part + 1].first_polygon : s.polygons.size()};
+}
+
+}  // namespace
+
+Attribute restricted(const Attribute& attribute, const std::vector<std::uint32_t>& indices, AttributeLocation location) {
+    Attribute result = without_values(attribute);
+    result.location = location;
+    std::visit(
+        [&](const auto& from) {
+            std::decay_t<decltype(from)> values;
+            values.reserve(indices.size() * attribute.components);
+            for (const std::uint32_t i : indices) {
+                const auto at = from.begin() + static_cast<std::ptrdiff_t>(std::size_t{i} * attribute.components);
+                values.insert(values.end(), at, at + attribute.components);
+            }
+            result.values = std::move(values);
+        },
+        attribute.values);
+    return result;
+}
+
+std::size_t part_count(const Surface& surface) { return surface.parts.empty() ? 1 : surface.parts.size(); }
+
+BrepData::Surface surface_of_part(const Surface& surface, std::uint32_t part, const std::vector<std::uint32_t>& vertex_of) {
+    BrepData::Surface result;
+    const Range points = points_of(surface, part), polygons = polygons_of(surface, part);
+    std::vector<std::uint32_t> used(points.last - points.first);
+    std::iota(used.begin(), used.end(), static_cast<std::uint32_t>(points.first));
+    std::unordered_map<std::uint32_t, std::uint32_t> foreign;
+    const auto node_of = [&](std::uint32_t point) {
+        if (point >= points.first && point < points.last) return static_cast<std::uint32_t>(point - points.first);
+        const auto [found, is_new] = foreign.emplace(point, static_cast<std::uint32_t>(used.size()));
+        if (is_new) used.push_back(point);
+        return found->second;
+    };
+    if (surface.polygons.all_triangles()) {
+        result.polygons.corners.resize(3 * (polygons.last - polygons.first));
+        for (std::size_t c = 0; c < result.polygons.corners.size(); ++c) {
+            result.polygons.corners[c] = node_of(surface.polygons.corners[3 * polygons.first + c]);
+        }
+    } else {
+        std::vector<std::uint32_t> polygon;
+        for (std::size_t p = polygons.first; p < polygons.last; ++p) {
+            polygon.clear();
+            for (const std::uint32_t point : surface.polygons[p]) polygon.push_back(node_of(point));
+            result.polygons.push_back(polygon);
+        }
+    }
+    result.nodes.reserve(used.size());
+    for (const std::uint32_t point : used) result.nodes.emplace_back(vertex_of[point]);
+    std::vector<std::uint32_t> polygon_indices(polygons.last - polygons.first);
+    std::iota(polygon_indices.begin(), polygon_indices.end(), static_cast<std::uint32_t>(polygons.first));
+    for (const Attribute& a : surface.info.attributes) {
+        if (a.location == AttributeLocation::point) result.attributes.push_back(restricted(a, used, a.location));
+        if (a.location == AttributeLocation::polygon || a.location == AttributeLocation::cell) {
+            result.attributes.push_back(restricted(a, polygon_indices, AttributeLocation::polygon));
+        }
+        if (a.location == AttributeLocation::object) result.attributes.push_back(a);
+    }
+    return result;
+}
+
+}  // namespace geomend::topology

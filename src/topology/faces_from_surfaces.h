@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include "model/dataset.h"
+#include "topology/weld.h"
+
+namespace geomend::topology {
+
+/// The values of an attribute for some of its things, in the order of `indices`. \pre each index is in range
+Attribute restricted(const Attribute& attribute, const std::vector<std::uint32_t>& indices, AttributeLocation location);
+
+/// Adds one B-Rep surface for a part of a Surface: all points of the part are its nodes, in their order, then
+/// those of other parts that its polygons use. Attributes are cut to the part.
+/// \param vertex_of per point of the surface its model vertex
+BrepData::Surface surface_of_part(const Surface& surface, std::uint32_t part, const std::vector<std::uint32_t>& vertex_of);
+
+/// Number of parts: at least 1.
+std::size_t part_count(const Surface& surface);
+
+}  // namespace geomend::topology

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/brep.h"
+#include "topology/line_graph.h"
+
+namespace geomend::topology {
+
+/// Regions found by walking along surfaces.
+struct FoundRegions {
+    std::vector<std::vector<BrepData::Side>> regions;  ///< ordered by their lowest side
+    std::vector<BrepData::Side> universe;
+    std::vector<LineId> uncertain_lines;  ///< two polygons coincide there, so their order around the line is not known
+};
+
+/// Finds the regions that surfaces bound: around each line the surfaces are put in order (exactly, at its longest
+/// edge) and each side is joined to the one that faces it; sides that hang together make a shell. A shell that encloses
+/// a positive volume bounds a region; any other lies inside the smallest region that contains it, or in the Universe.
+/// Cost: near-linear, plus (number of separate groups of surfaces) x (polygons of the shells whose boxes contain them).
+FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones);
+
+}  // namespace geomend::topology

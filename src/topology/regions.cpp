@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/regions.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/codes.h"
+#include "topology/face_volume.h"
+#include "topology/frontiers.h"
+#include "topology/side_solver.h"
+
+namespace geomend::topology {
+
+namespace {
+
+constexpr std::size_t most_elements = 100;
+
+std::string list_of_names(const BrepData& brep, const std::vector<SurfaceId>& surfaces) {
+    std::string text;
+    for (std::size_t i = 0; i < surfaces.size() && i < 5; ++i) text += (i == 0 ? "" : ", ") + brep.surfaces[surfaces[i].value].name;
+    if (surfaces.size() > 5) text += ", ...";
+    return text;
+}
+
+void mention(Finding& finding, const BrepData& brep, const std::vector<SurfaceId>& surfaces) {
+    finding.count = surfaces.size();
+    for (std::size_t i = 0; i < surfaces.size() && i < most_elements; ++i) {
+        finding.entities.push_back({"surface", brep.surfaces[surfaces[i].value].name, surfaces[i].value});
+        finding.index.push_back(surfaces[i].value);
+    }
+    finding.element_kind = "surface";
+}
+
+void judge_stated(Assembly& a, const StatedRegion& stated, const SolvedSides::Region& solved, const Enclosed& as_stated) {
+    if (stated.sides.empty()) {
+        a.findings.push_back(region_finding(a.brep, "F121", stated.name, "region '" + stated.name + "' has no boundary"));
+        return;
+    }
+    if (!solved.turned.empty()) {
+        auto finding = region_finding(a.brep, "F113", stated.name,
+                                      "region '" + stated.name + "' is stated on the wrong side of " +
+                                          list_of_names(a.brep, solved.turned) + "; its boundary was turned to what the geometry shows");
+        mention(finding, a.brep, solved.turned);
+        finding.measures = {{"volume_as_stated", as_stated.volume}, {"volume", solved.enclosed.volume}};
+        a.findings.push_back(std::move(finding));
+    }
+    // A region may have nothing but internal surfaces: then there is nothing to close.
+    if (!solved.enclosed.closed && solved.enclosed.singles > 0) {
+        a.findings.push_back(region_finding(
+            a.brep, "F113", stated.name, "the boundary of region '" + stated.name + "' does not close, so that its volume is not known"));
+    }
+}
+
+}  // namespace
+
+Finding region_finding(const BrepData&, std::string code, std::string region, std::string message) {
+    Finding finding;
+    const CodeInfo* info = find_code(code);
+    finding.severity = info != nullptr ? info->severity : Severity::warning;
+    finding.code = std::move(code);
+    finding.message = std::move(message);
+    finding.entities.push_back({"region", std::move(region), -1});
+    return finding;
+}
+
+std::vector<RegionId> add_stated_regions(Assembly& a, const std::vector<StatedRegion>& stated) {
+    std::vector<std::vector<BrepData::Side>> sides;
+    std::uint32_t universe = no_index;
+    for (std::uint32_t r = 0; r < stated.size(); ++r) {
+        sides.push_back(stated[r].sides);
+        if (stated[r].universe) universe = r;
+    }
+    const SolvedSides solved = solve_sides(sides, universe, a.cones, a.graph);
+    std::vector<RegionId> ids;
+    for (std::uint32_t r = 0; r < stated.size(); ++r) {
+        auto as_stated = enclosed(stated[r].sides, a.cones, a.graph);
+        if (solved.reversed_convention) as_stated.volume = -as_stated.volume;
+        judge_stated(a, stated[r], solved.regions[r], as_stated);
+        if (r == universe) {
+            a.brep.universe = solved.regions[r].sides;
+            ids.emplace_back();
+            continue;
+        }
+        ids.emplace_back(a.brep.regions.size());
+        BrepData::Region region;
+        region.name = stated[r].name;
+        region.sides = solved.regions[r].sides;
+        region.volume_known = solved.regions[r].enclosed.closed;
+        region.volume = region.volume_known ? solved.regions[r].enclosed.volume : std::numeric_limits<double>::quiet_NaN();
+        a.brep.regions.push_back(std::move(region));
+    }
+    return ids;
+}
+
+void add_found_regions(Assembly& a) {
+    auto found = find_regions(a.brep, a.graph, a.cones);
+    for (auto& sides : found.regions) {
+        BrepData::Region region;
+        region.name = "Region_" + std::to_string(a.brep.regions.size() + 1);
+        const Enclosed e = enclosed(sides, a.cones, a.graph);
+        region.sides = std::move(sides);
+        region.volume_known = e.closed;
+        region.volume = e.closed ? e.volume : std::numeric_limits<double>::quiet_NaN();
+        a.brep.regions.push_back(std::move(region));
+    }
+    a.brep.universe = std::move(found.universe);
+    if (found.uncertain_lines.empty()) return;
+    Finding finding;
+    finding.code = "F113";
+    finding.severity = Severity::warning;
+    finding.message = "polygons coincide along lines, so that regions there are not certain";
+    finding.count = found.uncertain_lines.size();
+    finding.element_kind = "line";
+    for (const LineId l : found.uncertain_lines) {
+        if (finding.index.size() < most_elements) finding.index.push_back(l.value);
+    }
+    a.findings.push_back(std::move(finding));
+}
+
+void settle_universe(Assembly& a) {
+    std::vector<SurfaceId> contested;
+    for (std::uint32_t r = 0; r < a.brep.regions.size(); ++r) {
+        for (const auto& side : a.brep.regions[r].sides) {
+            RegionId& region = a.brep.surfaces[side.surface.value].regions[side.front ? 1 : 0];
+            if (region.valid() && region != RegionId(r) && (contested.empty() || contested.back() != side.surface)) {
+                contested.push_back(side.surface);
+            }
+            if (!region.valid()) region = RegionId(r);
+        }
+    }
+    if (!contested.empty()) {
+        Finding finding;
+        finding.code = "F113";
+        finding.severity = Severity::warning;
+        finding.message = "several regions lie on the same side of " + list_of_names(a.brep, contested);
+        mention(finding, a.brep, contested);
+        a.findings.push_back(std::move(finding));
+    }
+    if (a.brep.universe.empty() && !a.brep.regions.empty()) {
+        for (std::uint32_t s = 0; s < a.brep.surfaces.size(); ++s) {
+            for (const bool front : {false, true}) {
+                if (!a.brep.surfaces[s].regions[front ? 1 : 0].valid()) a.brep.universe.push_back({SurfaceId(s), front});
+            }
+        }
+    }
+    const Enclosed outside = enclosed(a.brep.universe, a.cones, a.graph);
+    if (outside.closed) {
+        a.brep.universe_volume = std::abs(outside.volume);
+        return;
+    }
+    PreciseSum sum;
+    bool all_known = !a.brep.regions.empty();
+    for (const auto& region : a.brep.regions) {
+        all_known &= region.volume_known;
+        sum.add(region.volume);
+    }
+    a.brep.universe_volume = all_known ? sum.value() : 0;
+}
+
+}  // namespace geomend::topology
