@@ -387,10 +387,8 @@ void LegacyArraysOut::object_field(std::span<const Attribute* const> attributes,
     out_ << "FIELD FieldData ";
     out_.number(n) << '\n';
     for (const LegacyText& text : texts) {
-        out_ << text.name
-             << " 1 1 string
-                ";
-            strings({text.text});
+        out_ << text.name << " 1 1 string\n";
+        strings({text.text});
     }
     for (const Attribute* at : attributes) {
         const Attribute& a = *at;

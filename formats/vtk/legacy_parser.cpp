@@ -313,7 +313,9 @@ bool Parser::cells(LegacyCells& out, std::uint64_t at, const char* what) {
     std::uint64_t count = 0, size = 0;
     if (!s_.count(count, "a number of cells") || !s_.count(size, "a number of values")) return false;
     // The word tells the layouts apart more safely than the version: 'OFFS' as a binary count is 1.3e9.
+    const std::uint64_t after_counts = s_.offset();
     if (same_word(s_.peek_word(), "OFFSETS")) return offset_cells(out, count, size, what);
+    s_.jump(after_counts);
     if (file_.major_version >= 5 && count == 0 && size == 0) return metadata(nullptr);
     return counted_cells(out, count, size, what);
 }
