@@ -84,7 +84,7 @@ bool LatticeAxes::complete(int directions, std::uint64_t object_line, ObjectLog&
         whole = false;
     };
     if (!has_count_) miss("AXIS_N");
-    if (!has_origin_) miss("AXIS_O");
+    if (!has_origin_ && directions > 0) miss("AXIS_O");
     for (std::size_t i = 0; i < static_cast<std::size_t>(directions); ++i) {
         if (!has_axis_[i] && count[i] != 1) miss(i == 0 ? "AXIS_U" : i == 1 ? "AXIS_V" : "AXIS_W");
     }

@@ -24,7 +24,7 @@ public:
 
     /// Whether all that is needed was there: AXIS_N, U, V (and W for three directions). What is not is told as F012.
     /// More samples than 32-bit ids can number are refused with F014.
-    /// \param directions 3, or 2 for grids whose AXIS_W is a height
+    /// \param directions 3, or 2 for grids whose AXIS_W is a height, or 0 where only AXIS_N is needed
     bool complete(int directions, std::uint64_t object_line, ObjectLog& log) const;
 
     /// Fills dims, origin and step; z is turned to elevation where `depth`. Steps come out exactly where MAX - MIN is

@@ -245,8 +245,8 @@ private:
         if (!cells_begun_) begin_cells();
         settle_references();
         read_sets();
+        head_.finish();  // before the nodes: the sign of z may come from the group
         nodes_.finish();
-        head_.finish();
         const std::size_t tetrahedra = mesh_.cell_count();
         if (!mesh_.facet_tags.empty()) mesh_.facet_tags.resize(4 * tetrahedra);
         mesh_.facet_names = facet_reader_.take_names();

@@ -77,36 +77,16 @@ private:
         }
         const std::string_view entries = flag_entries(flags_, samples, files_, scanner_.log);
         if (scanner_.log.has_error()) return;
-        read_region_bits(entries, flags_.entry_size, head_.regions, flags_.line, scanner_.log,
-                         [](std::uint64_t sample) { return static_cast<std::uint32_t>(sample); });
-        keep_other_bits(entries, samples);
+        const auto thing = [](std::uint64_t sample) { return static_cast<std::uint32_t>(sample); };
+        read_region_bits(entries, flags_.entry_size, head_.regions, flags_.line, scanner_.log, thing);
+        if (scanner_.log.has_error()) return;
+        if (auto rest = other_bits(entries, flags_.entry_size, head_.regions, "gocad_flags", thing)) {
+            head_.info.attributes.push_back(std::move(*rest));
+        }
         for (RegionBit& region : head_.regions) {
             head_.info.annotations.push_back({"gocad.region_bit", std::to_string(region.bit) + ' ' + region.name});
             head_.info.sets.push_back({std::move(region.name), AttributeLocation::point, std::move(region.members)});
         }
-    }
-
-    // Bits that belong to no region mean something to Gocad, but we do not know what: they go along as an attribute.
-    void keep_other_bits(std::string_view entries, std::uint64_t samples) {
-        std::vector<unsigned char> known(flags_.entry_size, 0);
-        for (const RegionBit& region : head_.regions) {
-            if (static_cast<std::uint64_t>(region.bit) < 8 * flags_.entry_size) {
-                known[static_cast<std::size_t>(region.bit) / 8] |= static_cast<unsigned char>(1u << (region.bit % 8));
-            }
-        }
-        std::vector<std::uint8_t> rest(entries.size());
-        bool any = false;
-        for (std::uint64_t i = 0; i < entries.size(); ++i) {
-            rest[i] = static_cast<std::uint8_t>(static_cast<unsigned char>(entries[i]) & ~known[i % flags_.entry_size]);
-            any |= rest[i] != 0;
-        }
-        if (!any || samples == 0) return;
-        Attribute a;
-        a.name = "gocad_flags";
-        a.components = static_cast<std::uint32_t>(flags_.entry_size);
-        a.values = std::move(rest);
-        a.annotations.emplace_back("gocad.flags", "bits without a region");
-        head_.info.attributes.push_back(std::move(a));
     }
 
     ObjectScanner& scanner_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,9 @@
 // b/8 of the entry, lowest bit first.
 
 namespace geomend::gocad {
+
+/// Attributes that hold flags of Gocad's own have an annotation with this key.
+inline constexpr const char* flags_annotation = "gocad.flags";
 
 /// The records FLAGS_... or REGION_FLAGS_... that describe the file.
 struct FlagsRecords {
@@ -64,6 +68,33 @@ void read_region_bits(std::string_view entries, std::uint64_t entry_size, std::v
             if (member != no_index) region.members.push_back(member);
         }
     }
+}
+
+/// The bits that read_region_bits left over, as an attribute of samples with one component per byte; nothing where there
+/// are none. They mean something to Gocad, but not to us, and go along.
+template <class ThingOfSample>
+std::optional<Attribute> other_bits(std::string_view entries, std::uint64_t entry_size, const std::vector<RegionBit>& regions,
+                                    std::string name, ThingOfSample thing) {
+    std::vector<std::uint8_t> known(entry_size, 0);
+    for (const RegionBit& region : regions) {
+        known[static_cast<std::size_t>(region.bit) / 8] |= static_cast<std::uint8_t>(1u << (region.bit % 8));
+    }
+    std::vector<std::uint8_t> rest(entries.begin(), entries.end());
+    bool any = false;
+    for (std::size_t at = 0, sample = 0; at < rest.size(); ++sample) {
+        const bool told = thing(sample) != no_index;
+        for (std::size_t b = 0; b < entry_size; ++b, ++at) {
+            if (told) rest[at] &= static_cast<std::uint8_t>(~known[b]);
+            any |= rest[at] != 0;
+        }
+    }
+    if (!any) return {};
+    Attribute a;
+    a.name = std::move(name);
+    a.components = static_cast<std::uint32_t>(entry_size);
+    a.values = std::move(rest);
+    a.annotations.emplace_back(flags_annotation, "bits that belong to no region");
+    return a;
 }
 
 /// Appends the entries for sets: `bits[i]` is the bit of `sets[i]`, `sample(member)` the sample that speaks for it.
