@@ -12,7 +12,14 @@ ObjectReader object_reader(std::string_view type) {
         Row{"VSet", read_vset},
         Row{"PLine", read_pline},
         Row{"TSurf", read_tsurf},
+        Row{"TSolid", read_tsolid},
+        Row{"LightTSolid", read_light_tsolid},
         Row{"Voxet", read_voxet},
+        Row{"SGrid", read_sgrid},
+        Row{"GSurf", read_grid2d},
+        Row{"Grid2D", read_grid2d},
+        Row{"2DGrid", read_grid2d},
+        Row{"Well", read_well},
     };
     for (const auto& [word, reader] : rows) {
         if (same_word(type, word)) return reader;

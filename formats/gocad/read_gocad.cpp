@@ -224,10 +224,16 @@ private:
                 failed = true;
                 findings.push_back(std::move(parts_[i].failure->error));
             }
-            failed |= parts_[i].scanner->log.has_error();
             const auto& object = parts_[i].scanner->objects;
             const std::string name = object.empty() ? name_in(frame(i)) : info_of(dataset_.objects[parts_[i].first_object]).name;
-            for (Finding& finding : parts_[i].scanner->log.take(std::string(frame(i).type), name)) findings.push_back(std::move(finding));
+            std::vector<Finding> of_part = parts_[i].scanner->log.take(std::string(frame(i).type), name);
+            if (object.empty() && !dataset_.objects.empty() && lacks_only_companions(of_part)) {
+                // The other objects of the file are whole: this one is told as lost instead.
+                for (Finding& finding : of_part) finding.severity = std::min(finding.severity, Severity::warning);
+                add_loss(dataset_.losses, {LossClass::substance, name, "the whole " + std::string(frame(i).type),
+                                           "a file that it names is missing"});
+            } else failed |= parts_[i].scanner->log.has_error();
+            for (Finding& finding : of_part) findings.push_back(std::move(finding));
         }
         if (list_.stray_lines != 0) {
             ObjectLog log(input_.name());
@@ -244,6 +250,12 @@ private:
         }
         dataset_.findings = std::move(findings);
         return std::move(dataset_);
+    }
+
+    static bool lacks_only_companions(const std::vector<Finding>& findings) {
+        const auto is_error = [](const Finding& f) { return f.severity == Severity::error; };
+        return std::ranges::any_of(findings, is_error) &&
+               std::ranges::all_of(findings, [&](const Finding& f) { return !is_error(f) || f.code == "F010"; });
     }
 
     static Failure refuse(std::vector<Finding> findings) {
