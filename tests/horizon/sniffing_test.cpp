@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "horizon/horizon_test.h"
+
+namespace geomend::test {
+namespace {
+
+std::string found(std::string_view content, std::string name) {
+    const auto row = format_for_reading(text(content, std::move(name)));
+    return row ? std::string((*row)->name) : row.why().error.code;
+}
+
+TEST(Sniffing, ContentDecidesWhateverTheExtension) {
+    for (const char* name : {"a.txt", "a", "a.dat", "a.xyz"}) {
+        EXPECT_EQ(found("-996 2 25.0 50.0\n0 1 0 1\n", name), "irap-grid") << name;
+        EXPECT_EQ(found(std::string("\0\0\0\x20\xff\xff\xfc\x1c\0\0\0\2", 12), name), "irap-grid-binary") << name;
+        EXPECT_EQ(found("!\n! c\n@GRID FILE, GRID, 4\n20, 1e30, , 7, 1\n", name), "zmap") << name;
+        EXPECT_EQ(found("FSASCI 0 1 COMPUTED 0 1E30\n", name), "cps3") << name;
+        EXPECT_EQ(found("FFASCI 0 1 \"LINES\" 0 1e+10\n", name), "cps3-lines") << name;
+        EXPECT_EQ(found("# Petrel Points with attributes\n# Unit in depth: m\n", name), "petrel-points") << name;
+        EXPECT_EQ(found("1 2 3\n4 5 6\n999.0 999.0 999.0\n", name), "irap-polygons") << name;
+        EXPECT_EQ(found("1 2 3\n4 5 6\n", name), "irap-points") << name;
+        EXPECT_EQ(found("Float a\n1 2 3 4\n", name), "irap-points") << name;
+    }
+}
+
+TEST(Sniffing, OtherFamiliesAreLeftAlone) {
+    const std::vector<std::string> others = {"GOCAD TSurf 1\nHEADER {\nname:a\n}\n",
+                                             "# comment first\nGOCAD VSet 1\n",
+                                             "# vtk DataFile Version 3.0\nt\nASCII\n",
+                                             "<?xml version=\"1.0\"?>\n<VTKFile>\n",
+                                             "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
+                                             "$NOD\n1\n1 0 0 0\n",
+                                             "SPECGRID\n 1 1 3 1 F /\n",
+                                             "-- comment\nCOORD\n0 0 0 0 0 0\n/\n",
+                                             "ncols 4\nnrows 3\n",
+                                             "@article, {a}\n",
+                                             "x,y,z\n1,2,3\n",
+                                             "",
+                                             std::string("\0\0\0\x10", 4) + "SPECGRID"};
+    for (const std::string& content : others) {
+        for (const Format& row : all_formats()) {
+            if (row.family == "horizon") EXPECT_EQ(row.sniff(content, "a.xyz"), 0) << row.name << ": " << content;
+        }
+    }
+}
+
+TEST(Sniffing, AHeadThatIsCutInALineIsNoObstacle) {
+    EXPECT_GT(format("irap-points").sniff("1 2 3\n4 5 6\n7 8", "a"), 0);
+    EXPECT_GT(format("irap-polygons").sniff("1 2 3\n999 999 999\n7 8", "a"), 0);
+}
+
+TEST(TableOfFormats, SaysWhatWasTriedAndWritesWhatItReads) {
+    int rows = 0;
+    for (const Format& row : all_formats()) {
+        if (row.family != "horizon") continue;
+        ++rows;
+        EXPECT_EQ(row.tried_on, "fixtures only: no real file was found") << row.name;
+        EXPECT_NE(row.read, nullptr);
+        EXPECT_NE(row.write, nullptr);
+        EXPECT_FALSE(row.extensions.empty());
+        EXPECT_FALSE(row.lossy_note.empty());
+    }
+    EXPECT_EQ(rows, 8);
+}
+
+}  // namespace
+}  // namespace geomend::test
