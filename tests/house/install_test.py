@@ -10,23 +10,8 @@ import subprocess
 import sys
 import tempfile
 
-import tree
-
 ROOT = os.path.abspath(os.environ.get("GEOMEND_SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", "..")))
 SHOWN = re.compile(r'#\s*include\s*[<"](vtk|CGAL/|tetgen|tbb/)')
-
-SURFACE = """GOCAD TSurf 1
-HEADER {
-name: roof
-}
-TFACE
-VRTX 1 0 0 -1
-VRTX 2 1 0 -1
-VRTX 3 0 1 -1
-TRGL 1 2 3
-END
-"""
-
 
 def run(*command):
     result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -43,10 +28,9 @@ def main(build, cmake, compiler):
         run(cmake, "-S", os.path.join(ROOT, "tests", "house", "outside"), "-B", outside, f"-DCMAKE_PREFIX_PATH={prefix}",
             f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release")
         run(cmake, "--build", outside)
-        tree.write(folder, "roof.ts", SURFACE)
-        seen = run(os.path.join(outside, "outside"), os.path.join(folder, "roof.ts"))
-        if seen != "gocad 1\n":
-            sys.exit(f"the outside project saw {seen!r} in a file of one surface")
+        seen = run(os.path.join(outside, "outside"), os.path.join(ROOT, "samples", "layered_box.ml"))
+        if seen != "gocad: 9 objects, 31 surfaces, 6 regions\n":
+            sys.exit(f"the outside project saw {seen!r} in layered_box.ml")
         version = run(os.path.join(prefix, "bin", "geomend"), "--version")
         if not version.startswith("geomend "):
             sys.exit(f"the installed program calls itself {version!r}")

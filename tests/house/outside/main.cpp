@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Reads one file through the installed library and prints "format objects name..." or why it cannot be read.
+// Reads one file through the installed library and prints what it holds, or why it cannot be read.
 #include <cstdio>
 
-#include "formats/registry.h"
-#include "model/dataset.h"
+#include "pipeline/load.h"
 #include "topology/brep_from_dataset.h"
-
-namespace {
-
-int tell(const geomend::Failure& why) {
-    std::fprintf(stderr, "%s %s\n", why.error.code.c_str(), why.error.message.c_str());
-    return 3;
-}
-
-}  // namespace
 
 int main(int count, char** arguments) {
     if (count != 2) return 2;
-    const auto input = geomend::Input::open(arguments[1]);
-    if (!input) return tell(input.why());
-    const auto format = geomend::format_for_reading(*input);
-    if (!format) return tell(format.why());
-    const auto dataset = (*format)->read(*input, {});
-    if (!dataset) return tell(dataset.why());
-    std::printf("%s %zu\n", dataset->format.c_str(), dataset->objects.size());
+    auto dataset = geomend::load(arguments[1], {});
+    if (!dataset) {
+        std::fprintf(stderr, "%s %s\n", dataset.why().error.code.c_str(), dataset.why().error.message.c_str());
+        return 3;
+    }
+    geomend::topology::build_breps(*dataset);
+    std::printf("%s: %zu objects", dataset->format.c_str(), dataset->objects.size());
+    for (const auto& brep : dataset->breps) std::printf(", %zu surfaces, %zu regions", brep->surfaces.size(), brep->regions.size());
+    std::printf("\n");
     return 0;
 }
