@@ -9,8 +9,7 @@ namespace {
 
 // Gmsh numbers the edges of a cell by their end nodes, VTK goes around the bottom, the top, then upwards.
 constexpr std::uint8_t tetrahedron10[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
-constexpr std::uint8_t hexahedron27[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
-                                         19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
+constexpr std::uint8_t hexahedron27[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
 constexpr std::uint8_t wedge18[] = {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16};
 constexpr std::uint8_t pyramid13[] = {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12};
 

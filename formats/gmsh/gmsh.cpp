@@ -5,6 +5,7 @@
 
 #include "formats/gmsh/read_msh.h"
 #include "formats/gmsh/sections.h"
+#include "formats/gmsh/write_msh.h"
 
 namespace geomend::gmsh {
 
@@ -32,7 +33,7 @@ std::span<const Format> formats() {
         .extensions = extensions,
         .sniff = sniff,
         .read = read_msh,
-        .write = nullptr,
+        .write = write_msh,
         .wants = WriterWants::tagged_mesh,
         .keeps = keeps(),
         .lossy_note = "substance: polygons of more than 4 corners, polyhedra, text properties, markers and logs of wells, second-order "

@@ -55,7 +55,9 @@ DataHead take_head(Scanner& s) {
         else if (i == 1) head.components = value;
         else if (i == 2) entries = value;
     }
-    if (!s.failed() && integers < 3) s.fail("F012", "expected at least 3 integer tags (time step, components, entries), found " + std::to_string(integers), s.last_number());
+    if (!s.failed() && integers < 3)
+        s.fail("F012", "expected at least 3 integer tags (time step, components, entries), found " + std::to_string(integers),
+               s.last_number());
     // More components than a tensor of many layers are a damaged count.
     if (!s.failed() && (head.components < 1 || head.components > 256)) {
         s.fail("F012", "the number of components is 1 to 256, found " + std::to_string(head.components), s.last_number());
@@ -203,7 +205,9 @@ void take_values(Reading& r, Scanner& s, const DataHead& head, DataKind kind, Va
         const std::uint32_t index = nodes ? r.nodes.find(tag) : cell_of_tag(r, tag);
         if (s.failed()) return;
         if (index == no_index) {
-            s.fail("F007", "data '" + head.name + "' name " + (nodes ? "node " : "element ") + std::to_string(tag) + ", which is not defined", s.last_number());
+            s.fail("F007",
+                   "data '" + head.name + "' name " + (nodes ? "node " : "element ") + std::to_string(tag) + ", which is not defined",
+                   s.last_number());
             return;
         }
         const bool keep = values.has[index] == 0;
@@ -251,7 +255,10 @@ void take_element_node_values(Reading& r, Scanner& s, const DataHead& head, Valu
             }
             const std::size_t own = r.mesh.cell_nodes(cell).size();
             if (nodes != static_cast<std::int64_t>(own)) {
-                s.fail("F008", "element " + std::to_string(tag) + " has " + std::to_string(own) + " nodes, but its data are for " + std::to_string(nodes), s.last_number());
+                s.fail("F008",
+                       "element " + std::to_string(tag) + " has " + std::to_string(own) + " nodes, but its data are for " +
+                           std::to_string(nodes),
+                       s.last_number());
                 return;
             }
             widest = std::max(widest, own);
@@ -261,7 +268,8 @@ void take_element_node_values(Reading& r, Scanner& s, const DataHead& head, Valu
             for (std::size_t file_node = 0; file_node < own; ++file_node) {
                 std::size_t at = file_node;
                 if (type != nullptr && type->order != nullptr) {
-                    at = static_cast<std::size_t>(std::find(type->order, type->order + own, static_cast<std::uint8_t>(file_node)) - type->order);
+                    at = static_cast<std::size_t>(std::find(type->order, type->order + own, static_cast<std::uint8_t>(file_node)) -
+                                                  type->order);
                 }
                 for (std::size_t k = 0; k < n; ++k) {
                     const double v = s.real("a value");
@@ -290,7 +298,8 @@ Result<void> read_data(Reading& r, const Section& section) {
     if (kind != DataKind::node && !r.cells_indexed) {
         r.cells_indexed = true;
         if (const auto twice = r.cells.build(r.mesh.cell_labels, r.mesh.cell_count())) {
-            return unreadable("F009", s.location(s.position()), "element tag " + std::to_string(r.mesh.cell_labels[*twice]) + " is defined twice");
+            return unreadable("F009", s.location(s.position()),
+                              "element tag " + std::to_string(r.mesh.cell_labels[*twice]) + " is defined twice");
         }
     }
     Values values;
@@ -301,7 +310,8 @@ Result<void> read_data(Reading& r, const Section& section) {
     s.expect_end();
     if (s.failed()) return s.take_failure();
     if (!head.further_reals.empty()) {
-        add_loss(r.losses, {LossClass::style, "data '" + head.name + "'", "further real tags", "only the time is kept", head.further_reals.size()});
+        add_loss(r.losses,
+                 {LossClass::style, "data '" + head.name + "'", "further real tags", "only the time is kept", head.further_reals.size()});
     }
     add_attribute(r, head, kind, components, std::move(values), padded);
     return {};

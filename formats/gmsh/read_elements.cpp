@@ -34,7 +34,8 @@ public:
             const std::int64_t node_tag = wide ? s_.size("a node tag") : s_.integer("a node tag");
             const std::uint32_t node = r_.nodes.find(node_tag);
             if (node == no_index && !s_.failed()) {
-                s_.fail("F007", "element " + std::to_string(tag) + " uses node " + std::to_string(node_tag) + ", which is not defined", s_.last_number());
+                s_.fail("F007", "element " + std::to_string(tag) + " uses node " + std::to_string(node_tag) + ", which is not defined",
+                        s_.last_number());
             }
             if (i < most_kept_nodes) file_nodes[i] = node;
         }
@@ -95,8 +96,9 @@ Result<void> old_elements(Reading& r, Scanner& s) {
         const std::int64_t nodes = s.integer("the number of nodes");
         if (s.failed()) break;
         if (nodes != type->nodes) {
-            s.fail("F008", "element " + std::to_string(tag) + " of type " + std::to_string(type->number) + " has " + std::to_string(type->nodes) +
-                               " nodes, found the number " + std::to_string(nodes),
+            s.fail("F008",
+                   "element " + std::to_string(tag) + " of type " + std::to_string(type->number) + " has " + std::to_string(type->nodes) +
+                       " nodes, found the number " + std::to_string(nodes),
                    s.last_number());
             break;
         }
@@ -162,7 +164,8 @@ Result<void> tagged_elements(Reading& r, Scanner& s) {
             taker.add(tag, *type, taker.class_index(wanted), tags.partition, false);
         }
     }
-    if (ghosts) r.losses.push_back({LossClass::style, "", "further and ghost partitions of elements", "each cell keeps its own partition only", 1});
+    if (ghosts)
+        r.losses.push_back({LossClass::style, "", "further and ghost partitions of elements", "each cell keeps its own partition only", 1});
     return {};
 }
 
@@ -181,7 +184,8 @@ BlockPlace place_of_block(Reading& r, int dimension, std::int64_t tag) {
         Finding f;
         f.code = "F113";
         f.severity = Severity::warning;
-        f.message = "elements belong to entity " + std::to_string(tag) + " of dimension " + std::to_string(dimension) + ", which $Entities does not hold";
+        f.message = "elements belong to entity " + std::to_string(tag) + " of dimension " + std::to_string(dimension) +
+                    ", which $Entities does not hold";
         f.where.file = r.input.name();
         f.count = 1;
         if (r.findings.size() < most_listed) r.findings.push_back(std::move(f));
@@ -206,8 +210,9 @@ Result<void> blocks_of_elements(Reading& r, Scanner& s, bool v41) {
         const ElementType* type = taker.type(s.integer("an element type"));
         if (type == nullptr) break;
         if (type->dimension != dimension) {
-            s.fail("F012", "elements of type " + std::to_string(type->number) + " have dimension " + std::to_string(type->dimension) +
-                               ", but the block is of an entity of dimension " + std::to_string(dimension),
+            s.fail("F012",
+                   "elements of type " + std::to_string(type->number) + " have dimension " + std::to_string(type->dimension) +
+                       ", but the block is of an entity of dimension " + std::to_string(dimension),
                    s.last_number());
             break;
         }

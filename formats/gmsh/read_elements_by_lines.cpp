@@ -50,8 +50,10 @@ const char* take_nodes(const char* p, const char* end, const ElementType& type, 
 }
 
 void note(ElementPiece& piece, const ElementType& type, bool twice, std::size_t cell) {
-    if (type.kept < type.nodes) [[unlikely]] ++piece.dropped[type.number];
-    if (!twice) [[likely]] return;
+    if (type.kept < type.nodes) [[unlikely]]
+        ++piece.dropped[type.number];
+    if (!twice) [[likely]]
+        return;
     ++piece.degenerate;
     if (piece.degenerate_cells.size() < most_listed) piece.degenerate_cells.push_back(static_cast<std::uint32_t>(cell));
 }
@@ -259,7 +261,8 @@ bool read_elements_by_lines(Reading& r, std::string_view content) {
     parallel_for_each_index(pieces.size(), [&](std::size_t i) {
         if (!good.load(std::memory_order_relaxed)) return;
         const bool stop = r.options.monitor != nullptr && r.options.monitor->stopped();
-        const bool read = !stop && (blocks ? read_block_piece(pieces[i], end, r.nodes, target) : read_plain_piece(pieces[i], end, r.nodes, target));
+        const bool read =
+            !stop && (blocks ? read_block_piece(pieces[i], end, r.nodes, target) : read_plain_piece(pieces[i], end, r.nodes, target));
         if (!read) good = false;
     });
     if (!good) {

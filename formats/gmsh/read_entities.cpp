@@ -69,10 +69,12 @@ constexpr std::array<const char*, 4> count_names = {"number of points", "number 
 void check_boundaries(Reading& r, Scanner& s) {
     for (const CellMesh::Entity& entity : r.mesh.entities) {
         for (const std::int64_t tag : entity.boundary) {
-            const bool found = tag != std::numeric_limits<std::int64_t>::min() && r.entity_of.contains({entity.dimension - 1, std::abs(tag)});
+            const bool found =
+                tag != std::numeric_limits<std::int64_t>::min() && r.entity_of.contains({entity.dimension - 1, std::abs(tag)});
             if (found) continue;
-            s.fail("F007", "entity " + std::to_string(entity.tag) + " of dimension " + std::to_string(entity.dimension) + " is bounded by entity " +
-                               std::to_string(tag) + " of dimension " + std::to_string(entity.dimension - 1) + ", which is not defined");
+            s.fail("F007", "entity " + std::to_string(entity.tag) + " of dimension " + std::to_string(entity.dimension) +
+                               " is bounded by entity " + std::to_string(tag) + " of dimension " + std::to_string(entity.dimension - 1) +
+                               ", which is not defined");
             return;
         }
     }
@@ -90,7 +92,8 @@ Result<void> read_physical_names(Reading& r, const Section& section) {
         const char* before = s.position();
         const std::string_view rest = trimmed(s.line());
         if (s.failed()) break;
-        if (dimension < 0 || dimension > 3) s.fail("F012", "the dimension of a physical group is 0 to 3, found " + std::to_string(dimension), before);
+        if (dimension < 0 || dimension > 3)
+            s.fail("F012", "the dimension of a physical group is 0 to 3, found " + std::to_string(dimension), before);
         // A name may hold quotes, so that it runs from the first to the last one of the line.
         const bool quoted = rest.size() >= 2 && rest.front() == '"' && rest.back() == '"';
         if (rest.empty()) s.fail("F012", "expected the name of physical group " + std::to_string(tag), before);
@@ -112,7 +115,8 @@ Result<void> read_entities(Reading& r, const Section& section) {
         for (std::uint64_t i = 0; i < counts[static_cast<std::size_t>(dimension)] && !s.failed(); ++i) {
             const std::int64_t tag = s.integer("an entity tag");
             if (!s.failed() && r.entity_of.contains({dimension, tag})) {
-                s.fail("F009", "entity " + std::to_string(tag) + " of dimension " + std::to_string(dimension) + " is defined twice", s.last_number());
+                s.fail("F009", "entity " + std::to_string(tag) + " of dimension " + std::to_string(dimension) + " is defined twice",
+                       s.last_number());
             }
             if (s.failed()) break;
             const std::uint32_t index = entity_index(r, dimension, tag);
@@ -296,9 +300,24 @@ void entities_of_sets(Reading& r, const Merged& merged) {
         mesh.cell_entity[cell] = at->second;
     }
     if (splits > 0) {
-        tell(r, "F122", Severity::info, "elements of one elementary entity are in different physical groups: each set of groups was made an entity of its own",
+        tell(r, "F122", Severity::info,
+             "elements of one elementary entity are in different physical groups: each set of groups was made an entity of its own",
              splits);
     }
+}
+
+// By dimension and tag, as MSH 4 has them, whatever the order of the elements.
+void sort_entities(Reading& r) {
+    CellMesh& mesh = r.mesh;
+    std::vector<std::uint32_t> rank(mesh.entities.size());
+    std::vector<CellMesh::Entity> sorted;
+    for (auto& [key, index] : r.entity_of) {
+        rank[index] = static_cast<std::uint32_t>(sorted.size());
+        sorted.push_back(std::move(mesh.entities[index]));
+        index = rank[index];
+    }
+    mesh.entities = std::move(sorted);
+    for (std::uint32_t& e : mesh.cell_entity) e = e == no_index ? no_index : rank[e];
 }
 
 }  // namespace
@@ -321,10 +340,12 @@ Result<void> entities_from_classes(Reading& r) {
         merged = merge_repeated(r, shared);
         if (!merged.of.empty()) {
             const std::uint64_t dropped = drop_cells(r, merged);
-            tell(r, "F123", Severity::info, "elements are repeated because their entity is in several physical groups: each is kept once", dropped);
+            tell(r, "F123", Severity::info, "elements are repeated because their entity is in several physical groups: each is kept once",
+                 dropped);
         }
     }
     entities_of_sets(r, merged);
+    sort_entities(r);
     if (mesh.entities.empty()) mesh.cell_entity.clear();
     return {};
 }

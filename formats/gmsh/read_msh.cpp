@@ -6,8 +6,8 @@
 #include <set>
 
 #include "base/text_cursor.h"
+#include "formats/gmsh/geomend_section.h"
 #include "formats/gmsh/reading.h"
-#include "model/dataset_text.h"
 
 namespace geomend::gmsh {
 
@@ -17,7 +17,9 @@ namespace {
 
 using Step = Result<void> (*)(Reading&, const Section&);
 
-bool named(const Section& section, std::initializer_list<std::string_view> names) { return std::ranges::find(names, section.name) != names.end(); }
+bool named(const Section& section, std::initializer_list<std::string_view> names) {
+    return std::ranges::find(names, section.name) != names.end();
+}
 
 // Sections may stand in any order in the file; they are read in the order in which they need each other.
 Result<void> read_all_named(Reading& r, std::initializer_list<std::string_view> names, bool only_once, Step step) {
@@ -56,8 +58,10 @@ void report_elements(Reading& r) {
     }
     for (const auto& [number, count] : r.dropped_nodes) {
         const ElementType& type = *element_type(number);
-        r.losses.push_back({LossClass::substance, "", "the " + std::to_string(type.nodes - type.kept) + " further nodes of elements of type " + std::to_string(number),
-                            std::string("they are read as ") + to_string(type.cell), count});
+        r.losses.push_back(
+            {LossClass::substance, "",
+             "the " + std::to_string(type.nodes - type.kept) + " further nodes of elements of type " + std::to_string(number),
+             std::string("they are read as ") + to_string(type.cell), count});
     }
     if (r.mesh.cell_count() == 0) {
         r.findings.push_back(finding_about(r, "F119", Severity::warning, "the file holds nodes, but no elements", r.mesh.points.size()));
@@ -69,7 +73,8 @@ void report_interfaces(Reading& r) {
     if (r.partitioned.empty()) return;
     for (const std::uint32_t e : r.mesh.cell_entity) loose += e == no_index ? 1 : 0;
     if (loose == 0) return;
-    r.findings.push_back(finding_about(r, "F102", Severity::info, "elements on interfaces between partitions belong to no entity of the model", loose));
+    r.findings.push_back(
+        finding_about(r, "F102", Severity::info, "elements on interfaces between partitions belong to no entity of the model", loose));
 }
 
 void add_partitions(Reading& r) {
@@ -94,7 +99,8 @@ Result<void> index_elements(Reading& r, const Section&) {
     r.cells_indexed = true;
     const auto twice = r.cells.build(r.mesh.cell_labels, r.mesh.cell_count());
     if (!twice) return {};
-    return unreadable("F009", {r.input.name()}, "section $Elements: element tag " + std::to_string(r.mesh.cell_labels[*twice]) + " is defined twice");
+    return unreadable("F009", {r.input.name()},
+                      "section $Elements: element tag " + std::to_string(r.mesh.cell_labels[*twice]) + " is defined twice");
 }
 
 Result<void> read_mesh(Reading& r) {
@@ -118,8 +124,8 @@ Result<void> read_mesh(Reading& r) {
 }
 
 bool is_read_elsewhere(const Section& section) {
-    return named(section, {"PhysicalNames", "Entities", "PartitionedEntities", "NOD", "Nodes", "ParametricNodes", "ELM", "Elements", "NodeData",
-                           "ElementData", "ElementNodeData", "Periodic", "Geomend"});
+    return named(section, {"PhysicalNames", "Entities", "PartitionedEntities", "NOD", "Nodes", "ParametricNodes", "ELM", "Elements",
+                           "NodeData", "ElementData", "ElementNodeData", "Periodic", "Geomend"});
 }
 
 std::string variant_text(const MshLayout& layout) {
@@ -134,19 +140,23 @@ void keep_unknown(Reading& r, const Section& section) {
     constexpr std::size_t largest_kept = std::size_t{1} << 16;
     constexpr std::size_t most_kept = 64;
     const auto kept = std::ranges::count(r.mesh.info.annotations, "gmsh.section", &Annotation::key);
-    const bool text = std::ranges::all_of(section.content, [](char c) { return static_cast<unsigned char>(c) >= ' ' || (c >= '\t' && c <= '\r'); });
+    const bool text =
+        std::ranges::all_of(section.content, [](char c) { return static_cast<unsigned char>(c) >= ' ' || (c >= '\t' && c <= '\r'); });
     if (text && section.content.size() <= largest_kept && static_cast<std::size_t>(kept) < most_kept) {
         r.mesh.info.annotations.push_back({"gmsh.section", "$" + std::string(section.name) + "\n" + std::string(section.content)});
         return;
     }
-    add_loss(r.losses, {LossClass::style, "", "section $" + std::string(section.name.substr(0, 60)), "it is not known, and is binary or large", 1});
+    add_loss(r.losses,
+             {LossClass::style, "", "section $" + std::string(section.name.substr(0, 60)), "it is not known, and is binary or large", 1});
 }
 
 Result<Dataset> read_msh(const Input& input, const ReadOptions& options) {
     auto layout = lay_out(input);
     if (!layout) return std::move(layout).why();
     Reading r(input, options, std::move(*layout));
-    const bool has_nodes = std::ranges::any_of(r.layout.sections, [](const Section& s) { return named(s, {"NOD", "Nodes", "ParametricNodes"}); });
+    const bool has_nodes = std::ranges::any_of(r.layout.sections, [](const Section& s) {
+        return named(s, {"NOD", "Nodes", "ParametricNodes"});
+    });
     if (!has_nodes) return unreadable("F017", {input.name()}, "the file holds no nodes: expected a section $Nodes");
     if (auto ok = read_mesh(r); !ok) return std::move(ok).why();
     name_entities(r.mesh);
@@ -162,7 +172,7 @@ Result<Dataset> read_msh(const Input& input, const ReadOptions& options) {
     dataset.losses = std::move(r.losses);
     dataset.objects.emplace_back(std::move(r.mesh));
     for (const Section& section : r.layout.sections) {
-        if (section.name == "Geomend") apply_dataset_text(trimmed(section.content), dataset);
+        if (section.name == "Geomend") apply_geomend_line(trimmed(section.content), dataset);
     }
     return dataset;
 }

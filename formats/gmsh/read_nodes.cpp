@@ -51,7 +51,8 @@ Result<void> one_block(Reading& r, Scanner& s, bool v41, std::size_t total, bool
     CellMesh& mesh = r.mesh;
     std::int64_t head[2] = {s.integer("an entity's dimension or tag"), s.integer("an entity's dimension or tag")};
     const std::int64_t dimension = v41 ? head[0] : head[1];
-    if (!s.failed() && (dimension < 0 || dimension > 3)) s.fail("F012", "an entity's dimension is 0 to 3, found " + std::to_string(dimension), s.last_number());
+    if (!s.failed() && (dimension < 0 || dimension > 3))
+        s.fail("F012", "an entity's dimension is 0 to 3, found " + std::to_string(dimension), s.last_number());
     const bool parametric = s.integer("the flag for parametric nodes") != 0;
     parametric_seen |= parametric;
     std::int64_t parameters = parametric ? dimension : 0;
@@ -116,8 +117,9 @@ Result<void> read_nodes(Reading& r, const Section& section) {
     if (r.mesh.points.size() >= no_index) return unreadable("F014", {r.input.name()}, "more than 4294967294 nodes are not supported");
     const auto twice = r.nodes.build(r.mesh.point_labels, r.mesh.points.size());
     if (twice) {
-        return unreadable("F009", place_of_node(r, s, section, *twice),
-                          "section $" + std::string(section.name) + ": node tag " + std::to_string(r.mesh.point_labels[*twice]) + " is defined twice");
+        return unreadable(
+            "F009", place_of_node(r, s, section, *twice),
+            "section $" + std::string(section.name) + ": node tag " + std::to_string(r.mesh.point_labels[*twice]) + " is defined twice");
     }
     if (parametric_seen) {
         r.losses.push_back({LossClass::style, "", "parametric coordinates of nodes", "nodes are kept by their positions", 1});

@@ -41,7 +41,8 @@ bool read_piece(const NodePiece& piece, const char* end, std::int64_t* tags, Vec
 }
 
 // Goes over `lines` lines and cuts them into pieces on the way; nullptr where the text ends before.
-const char* add_pieces(const char* p, const char* end, LineKind kind, std::size_t first, std::size_t lines, std::vector<NodePiece>& pieces) {
+const char* add_pieces(const char* p, const char* end, LineKind kind, std::size_t first, std::size_t lines,
+                       std::vector<NodePiece>& pieces) {
     for (std::size_t done = 0; done < lines;) {
         const std::size_t n = std::min(piece_lines, lines - done);
         pieces.push_back({kind, p, first + done, n});
@@ -104,7 +105,8 @@ bool read_nodes_by_lines(Reading& r, std::string_view content) {
     const std::uint64_t total = blocks ? head[1] : head[0];
     if (total > content.size() / 2 || total >= no_index) return false;
     std::vector<NodePiece> pieces;
-    const bool planned = blocks ? plan_blocks(p, end, version == MshVersion::v41, head[0], total, pieces) : plan_plain(p, end, total, pieces);
+    const bool planned =
+        blocks ? plan_blocks(p, end, version == MshVersion::v41, head[0], total, pieces) : plan_plain(p, end, total, pieces);
     if (!planned) return false;
 
     r.mesh.points.resize(total);

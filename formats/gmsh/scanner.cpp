@@ -135,7 +135,8 @@ bool Scanner::at_end() {
 
 void Scanner::expect_end() {
     if (failed_ || at_end()) return;
-    if (encoding_.binary) fail("F008", std::to_string(left()) + " bytes are left after the last record: the section holds more than its counts say");
+    if (encoding_.binary)
+        fail("F008", std::to_string(left()) + " bytes are left after the last record: the section holds more than its counts say");
     else fail("F008", "found " + quoted(next_word()) + " after the last record: the section holds more than its counts say");
 }
 

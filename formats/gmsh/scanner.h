@@ -16,7 +16,7 @@ namespace geomend::gmsh {
 /// How the numbers of a section are stored.
 struct Encoding {
     bool binary = false;
-    bool swapped = false;         ///< the file's byte order is not this machine's
+    bool swapped = false;          ///< the file's byte order is not this machine's
     std::uint32_t size_bytes = 8;  ///< size of a size_t in binary files
 };
 
@@ -26,11 +26,7 @@ class Scanner {
 public:
     /// \param section bytes between the section's name and its $End line, a part of the input's bytes
     Scanner(const Input& input, std::string_view section, std::string_view section_name, Encoding encoding)
-        : input_(&input),
-          name_(section_name),
-          at_(section.data()),
-          end_(section.data() + section.size()),
-          encoding_(encoding) {}
+        : input_(&input), name_(section_name), at_(section.data()), end_(section.data() + section.size()), encoding_(encoding) {}
 
     void set_encoding(Encoding encoding) { encoding_ = encoding; }
     const Encoding& encoding() const { return encoding_; }

@@ -69,8 +69,9 @@ const char* find_end(const char* from, const char* end, std::string_view name, b
 }
 
 bool is_mesh_section(std::string_view name) {
-    constexpr std::string_view names[] = {"Nodes", "Elements", "NOD", "ELM", "Entities", "PartitionedEntities", "NodeData", "ElementData",
-                                          "ElementNodeData", "PhysicalNames", "ParametricNodes"};
+    constexpr std::string_view names[] = {
+        "Nodes",         "Elements",       "NOD", "ELM", "Entities", "PartitionedEntities", "NodeData", "ElementData", "ElementNodeData",
+        "PhysicalNames", "ParametricNodes"};
     return std::ranges::find(names, name) != std::end(names);
 }
 
@@ -86,33 +87,43 @@ Result<void> read_format(const Input& input, std::string_view content, MshLayout
                       cursor.integer(data_size) == NumberStatus::ok;
     const Location where = place(input, content.data());
     if (!read) {
-        return unreadable("F012", where,
-                          "section $MeshFormat: expected 'version file-type data-size', found '" + std::string(cursor.line_text().substr(0, 60)) + "'");
+        return unreadable(
+            "F012", where,
+            "section $MeshFormat: expected 'version file-type data-size', found '" + std::string(cursor.line_text().substr(0, 60)) + "'");
     }
     layout.version_text = version;
     if (number == 1) layout.version = MshVersion::v1;
     else if (number >= 2 && number <= 2.2) layout.version = MshVersion::v2;
     else if (number == 4) layout.version = MshVersion::v40;
     else if (number == 4.1) layout.version = MshVersion::v41;
-    else return unreadable("F013", where, "MSH version " + std::string(version.substr(0, 20)) + " is not supported: 1, 2.0 to 2.2, 4.0 and 4.1 are");
-    if (file_type != 0 && file_type != 1) return unreadable("F012", where, "section $MeshFormat: the file type is 0 (text) or 1 (binary), found " + std::to_string(file_type));
+    else
+        return unreadable("F013", where,
+                          "MSH version " + std::string(version.substr(0, 20)) + " is not supported: 1, 2.0 to 2.2, 4.0 and 4.1 are");
+    if (file_type != 0 && file_type != 1)
+        return unreadable("F012", where,
+                          "section $MeshFormat: the file type is 0 (text) or 1 (binary), found " + std::to_string(file_type));
     layout.encoding.binary = file_type == 1;
     if (!layout.encoding.binary) return {};
     const bool sizes_fit = data_size == 8 || (data_size == 4 && layout.version != MshVersion::v2);
-    if (!sizes_fit) return unreadable("F013", where, "section $MeshFormat: data size " + std::to_string(data_size) + " is not supported in binary files: 8 is");
+    if (!sizes_fit)
+        return unreadable("F013", where,
+                          "section $MeshFormat: data size " + std::to_string(data_size) + " is not supported in binary files: 8 is");
     layout.encoding.size_bytes = static_cast<std::uint32_t>(data_size);
     const char* one = cursor.next_line_begin();
     std::uint32_t bits = 0;
-    if (content.data() + content.size() - one < 4) return unreadable("F004", place(input, one), "section $MeshFormat: the integer 1 that tells the byte order is missing");
+    if (content.data() + content.size() - one < 4)
+        return unreadable("F004", place(input, one), "section $MeshFormat: the integer 1 that tells the byte order is missing");
     std::memcpy(&bits, one, 4);
     if (bits == 1) return {};
-    if (bits != __builtin_bswap32(1)) return unreadable("F012", place(input, one), "section $MeshFormat: the integer that tells the byte order is not 1");
+    if (bits != __builtin_bswap32(1))
+        return unreadable("F012", place(input, one), "section $MeshFormat: the integer that tells the byte order is not 1");
     layout.encoding.swapped = true;
     return {};
 }
 
 Failure unclosed(const Input& input, const char* mark, std::string_view name, std::string_view found) {
-    std::string message = "section $" + std::string(name.substr(0, 60)) + " is not closed: expected $End" + std::string(name.substr(0, 60)) + ", ";
+    std::string message =
+        "section $" + std::string(name.substr(0, 60)) + " is not closed: expected $End" + std::string(name.substr(0, 60)) + ", ";
     message += found.empty() ? "but the file ends" : "found " + std::string(found.substr(0, 60));
     return unreadable("F004", place(input, mark), message);
 }
@@ -131,11 +142,13 @@ Result<MshLayout> lay_out(const Input& input) {
     while (mark != end) {
         const std::string_view name = word_at(mark + 1, end);
         if (name.starts_with("End") || name.starts_with("END")) {
-            return unreadable("F012", place(input, mark), "found $" + std::string(name.substr(0, 60)) + " without the start of its section");
+            return unreadable("F012", place(input, mark),
+                              "found $" + std::string(name.substr(0, 60)) + " without the start of its section");
         }
         const char* content = after_line(mark, end);
         const bool mesh_text = is_mesh_section(name) && !layout.encoding.binary;
-        const char* stop = mesh_text ? next_mark(content, end, begin) : find_end(content, end, name, layout.encoding.binary || name == "MeshFormat", begin);
+        const char* stop = mesh_text ? next_mark(content, end, begin)
+                                     : find_end(content, end, name, layout.encoding.binary || name == "MeshFormat", begin);
         if (stop == end) return unclosed(input, mark, name, {});
         const std::string_view found = word_at(stop, end);
         const std::string_view tail = found.substr(1);
