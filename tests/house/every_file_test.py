@@ -19,7 +19,7 @@ LONGEST_SOURCE = 900
 
 
 def is_program_text(path):
-    if path.startswith(tree.DATA_FOLDERS):
+    if path.startswith(tree.DATA_FOLDERS) or path.endswith(".md"):
         return False
     return path.endswith(PROGRAM_TEXT) or path.startswith((".ci/", "scripts/"))
 
