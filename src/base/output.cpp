@@ -104,6 +104,8 @@ void OutputFile::flush() {
 }
 
 void OutputFile::finish() {
+    if (finished_) return;
+    finished_ = true;
     flush();
     if (error_ == 0 && packer_) {
         z_stream& z = packer_->stream;
@@ -121,6 +123,8 @@ void OutputFile::finish() {
     ::close(fd_);
     fd_ = ::open(temporary_.c_str(), O_RDWR | O_CLOEXEC);
     if (fd_ < 0 || ::fsync(fd_) != 0) error_ = errno;
+    if (fd_ >= 0) ::close(fd_);
+    fd_ = -1;
 }
 
 OutputSet::OutputSet(fs::path main_path) : main_path_(std::move(main_path)) {}

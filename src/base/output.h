@@ -40,6 +40,9 @@ public:
         if (buffer_.size() >= flush_size) flush();
         return *this;
     }
+    /// Flushes, syncs and closes the file, so that results of very many files do not hold as many descriptors. Nothing
+    /// may be written after. The commit does it for files that are still open.
+    void close() { finish(); }
     /// False once a write has failed: long loops may stop early.
     bool good() const { return error_ == 0; }
     /// Where the bytes go for now; for libraries that write by path. Such a library must replace or
@@ -65,6 +68,7 @@ private:
     int fd_ = -1;
     int error_ = 0;
     bool standard_output_ = false;
+    bool finished_ = false;
     bool committed_ = false;
 };
 
