@@ -5,6 +5,7 @@
 
 #include "formats/gocad/object_frame.h"
 #include "formats/gocad/read_gocad.h"
+#include "formats/gocad/write_gocad.h"
 
 namespace geomend::gocad {
 
@@ -18,7 +19,8 @@ constexpr std::array<std::string_view, 1> ml{".ml"}, ts{".ts"}, pl{".pl"}, vs{".
     wl{".wl"}, gp{".gp"};
 constexpr std::array<std::string_view, 2> gs{".gs", ".grs"};
 
-Format row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions) {
+Format row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions, Writer write = write_objects,
+           WriterWants wants = WriterWants::objects) {
     Format format;
     format.name = name;
     format.family = "gocad";
@@ -26,6 +28,19 @@ Format row(std::string_view name, std::string_view title, std::span<const std::s
     format.extensions = extensions;
     format.sniff = sniff;
     format.read = read_gocad;
+    format.write = write;
+    format.wants = wants;
+    using enum Keeping;
+    Keeps& keeps = format.keeps;
+    keeps.points = keeps.polylines = keeps.surfaces = keeps.wells = yes;
+    keeps.cells = keeps.structured_grids = keeps.rasters = partly;
+    keeps.several_objects = keeps.names = keeps.roles = keeps.units = keeps.no_data = keeps.crs = keeps.exact_coordinates = yes;
+    keeps.attributes = partly;
+    keeps.brep = write == write_model3d || wants == WriterWants::tagged_mesh ? yes : no;
+    format.lossy_note =
+        "substance: polygons with more than three corners (but with triangulate=yes), cells that are not tetrahedra, text values; "
+        "identity: types of numbers; style: annotations of other formats";
+    format.tried_on = "real files";
     return format;
 }
 
@@ -33,12 +48,12 @@ Format row(std::string_view name, std::string_view title, std::span<const std::s
 
 std::span<const Format> formats() {
     static const std::array rows{
-        row("gocad-ml", "Gocad Model3d: surfaces, regions, layers", ml),
+        row("gocad-ml", "Gocad Model3d: surfaces, regions, layers", ml, write_model3d, WriterWants::faced_model),
         row("gocad-ts", "Gocad TSurf: triangulated surfaces", ts),
         row("gocad-pl", "Gocad PLine: polylines", pl),
         row("gocad-vs", "Gocad VSet: points", vs),
-        row("gocad-so", "Gocad TSolid: tetrahedra", so),
-        row("gocad-lso", "Gocad LightTSolid: tetrahedra", lso),
+        row("gocad-so", "Gocad TSolid: tetrahedra", so, write_objects, WriterWants::tagged_mesh),
+        row("gocad-lso", "Gocad LightTSolid: tetrahedra", lso, write_light_objects, WriterWants::tagged_mesh),
         row("gocad-sg", "Gocad SGrid: curvilinear grid", sg),
         row("gocad-vo", "Gocad Voxet: regular lattice", vo),
         row("gocad-gs", "Gocad 2D grid", gs),

@@ -34,4 +34,7 @@ Result<Model3dClaims> read_model3d(ObjectScanner& scanner);
 /// \pre every Surface among the candidates has valid indices
 void attach_faces(Model3dClaims& claims, const std::vector<Object>& objects, std::span<const std::uint32_t> candidates, ObjectLog& log);
 
+/// Whether a TSurf is the one that a TSURF record of this name means: by its name or its name_in_model_list.
+bool goes_by(const ObjectInfo& info, const std::string& name);
+
 }  // namespace geomend::gocad

@@ -21,11 +21,6 @@ std::string_view header_value(const ObjectInfo& info, std::string_view key) {
     return {};
 }
 
-bool goes_by(const Object& object, const std::string& name) {
-    const ObjectInfo& info = info_of(object);
-    return info.name == name || header_value(info, "name_in_model_list") == name;
-}
-
 /// For each TSURF name the object it names, or no_index.
 std::vector<std::uint32_t> match_names(const Model3dClaims& claims, const std::vector<Object>& objects,
                                        std::span<const std::uint32_t> candidates, ObjectLog& log) {
@@ -33,7 +28,7 @@ std::vector<std::uint32_t> match_names(const Model3dClaims& claims, const std::v
     std::vector<std::uint32_t> found(count, no_index);
     // As Gocad writes it: the same order.
     bool in_order = candidates.size() >= count;
-    for (std::size_t i = 0; i != count && in_order; ++i) in_order = goes_by(objects[candidates[i]], claims.tsurfs[i].name);
+    for (std::size_t i = 0; i != count && in_order; ++i) in_order = goes_by(info_of(objects[candidates[i]]), claims.tsurfs[i].name);
     if (in_order) {
         std::copy_n(candidates.begin(), count, found.begin());
         return found;
@@ -109,6 +104,10 @@ void compare_keys(const Model3dClaims& claims, const std::vector<Object>& object
 
 }  // namespace
 
+bool goes_by(const ObjectInfo& info, const std::string& name) {
+    return info.name == name || header_value(info, "name_in_model_list") == name;
+}
+
 void attach_faces(Model3dClaims& claims, const std::vector<Object>& objects, std::span<const std::uint32_t> candidates, ObjectLog& log) {
     const std::vector<std::uint32_t> found = match_names(claims, objects, candidates, log);
     if (std::ranges::find(found, no_index) != found.end()) return;
@@ -150,7 +149,18 @@ void attach_faces(Model3dClaims& claims, const std::vector<Object>& objects, std
             faces[records[t][part]].part = part;
         }
     }
-    if (!log.has_error()) compare_keys(claims, objects, log);
+    if (log.has_error()) return;
+    // A Model3d without a coordinate block speaks in the frame of its surfaces.
+    if (!claims.model.crs.stated && !found.empty()) {
+        claims.model.crs = info_of(objects[found.front()]).crs;
+        if (claims.model.crs.z_positive == ZPositive::depth) {
+            for (StatedModel::Face& face : faces) {
+                if (!face.key) continue;
+                for (Vec3& corner : *face.key) corner[2] = -corner[2];
+            }
+        }
+    }
+    compare_keys(claims, objects, log);
 }
 
 }  // namespace geomend::gocad

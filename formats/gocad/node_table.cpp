@@ -2,6 +2,7 @@
 #include "formats/gocad/node_table.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -120,7 +121,12 @@ void NodeTable::read_vertex(TextCursor& line, bool with_values) {
         if (status == NumberStatus::ok && std::isfinite(coordinate)) continue;
         if (status == NumberStatus::ok) {
             log.add(
-                "F006", line.line(), column, [&] { return "a coordinate of node " + std::to_string(id) + " is not finite"; }, {}, id);
+                "F006", line.line(), column,
+                [&] {
+                    return "expected finite coordinates of node " + std::to_string(id) + ", found '" +
+                           std::string(trimmed(line.line_text())) + "'";
+                },
+                {}, id);
             coordinate = 0;
             continue;
         }
@@ -238,23 +244,32 @@ void NodeWriter::append(std::string& out, std::size_t first, std::size_t last, b
     const bool with_values = !attributes_.empty();
     const std::string_view vertex = with_values ? "PVRTX " : "VRTX ";
     const std::string_view atom = light ? (with_values ? "SHAREDPVRTX " : "SHAREDVRTX ") : (with_values ? "PATOM " : "ATOM ");
+    char line[160];  // a keyword, two ids or an id and three reals of at most 24 characters
+    char* const end = line + sizeof line;
     for (std::size_t i = first; i != last; ++i) {
         const bool is_atom = !alias_.empty() && alias_[i] != no_index;
-        out += is_atom ? atom : vertex;
-        append_number(out, labels_[i]);
-        out += ' ';
+        const std::string_view keyword = is_atom ? atom : vertex;
+        char* p = std::copy(keyword.begin(), keyword.end(), line);
+        p = std::to_chars(p, end, labels_[i]).ptr;
+        *p++ = ' ';
         if (is_atom) {
-            append_number(out, labels_[alias_[i]]);
+            p = std::to_chars(p, end, labels_[alias_[i]]).ptr;
         } else {
-            append_number(out, points_[i][0]);
-            out += ' ';
-            append_number(out, points_[i][1]);
-            out += ' ';
-            append_number(out, sign_ * points_[i][2]);
+            p = std::to_chars(p, end, points_[i][0]).ptr;
+            *p++ = ' ';
+            p = std::to_chars(p, end, points_[i][1]).ptr;
+            *p++ = ' ';
+            p = std::to_chars(p, end, sign_ * points_[i][2]).ptr;
         }
-        if (with_values) append_values(out, attributes_, i);
-        if (!flags_.empty()) append_flags(out, i);
-        out += '\n';
+        if (with_values || !flags_.empty()) {
+            out.append(line, p);
+            append_values(out, attributes_, i);
+            append_flags(out, i);
+            out += '\n';
+        } else {
+            *p++ = '\n';
+            out.append(line, p);
+        }
     }
 }
 

@@ -167,20 +167,46 @@ void write_object_head(OutputFile& out, std::string_view type, const ObjectInfo&
         if (a.key != "gocad.header") continue;
         const auto name = name_of(a.value);
         if (name && named) continue;
-        if (name && *name != info.name) out << "name:" << info.name << '\n';
+        if (name && *name != info.name) out << "name:" << line_name(info.name) << '\n';
         else out << a.value << '\n';
         named |= name.has_value();
     }
-    if (!named && !info.name.empty()) out << "name:" << info.name << '\n';
+    if (!named && !info.name.empty()) out << "name:" << line_name(info.name) << '\n';
     out << "}\n";
     write_coordinate_block(out, info.crs);
-    if (!info.feature.empty()) out << "GEOLOGICAL_FEATURE " << info.feature << '\n';
-    if (!info.role_text.empty()) out << "GEOLOGICAL_TYPE " << info.role_text << '\n';
+    if (!info.feature.empty()) out << "GEOLOGICAL_FEATURE " << line_name(info.feature) << '\n';
+    if (!info.role_text.empty()) out << "GEOLOGICAL_TYPE " << line_name(info.role_text) << '\n';
     else if (info.role != FeatureRole::unknown) out << "GEOLOGICAL_TYPE " << gocad_word(info.role) << '\n';
     for (const Annotation& a : info.annotations) {
         if (a.key == "gocad.stratigraphic_position") out << "STRATIGRAPHIC_POSITION " << a.value << '\n';
         else if (a.key == "gocad.record" || a.key == "gocad.comment") out << a.value << '\n';
     }
+}
+
+void list_unheld(const ObjectInfo& info, std::initializer_list<AttributeLocation> held, std::vector<Loss>& losses) {
+    const auto fits = [&](AttributeLocation location) { return std::ranges::find(held, location) != held.end(); };
+    for (const Attribute& a : info.attributes) {
+        if (fits(a.location)) continue;
+        add_loss(losses, {LossClass::substance, info.name, "attribute '" + a.name + "'",
+                          std::string("this Gocad object has no values per ") + to_string(a.location)});
+    }
+    for (const NamedSet& set : info.sets) {
+        if (fits(set.location)) continue;
+        add_loss(losses, {LossClass::substance, info.name, "set '" + set.name + "'",
+                          std::string("this Gocad object has no sets of its kind: ") + to_string(set.location)});
+    }
+    for (const Annotation& a : info.annotations) {
+        if (a.key.starts_with("gocad.")) continue;
+        add_loss(losses, {LossClass::style, info.name, a.key, "it belongs to another format"});
+    }
+}
+
+std::string line_name(std::string_view name) {
+    std::string text(trimmed(name));
+    for (char& c : text) {
+        if (c == '\n' || c == '\r') c = ' ';
+    }
+    return text;
 }
 
 void write_records_after(OutputFile& out, const ObjectInfo& info) {

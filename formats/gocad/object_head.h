@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,6 +73,11 @@ private:
 
 /// Writes `GOCAD <type> 1`, the header, the coordinate block, geological words, unknown records, and nothing else.
 void write_object_head(OutputFile& out, std::string_view type, const ObjectInfo& info);
+/// Lists what an object says that Gocad has no place for: attributes and sets at other locations than those `held`,
+/// annotations of other formats.
+void list_unheld(const ObjectInfo& info, std::initializer_list<AttributeLocation> held, std::vector<Loss>& losses);
+/// A name as it may stand to the end of a line.
+std::string line_name(std::string_view name);
 /// Records that stood after the first node; to be written before END.
 void write_records_after(OutputFile& out, const ObjectInfo& info);
 /// `PROPERTY_CLASS_HEADER` blocks as read; a class header for Z is added where there is none.
