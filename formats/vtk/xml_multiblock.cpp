@@ -46,10 +46,12 @@ private:
         const std::string file = doc_.attribute(element, "file");
         if (file.empty()) return {};  // an empty block
         if ((*chain_.files_left)-- == 0) return unreadable("F014", doc_.where(element), "the file names too many files");
-        auto input = open_named(doc_, element, input_, file);
+        ReadNotes notes;
+        auto input = open_named(doc_, element, input_, file, notes);
         if (!input) return std::move(input).why();
         auto read = read_chained(*input, options_, chain_);
         if (!read) return std::move(read).why();
+        std::ranges::move(notes.findings, std::back_inserter(out.findings));
         for (Object& object : read->objects) {
             ObjectInfo& info = info_of(object);
             std::vector<std::string> path = groups_;

@@ -81,7 +81,7 @@ private:
             const std::string source = doc_.attribute(*piece, "Source");
             if (source.empty()) return unreadable("F012", doc_.where(*piece), "expected the name of a file in Source, found none");
             if ((*chain.files_left)-- == 0) return unreadable("F014", doc_.where(*piece), "the file names too many files");
-            auto input = open_named(doc_, *piece, input_, source);
+            auto input = open_named(doc_, *piece, input_, source, notes_);
             if (!input) return std::move(input).why();
             auto document = scan_xml(input->bytes(), input->name());
             if (!document) return std::move(document).why();
@@ -239,9 +239,21 @@ Result<Dataset> read_document(const Input& input, const ReadOptions& options, Fi
 
 }  // namespace
 
-Result<Input> open_named(const XmlDocument& document, const XmlElement& element, const Input& input, const std::string& file) {
+Result<Input> open_named(const XmlDocument& document, const XmlElement& element, const Input& input, const std::string& file,
+                         ReadNotes& notes) {
     auto opened = input.companion(file);
     if (opened) return opened;
+    // Copied without its folder, as happens with downloads: the same name beside this file.
+    const std::string beside = file.substr(file.find_last_of('/') + 1);
+    if (beside != file && !beside.empty() && !input.has_companion(file) && input.has_companion(beside)) {
+        Finding finding;
+        finding.code = "F131";
+        finding.severity = Severity::warning;
+        finding.where = document.where(element);
+        finding.message = "'" + file + "' is missing: read '" + beside + "' beside the file instead";
+        notes.findings.push_back(std::move(finding));
+        return input.companion(beside);
+    }
     Failure why = std::move(opened).why();
     why.error.where = document.where(element);
     return why;

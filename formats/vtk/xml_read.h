@@ -24,8 +24,10 @@ struct FileChain {
 Result<Dataset> read_chained(const Input& input, const ReadOptions& options, FileChain chain);
 /// The blocks of a .vtm.
 Result<Dataset> read_multiblock(const XmlDocument& document, const Input& input, const ReadOptions& options, FileChain chain);
-/// Opens a file that this one names, or fails with F010 at that place.
-Result<Input> open_named(const XmlDocument& document, const XmlElement& element, const Input& input, const std::string& file);
+/// Opens a file that this one names; where only its folder is missing, the one beside, with a finding (F131). Else F010
+/// at that place.
+Result<Input> open_named(const XmlDocument& document, const XmlElement& element, const Input& input, const std::string& file,
+                         ReadNotes& notes);
 
 /// The texts of ours among the field data; they are taken out.
 struct OwnTexts {

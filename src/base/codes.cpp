@@ -59,6 +59,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F122", info, "elements of one entity are in different physical groups", ""},
     CodeInfo{"F123", info, "elements are repeated for each physical group of their entity", ""},
     CodeInfo{"F130", info, "ghost cells that another piece owns were left out", ""},
+    CodeInfo{"F131", warning, "a companion file was found beside the file, not where it is said to be", ""},
 };
 
 }  // namespace
