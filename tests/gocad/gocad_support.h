@@ -51,7 +51,7 @@ inline std::string written(const Dataset& dataset, std::string_view format, std:
     if (!done.ok()) return {};
     if (losses != nullptr) *losses = *done;
     EXPECT_TRUE(files.commit().ok());
-    return contents(folder / "out.txt");
+    return read_file(folder / "out.txt");
 }
 
 inline const Surface& surface_at(const Dataset& dataset, std::size_t i) { return std::get<Surface>(dataset.objects.at(i)); }
