@@ -97,6 +97,7 @@ Result<Dataset> read_irap_points(const Input& input, const ReadOptions& options)
     PointRows rows;
     rows.no_data = no_data;
     rows.undefined = undefined;
+    rows.quoted = true;
     rows.separators = true;
     rows.sign = sign->value_or(ZPositive::elevation);
     TextCursor cursor(input.bytes());
@@ -149,7 +150,7 @@ Result<std::vector<Loss>> write_irap_points(const Dataset& dataset, OutputSet& o
         file.number(p[2]);
         for (const WrittenColumn& column : columns) {
             text = ' ';
-            append_value(text, column, i, undefined, false);
+            append_value(text, column, i, undefined, Quotes::where_needed);
             file << text;
         }
         file << '\n';

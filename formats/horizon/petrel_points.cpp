@@ -172,7 +172,7 @@ Result<std::vector<Loss>> write_petrel_points(const Dataset& dataset, OutputSet&
         file.number(p[2]);
         for (const WrittenColumn& column : columns) {
             text = ' ';
-            append_value(text, column, i, missing_text, true);
+            append_value(text, column, i, missing_text, Quotes::always);
             file << text;
         }
         file << '\n';

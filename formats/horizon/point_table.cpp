@@ -66,6 +66,42 @@ std::optional<Failure> add_value(const Input& input, TextCursor& cursor, const P
     return std::nullopt;
 }
 
+bool can_be_quoted(std::string_view text) { return text.find_first_of("\"\n\r") == std::string_view::npos; }
+
+void append_text(std::string& out, std::string_view text, std::string_view missing, Quotes quotes) {
+    if (!can_be_quoted(text)) text = {};
+    if (quotes == Quotes::where_needed && text.empty()) {
+        out += missing;
+    } else if (quotes == Quotes::always || text.find_first_of(" \t") != std::string_view::npos) {
+        ((out += '"') += text) += '"';
+    } else {
+        out += text;
+    }
+}
+
+/// Values that do not survive in a column of numbers or texts.
+void tell_values(const PointSet& set, const Attribute& a, double no_data, std::string_view title, std::vector<Loss>& losses) {
+    std::uint64_t taken = 0, unquotable = 0, trimmed_off = 0;
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&a.values)) {
+        for (const std::string& text : *texts) {
+            if (!can_be_quoted(text)) ++unquotable;
+            else if (trimmed(text) != text) ++trimmed_off;
+        }
+    } else {
+        for (std::size_t i = 0; i < value_count(a); ++i) {
+            const double v = value_as_double(a, i);
+            if (v == no_data && !is_no_data(a, v)) ++taken;
+        }
+    }
+    const auto lost = [&](LossClass c, std::string what, std::string why, std::uint64_t count) {
+        if (count > 0) add_loss(losses, {c, set.info.name, std::move(what), std::move(why), count});
+    };
+    lost(LossClass::substance, "values " + number_text(no_data) + " of attribute '" + a.name + "'",
+         "this value stands for missing in " + std::string(title), taken);
+    lost(LossClass::substance, "texts of attribute '" + a.name + "'", "there are quotes or line ends in them", unquotable);
+    lost(LossClass::style, "blanks around texts of attribute '" + a.name + "'", "texts are trimmed when they are read", trimmed_off);
+}
+
 constexpr std::string_view axis_names[] = {"x", "y", "z"};
 
 class RowReader {
@@ -168,7 +204,12 @@ std::vector<WrittenColumn> columns_of(const PointSet& set, double no_data, std::
         }
         const bool text = std::holds_alternative<std::vector<std::string>>(a.values);
         const bool real = std::holds_alternative<std::vector<double>>(a.values) || std::holds_alternative<std::vector<float>>(a.values);
-        WrittenColumn column{a.name, text ? Kind::text : real ? Kind::real : Kind::integer, {}, &a, 0};
+        std::string name = a.name;
+        if (trimmed(name).empty() || name.find_first_of("\n\r") != std::string::npos) {
+            name = "attribute " + std::to_string(columns.size() + 1);
+            add_loss(losses, {LossClass::identity, set.info.name, "name of an attribute", "it does not fit into a line"});
+        }
+        WrittenColumn column{name, text ? Kind::text : real ? Kind::real : Kind::integer, {}, &a, 0};
         for (const auto& [key, value] : a.annotations) {
             if (key == "horizon.type") column.type_word = value;
         }
@@ -179,31 +220,22 @@ std::vector<WrittenColumn> columns_of(const PointSet& set, double no_data, std::
         }
         for (std::uint32_t c = 0; c < a.components; ++c) {
             column.component = c;
-            if (a.components > 1) column.name = c < a.component_names.size() ? a.component_names[c] : a.name + "_" + std::to_string(c + 1);
+            if (a.components > 1) column.name = c < a.component_names.size() ? a.component_names[c] : name + "_" + std::to_string(c + 1);
             columns.push_back(column);
         }
-        std::uint64_t taken = 0;
-        for (std::size_t i = 0; !text && i < value_count(a); ++i) {
-            const double v = value_as_double(a, i);
-            if (v == no_data && !is_no_data(a, v)) ++taken;
-        }
-        if (taken > 0) {
-            add_loss(losses, {LossClass::substance, set.info.name, "values " + number_text(no_data) + " of attribute '" + a.name + "'",
-                              "this value stands for missing in " + std::string(title), taken});
-        }
+        tell_values(set, a, no_data, title, losses);
     }
     return columns;
 }
 
-void append_value(std::string& text, const WrittenColumn& column, std::size_t point, std::string_view missing, bool quoted) {
+void append_value(std::string& text, const WrittenColumn& column, std::size_t point, std::string_view missing, Quotes quotes) {
     const Attribute& a = *column.attribute;
     const std::size_t i = point * a.components + column.component;
     std::visit(
         [&](const auto& values) {
             using Value = typename std::decay_t<decltype(values)>::value_type;
             if constexpr (std::is_same_v<Value, std::string>) {
-                if (quoted) (text += '"') += values[i] + '"';
-                else text += values[i].empty() ? missing : std::string_view(values[i]);
+                append_text(text, values[i], missing, quotes);
             } else {
                 const auto v = static_cast<double>(values[i]);
                 if (!std::isfinite(v) || is_no_data(a, v)) text += missing;

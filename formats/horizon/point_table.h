@@ -50,12 +50,15 @@ struct WrittenColumn {
     std::uint32_t component = 0;
 };
 
-/// The point attributes as columns; those that have not one value per point are losses, and so are values that
-/// would read as missing because they equal `no_data`.
+/// The point attributes as columns; those that have not one value per point are losses, and so are numbers that
+/// would read as missing because they equal `no_data`, and texts with quotes or line ends in them.
 std::vector<WrittenColumn> columns_of(const PointSet& set, double no_data, std::string_view title, std::vector<Loss>& losses);
 
-/// Appends the value of a column at a point; missing values as `missing` (a number or a word).
-void append_value(std::string& text, const WrittenColumn& column, std::size_t point, std::string_view missing, bool quoted);
+enum class Quotes : std::uint8_t { where_needed, always };
+
+/// Appends the value of a column at a point; missing numbers as `missing`, a number or a word, which also stands for
+/// empty texts that are not quoted.
+void append_value(std::string& text, const WrittenColumn& column, std::size_t point, std::string_view missing, Quotes quotes);
 
 /// The first point set of a dataset, or the failure cannot_hold.
 Result<std::size_t> point_set_for_writing(const Dataset& dataset, std::string_view title);

@@ -63,7 +63,7 @@ TEST(Cps3Grid, HeaderAndCountsAreChecked) {
     std::string content(grid);
     EXPECT_EQ(read("cps3", content + "5\n").why().error.code, "F008");
     EXPECT_EQ(read("cps3", content.substr(0, content.size() - 5)).why().error.code, "F004");
-    EXPECT_EQ(read("cps3", content.substr(0, 60)).why().error.code, "F004");
+    EXPECT_EQ(read("cps3", content.substr(0, 51)).why().error.code, "F004");
     content.replace(content.find("FSNROW 3 2"), 10, "FSNROW 3 -2");
     EXPECT_EQ(read("cps3", content).why().error.code, "F012");
     content.replace(content.find("FSNROW 3 -2"), 11, "FSNROW 1000000000 2");

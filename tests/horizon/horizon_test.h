@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/registry.h"
+#include "formats/horizon/horizon.h"
 
 namespace geomend::test {
 
@@ -20,10 +20,13 @@ inline Input text(std::string_view content, std::string name = "Top_A.txt") {
     return Input::from_memory(std::string(content), std::move(name));
 }
 
+/// The row of a name. The family is tested alone, without the table of all formats.
 inline const Format& format(std::string_view name) {
-    const Format* row = format_by_name(name);
-    EXPECT_NE(row, nullptr) << name;
-    return *row;
+    for (const Format& row : horizon::formats()) {
+        if (row.name == name) return row;
+    }
+    ADD_FAILURE() << "no format " << name;
+    return horizon::formats().front();
 }
 
 inline Result<Dataset> read(std::string_view format_name, std::string_view content, FormatOptions options = {}) {

@@ -58,6 +58,18 @@ TEST(IrapPoints, WriteAttributesOnlyWhenAsked) {
     EXPECT_EQ(substance(w.losses), 3);
 }
 
+TEST(IrapPoints, TextsWithBlanksStandInQuotes) {
+    Dataset d = good("irap-points", "1 2 3\n4 5 6\n7 8 9\n");
+    Attribute texts;
+    texts.name = "t";
+    texts.values = std::vector<std::string>{"a b", "", "say \"x\""};
+    std::get<PointSet>(d.objects[0]).info.attributes = {texts};
+    const Written w = well_written("irap-points", d, {{"attributes", "rms"}});
+    EXPECT_EQ(w.bytes, "String t\n1 2 3 \"a b\"\n4 5 6 UNDEF\n7 8 9 UNDEF\n");
+    EXPECT_TRUE(has_loss(w.losses, LossClass::substance, "texts of attribute 't'"));
+    EXPECT_EQ(attribute(good("irap-points", w.bytes), "t").values, AttributeValues(std::vector<std::string>{"a b", "UNDEF", "UNDEF"}));
+}
+
 TEST(IrapPoints, SeparatorsBeginParts) {
     const std::string content = "1 1 1\n2 2 2\n999.0 999.0 999.0\n3 3 3\n";
     const Dataset d = good("irap-points", content);
