@@ -59,8 +59,8 @@ install_packages() {
 build_jobs() {
     local processors memory
     processors=$(nproc)
-    memory=$(awk '$1 == "MemAvailable:" { print int($2 / 1500000) }' /proc/meminfo)
-    ((memory >= 1)) || memory=1
+    memory=$(awk '$1 == "MemAvailable:" { print int($2 / 1500000) }' /proc/meminfo 2>/dev/null) || true
+    [[ $memory =~ ^[1-9] ]] || memory=1
     echo $((processors < memory ? processors : memory))
 }
 
