@@ -1,8 +1,208 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <variant>
+
+#include "topology/attribute_merge.h"
 #include "topology/model_from_brep.h"
 
 namespace geomend::topology {
 
-Dataset faced_model(const Brep&, std::vector<Loss>&) { return {}; }
+namespace {
+
+/// Makes one Surface of all B-Rep surfaces of an interface: a part each, in order. A node at a vertex that
+/// the interface has used before is a twin of the first node there.
+class InterfaceWriter {
+public:
+    InterfaceWriter(const BrepData& brep, std::vector<Loss>& losses) : brep_(brep), losses_(losses) {}
+
+    Surface make(const BrepData::Interface& interface) {
+        Surface out;
+        out.info.name = interface.name;
+        out.info.role = interface.role;
+        out.info.role_text = interface.role_text;
+        out.info.feature = interface.feature;
+        out.info.crs = brep_.crs;
+        out.info.annotations = interface.annotations;
+        first_at_.clear();
+        std::size_t nodes = 0, corners = 0;
+        for (const SurfaceId s : interface.surfaces) {
+            nodes += brep_.surfaces[s.value].nodes.size();
+            corners += brep_.surfaces[s.value].polygons.corners.size();
+        }
+        out.points.reserve(nodes);
+        out.polygons.corners.reserve(corners);
+        AttributeMerge merge;
+        for (const SurfaceId s : interface.surfaces) add_part(brep_.surfaces[s.value], out, merge);
+        out.info.attributes = merge.finish(interface.name, losses_);
+        if (interface.surfaces.size() <= 1) out.parts.clear();
+        if (std::all_of(out.alias.begin(), out.alias.end(), [](std::uint32_t a) { return a == no_index; })) out.alias.clear();
+        add_border_corners(interface, out);
+        return out;
+    }
+
+private:
+    void add_part(const BrepData::Surface& surface, Surface& out, AttributeMerge& merge) {
+        const auto first = static_cast<std::uint32_t>(out.points.size());
+        out.parts.push_back({first, out.polygons.size()});
+        for (std::uint32_t n = 0; n < surface.nodes.size(); ++n) {
+            const std::uint32_t v = surface.nodes[n].value;
+            const auto [at, is_new] = first_at_.emplace(v, first + n);
+            out.points.push_back(brep_.vertices[v]);
+            out.alias.push_back(is_new ? no_index : at->second);
+        }
+        const std::size_t polygons_before = out.polygons.size();
+        std::vector<std::uint32_t> polygon;
+        for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+            polygon.clear();
+            for (const std::uint32_t node : surface.polygons[p]) polygon.push_back(first + node);
+            out.polygons.push_back(polygon);
+        }
+        merge.add(surface.attributes, AttributeLocation::point, first, surface.nodes.size());
+        merge.add(surface.attributes, AttributeLocation::polygon, polygons_before, surface.polygons.size());
+        merge.add(surface.attributes, AttributeLocation::object, 0, 1);
+    }
+
+    /// Corners of the model are the border corners of its surfaces.
+    void add_border_corners(const BrepData::Interface& interface, Surface& out) const {
+        std::unordered_map<std::uint32_t, std::uint8_t> corners;
+        for (const SurfaceId s : interface.surfaces) {
+            for (const auto& use : brep_.surfaces[s.value].lines) {
+                for (const CornerId c : brep_.lines[use.line.value].corners) corners.emplace(brep_.corners[c.value].vertex.value, 1);
+            }
+        }
+        std::size_t point = 0;
+        for (const SurfaceId s : interface.surfaces) {
+            for (const VertexId v : brep_.surfaces[s.value].nodes) {
+                if (corners.contains(v.value)) out.border_corners.push_back(static_cast<std::uint32_t>(point));
+                ++point;
+            }
+        }
+    }
+
+    const BrepData& brep_;
+    std::vector<Loss>& losses_;
+    std::unordered_map<std::uint32_t, std::uint32_t> first_at_;  // vertex -> point
+};
+
+std::optional<std::array<Vec3, 3>> key_of(const BrepData& brep, const BrepData::Surface& surface) {
+    for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+        const auto polygon = surface.polygons[p];
+        if (polygon.size() < 3) continue;
+        std::array<Vec3, 3> key{};
+        for (std::size_t i = 0; i < 3; ++i) key[i] = brep.vertices[surface.nodes[polygon[i]].value];
+        if (key[0] != key[1] && key[1] != key[2] && key[2] != key[0]) return key;
+    }
+    return std::nullopt;
+}
+
+class StatementWriter {
+public:
+    StatementWriter(const BrepData& brep, StatedModel& out) : brep_(brep), out_(out) {}
+
+    void add_faces() {
+        face_of_.assign(brep_.surfaces.size(), no_index);
+        for (std::uint32_t i = 0; i < brep_.interfaces.size(); ++i) {
+            std::uint32_t part = 0;
+            for (const SurfaceId s : brep_.interfaces[i].surfaces) {
+                const auto& surface = brep_.surfaces[s.value];
+                face_of_[s.value] = static_cast<std::uint32_t>(out_.faces.size());
+                StatedModel::Face face;
+                face.number = static_cast<std::int64_t>(out_.faces.size()) + 1;
+                face.object = i;
+                face.part = part++;
+                face.interface_name = brep_.interfaces[i].name;
+                face.name = surface.name;
+                face.role = surface.role;
+                face.role_text = surface.role_text;
+                face.key = key_of(brep_, surface);
+                out_.faces.push_back(std::move(face));
+            }
+        }
+    }
+
+    void add_regions() {
+        std::int64_t number = static_cast<std::int64_t>(out_.faces.size()) + 1;
+        if (!brep_.universe.empty()) out_.regions.push_back({number++, "Universe", true, sides(brep_.universe)});
+        first_region_ = static_cast<std::uint32_t>(out_.regions.size());
+        for (const auto& region : brep_.regions) out_.regions.push_back({number++, region.name, false, sides(region.sides)});
+        add_lists(brep_.layers, out_.layers);
+        add_lists(brep_.fault_blocks, out_.fault_blocks);
+    }
+
+    void add_features() {
+        for (const auto& feature : brep_.features) {
+            StatedModel::Feature made{feature.name, {}};
+            for (const SurfaceId s : feature.surfaces) made.faces.push_back(face_of_[s.value]);
+            out_.features.push_back(std::move(made));
+        }
+        for (const auto& corner : brep_.corners) {
+            if (!corner.name.empty()) out_.corners.push_back({corner.name, brep_.vertices[corner.vertex.value]});
+        }
+    }
+
+private:
+    std::vector<StatedModel::Side> sides(const std::vector<BrepData::Side>& from) const {
+        std::vector<StatedModel::Side> result;
+        for (const auto& side : from) result.push_back({face_of_[side.surface.value], side.front});
+        return result;
+    }
+    void add_lists(const std::vector<BrepData::RegionList>& from, std::vector<StatedModel::RegionList>& to) const {
+        for (const auto& list : from) {
+            StatedModel::RegionList made;
+            made.name = list.name;
+            made.unresolved = list.unresolved;
+            for (const RegionId r : list.regions) made.regions.push_back(first_region_ + r.value);
+            to.push_back(std::move(made));
+        }
+    }
+
+    const BrepData& brep_;
+    StatedModel& out_;
+    std::vector<std::uint32_t> face_of_;
+    std::uint32_t first_region_ = 0;
+};
+
+void list_losses(const BrepData& brep, std::vector<Loss>& losses) {
+    for (const auto& region : brep.regions) {
+        if (!region.cell_types.empty()) {
+            add_loss(losses, {LossClass::substance, region.name, "cells", "a model of surfaces holds no cells", region.cell_types.size()});
+        }
+        for (const Attribute& a : region.attributes) {
+            add_loss(losses, {LossClass::substance, region.name, "attribute '" + a.name + "'", "a model of surfaces holds no cells", 1});
+        }
+    }
+    for (const auto& line : brep.lines) {
+        if (!line.name.empty()) add_loss(losses, {LossClass::identity, line.name, "name of a line", "a model of surfaces names no lines", 1});
+    }
+    std::vector<std::uint8_t> on_surface(brep.lines.size(), 0);
+    for (const auto& surface : brep.surfaces) {
+        for (const auto& use : surface.lines) on_surface[use.line.value] = 1;
+    }
+    const auto loose = static_cast<std::uint64_t>(std::count(on_surface.begin(), on_surface.end(), 0));
+    if (loose > 0) add_loss(losses, {LossClass::substance, "", "lines away from surfaces", "a model of surfaces holds no lines", loose});
+}
+
+}  // namespace
+
+Dataset faced_model(const Brep& brep, std::vector<Loss>& losses) {
+    Dataset result;
+    const BrepData& b = *brep;
+    InterfaceWriter writer(b, losses);
+    for (const auto& interface : b.interfaces) result.objects.emplace_back(writer.make(interface));
+    StatedModel model;
+    model.name = b.name;
+    model.crs = b.crs;
+    model.annotations = b.annotations;
+    StatementWriter statements(b, model);
+    statements.add_faces();
+    statements.add_regions();
+    statements.add_features();
+    list_losses(b, losses);
+    result.models.push_back(std::move(model));
+    return result;
+}
 
 }  // namespace geomend::topology
