@@ -49,11 +49,12 @@ public:
 private:
     void grow(std::size_t n) {
         const std::size_t size = std::max(2 * size_, used_ + n + 4096);
-        std::unique_ptr<char[]> bytes(new char[size]);
+        std::unique_ptr<char[]> bytes(new char[size + slack]);  // what compilers cannot see that it is never used
         if (used_ > 0) std::memcpy(bytes.get(), bytes_.get(), used_);
         bytes_ = std::move(bytes);
         size_ = size;
     }
+    static constexpr std::size_t slack = 64;
     std::unique_ptr<char[]> bytes_;
     std::size_t size_ = 0;
     std::size_t used_ = 0;
