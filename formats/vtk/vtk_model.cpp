@@ -109,6 +109,9 @@ private:
         mesh.types = r.cell_types;
         mesh.offsets = r.cell_offsets;
         mesh.nodes = r.cell_nodes;
+        mesh.cell_faces = r.cell_faces;
+        mesh.face_offsets = r.face_offsets;
+        mesh.face_nodes = r.face_nodes;
         mesh.info.attributes = r.attributes;
         mesh.info.annotations = r.annotations;
         std::vector<std::uint32_t> of_node;
@@ -224,6 +227,7 @@ private:
             object.info.role = i.role;
             object.info.role_text = i.role_text;
             object.info.feature = i.feature;
+            if (!i.annotations.empty()) object.info.annotations = i.annotations;
         }
         object.parts.resize(members.size());
         for (const std::uint32_t s : members) {
@@ -254,14 +258,9 @@ private:
             model.faces.push_back(std::move(face));
         }
         add_regions(model);
-        for (const BrepData::Interface& i : brep_.interfaces) {
-            if (i.feature.empty()) continue;
-            StatedModel::Feature* feature = nullptr;
-            for (auto& f : model.features) {
-                if (f.name == i.feature) feature = &f;
-            }
-            if (feature == nullptr) feature = &model.features.emplace_back(StatedModel::Feature{i.feature, {}});
-            for (const SurfaceId s : i.surfaces) feature->faces.push_back(s.value);
+        for (const BrepData::Feature& f : brep_.features) {
+            model.features.push_back({f.name, {}});
+            for (const SurfaceId surface : f.surfaces) model.features.back().faces.push_back(surface.value);
         }
         for (const BrepData::Corner& c : brep_.corners) {
             if (!c.name.empty()) model.corners.push_back({c.name, brep_.vertices[c.vertex.value]});
@@ -282,7 +281,7 @@ private:
         for (const BrepData::Region& r : brep_.regions) model.regions.push_back({++number, r.name, false, sides(r.sides)});
         const auto lists = [&](const std::vector<BrepData::RegionList>& from, std::vector<StatedModel::RegionList>& to) {
             for (const BrepData::RegionList& l : from) {
-                to.push_back({l.name, {}, {}});
+                to.push_back({l.name, {}, l.unresolved});
                 for (const RegionId r : l.regions) to.back().regions.push_back(first + r.value);
             }
         };

@@ -45,6 +45,7 @@
 #include <mutex>
 #include <new>
 
+#include "base/number_text.h"
 #include "formats/vtk/vtk_structure.h"
 
 namespace geomend::vtk {
@@ -324,6 +325,21 @@ Result<std::string> write_rectilinear(Raster& raster, std::span<const XmlFieldTe
     return run(*writer, *data, settings);
 }
 
+// VTK writes the numbers of a tag with 11 digits; they are put in again with all of theirs.
+void set_tag_numbers(std::string& text, std::string_view attribute, std::span<const double> numbers) {
+    const std::size_t tag = text.find("<ImageData ");
+    const std::string opening = " " + std::string(attribute) + "=\"";
+    const std::size_t begin = tag == std::string::npos ? tag : text.find(opening, tag);
+    if (begin == std::string::npos || begin > text.find('>', tag)) return;
+    const std::size_t first = begin + opening.size(), last = text.find('"', first);
+    std::string exact;
+    for (const double x : numbers) {
+        if (!exact.empty()) exact.push_back(' ');
+        append_number(exact, x);
+    }
+    text.replace(first, last - first, exact);
+}
+
 }  // namespace
 
 Result<std::string> write_raster(Raster raster, std::span<const XmlFieldText> texts, const XmlWriteSettings& settings) {
@@ -337,7 +353,12 @@ Result<std::string> write_raster(Raster raster, std::span<const XmlFieldText> te
         data->SetDirectionMatrix(axes.direction.data());
         add_everything(*data, raster.info, texts);
         vtkNew<vtkXMLImageDataWriter> writer;
-        return run(*writer, *data, settings);
+        auto text = run(*writer, *data, settings);
+        if (!text) return text;
+        set_tag_numbers(*text, "Origin", raster.origin);
+        set_tag_numbers(*text, "Spacing", axes.spacing);
+        set_tag_numbers(*text, "Direction", axes.direction);
+        return text;
     });
 }
 
