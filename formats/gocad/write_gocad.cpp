@@ -13,7 +13,7 @@ namespace geomend::gocad {
 namespace {
 
 // The model that is stated over one cell mesh, if there is one.
-[[maybe_unused]] const StatedModel* model_of(std::uint32_t object, const Dataset& dataset) {
+const StatedModel* model_of(std::uint32_t object, const Dataset& dataset) {
     for (const StatedModel& model : dataset.models) {
         if (!model.faces.empty() && model.faces.front().object == object) return &model;
     }
@@ -28,7 +28,7 @@ Result<void> write_object(std::uint32_t index, bool light, GocadOutput& to) {
         Result<void> operator()(const PointSet& o) const { return write_vset(o, to); }
         Result<void> operator()(const PolylineSet& o) const { return write_pline(o, to); }
         Result<void> operator()(const Surface& o) const { return write_tsurf(o, to); }
-        Result<void> operator()(const CellMesh& o) const { return left_out(o.info, "cells"); }
+        Result<void> operator()(const CellMesh& o) const { return write_solid(o, model_of(index, to.dataset), light, to); }
         Result<void> operator()(const StructuredGrid& o) const { return left_out(o.info, "structured grid"); }
         Result<void> operator()(const Raster& o) const { return left_out(o.info, "raster"); }
         Result<void> operator()(const Well& o) const { return left_out(o.info, "well"); }
