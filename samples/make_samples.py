@@ -465,11 +465,11 @@ def well(name, head, kelly_bushing, stations, markers, zones, log):
 def wells():
     straight = [(float(md), 25.0 - md, 0.0, 0.0) for md in range(0, 901, 100)]
     log = [(float(md), -999.25 if md == 400 else round(60.0 + 30.0 * math.sin(md / 90.0), 2)) for md in range(100, 900, 50)]
-    first = well("W-1", (200.0, 400.0, 25.0), 25.0, straight, [("H1", 332.5), ("H2", 732.5)],
-                 [("layer_1", 25.0, 332.5), ("layer_2", 332.5, 732.5)], log)
+    first = well("W-1", (200.0, 400.0, 25.0), 25.0, straight, [("H1", 317.5), ("H2", 717.5)],
+                 [("layer_1", 25.0, 317.5), ("layer_2", 317.5, 717.5)], log)
     # Down to 300 m, then 300 m east for each 400 m down: a 3-4-5 triangle, so that lengths are whole numbers.
     deviated = [(0.0, 25.0, 0.0, 0.0), (300.0, -275.0, 0.0, 0.0), (550.0, -475.0, 150.0, 0.0), (800.0, -675.0, 300.0, 0.0)]
-    second = well("W-2", (600.0, 300.0, 25.0), 25.0, deviated, [("H1", 425.0)], [("layer_1", 25.0, 425.0)],
+    second = well("W-2", (600.0, 300.0, 25.0), 25.0, deviated, [("H1", 440.3)], [("layer_1", 25.0, 440.3)],
                   [(float(md), round(45.0 + md / 20.0, 2)) for md in range(100, 800, 100)])
     return first + second
 
