@@ -131,6 +131,7 @@ void attach_faces(Model3dClaims& claims, const std::vector<Object>& objects, std
         }
         records[tsurf->second].push_back(i);
     }
+    if (log.has_error()) return;
     for (std::size_t t = 0; t != claims.tsurfs.size(); ++t) {
         const Surface& surface = std::get<Surface>(objects[found[t]]);
         const std::size_t parts = std::max<std::size_t>(surface.parts.size(), 1);

@@ -214,6 +214,9 @@ void NodeTable::resolve_atoms() {
 
 void NodeTable::finish() {
     if (!begun_ && head_.properties.declared()) begin();
+    if (values_.width() == 0 && head_.properties.declared() && !scanner_.log.has_error()) {
+        scanner_.log.add("F012", scanner_.frame.line, 0, "PROPERTIES stands after the first node: expected it before the nodes");
+    }
     resolve_atoms();
     if (head_.depth()) {
         for (Vec3& at : points) at[2] = -at[2];

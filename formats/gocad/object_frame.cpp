@@ -36,6 +36,12 @@ std::string_view first_word(const char* begin, const char* end) {
     return {begin, static_cast<std::size_t>(p - begin)};
 }
 
+// Editors on Windows put a byte order mark before UTF-8 text.
+std::string_view without_mark(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    return text;
+}
+
 class FrameFinder {
 public:
     FrameFinder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -214,10 +220,10 @@ private:
 
 }  // namespace
 
-Result<FrameList> find_frames(std::string_view text, const std::string& file) { return FrameFinder(text, file).run(); }
+Result<FrameList> find_frames(std::string_view text, const std::string& file) { return FrameFinder(without_mark(text), file).run(); }
 
 bool begins_with_gocad(std::string_view head) {
-    TextCursor cursor(head);
+    TextCursor cursor(without_mark(head));
     while (cursor.next_line()) {
         const std::string_view word = cursor.token();
         if (word.empty() || word.front() == '#') continue;

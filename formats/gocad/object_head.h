@@ -54,7 +54,8 @@ public:
     /// After the last line: object name, inherited coordinate system.
     void finish();
 
-    bool depth() const { return info.crs.z_positive == ZPositive::depth; }
+    /// Whether z counts downwards in this object, by its own coordinate block or by that of its group.
+    bool depth() const { return (info.crs.stated ? info.crs : scanner_.inherited_crs).z_positive == ZPositive::depth; }
 
 private:
     void read_header(TextCursor& line);

@@ -312,6 +312,12 @@ TEST(GocadText, DamagedFramesAreRefused) {
     EXPECT_EQ(read_text("GOCAD VSet 1\nPROPERTIES a b c\nESIZES 60000 60000 60000\nPVRTX 1 0 0 0 1\nEND\n").why().error.code, "F014");
 }
 
+TEST(GocadText, PropertiesAfterTheNodesAreAnErrorAndNotLost) {
+    EXPECT_EQ(read_text("GOCAD VSet 1\nVRTX 1 0 0 0\nPROPERTIES a\nEND\n").why().error.code, "F012");
+}
+
+TEST(GocadText, ByteOrderMarkIsPassedOver) { EXPECT_EQ(dataset_of("\xef\xbb\xbfGOCAD VSet 1\nVRTX 1 0 0 0\nEND\n").objects.size(), 1u); }
+
 TEST(GocadText, IsToldByItsFirstLine) {
     const Format& row = format_row("gocad-ts");
     EXPECT_GE(row.sniff("# c\n\n  GOCAD VSet 1\n", ""), 90);

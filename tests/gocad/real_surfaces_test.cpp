@@ -62,8 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Counts{"scec_cfm/GVFA-WWFZ-EAST-Scodie_Lineament-CFM1.ts", 1, 6, 4},
                     Counts{"scec_cfm/CASC-BMMR-BLDM-Bald_Mountain_Big_Lagoon-CFM7_500m.ts", 1, 27155, 53375},
                     Counts{"modelA1.ml", 9, 4462, 7932}, Counts{"not_sealed_cube.ml", 6, 24, 12}, Counts{"split_cube.ml", 2, 20, 22}),
-    [](const testing::TestParamInfo<Counts>& info) {
-        std::string name = info.param.file;
+    [](const testing::TestParamInfo<Counts>& one) {
+        std::string name = one.param.file;
         for (char& c : name) {
             if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
         }
@@ -86,7 +86,7 @@ TEST(RealGocadModel, TrianglesAndListsOfTheModelsAreThose) {
     }
 }
 
-TEST(RealGocad, FilesMadeWrongAreRefusedWithTheirLine) {
+TEST(RealGocadDamaged, FilesMadeWrongAreRefusedWithTheirLine) {
     for (const char* file : {"010.ts", "012.ts", "016.ts", "018.ts", "020.vs", "034.ts", "036.ts"}) {
         const auto path = real_data(std::string("gocad/auscope/test") + file);
         if (!path) GTEST_SKIP() << "no real data";
