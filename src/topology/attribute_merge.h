@@ -17,7 +17,8 @@ public:
     void add(const std::vector<Attribute>& attributes, AttributeLocation location, std::size_t first, std::size_t count);
     /// Adds those of a piece whose things are scattered: thing i of the piece is thing target[i] of the whole. The
     /// first value given to a thing stays; a later one that differs (and is not missing) is counted as lost.
-    void add(const std::vector<Attribute>& attributes, AttributeLocation from, AttributeLocation to, const std::vector<std::uint32_t>& target);
+    void add(const std::vector<Attribute>& attributes, AttributeLocation from, AttributeLocation to,
+             const std::vector<std::uint32_t>& target);
 
     /// All values, long enough for the things that were added. Clashes become losses of `entity`.
     /// \param sizes_of_points, sizes_of_cells at least so many things; 0: as many as were added

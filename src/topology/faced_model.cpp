@@ -175,7 +175,8 @@ void list_losses(const BrepData& brep, std::vector<Loss>& losses) {
         }
     }
     for (const auto& line : brep.lines) {
-        if (!line.name.empty()) add_loss(losses, {LossClass::identity, line.name, "name of a line", "a model of surfaces names no lines", 1});
+        if (!line.name.empty())
+            add_loss(losses, {LossClass::identity, line.name, "name of a line", "a model of surfaces names no lines", 1});
     }
     std::vector<std::uint8_t> on_surface(brep.lines.size(), 0);
     for (const auto& surface : brep.surfaces) {

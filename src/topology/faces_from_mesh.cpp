@@ -65,6 +65,7 @@ BrepData::Surface surface_of_cells(const CellMesh& mesh, const std::vector<std::
 StatedLines stated_lines(const CellMesh& mesh, const std::vector<std::vector<std::uint32_t>>& cells,
                          const std::vector<std::uint32_t>& vertex_of) {
     StatedLines stated;
+    stated.shared_nodes = true;
     for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
         if (mesh.entities[e].dimension > 1) continue;
         for (const std::uint32_t c : cells[e]) {

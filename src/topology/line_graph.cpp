@@ -124,11 +124,13 @@ void keep_line_edges(const BrepData& brep, std::span<const PolygonEdges> all_edg
     graph.uses.resize(kept);
 }
 
-/// The uses that decide what a line is: borders and stated lines; for edges without either, all.
+/// The uses that decide what a line is: borders and stated lines; for edges without either, or where no surface
+/// can state a cut, all.
 class Signature {
 public:
-    explicit Signature(std::span<const EdgeUse> uses) : uses_(uses) {
-        for (const EdgeUse& use : uses) only_inside_ &= use.kind == EdgeUse::inside;
+    Signature(std::span<const EdgeUse> uses, bool shared_nodes) : uses_(uses) {
+        for (const EdgeUse& use : uses) count_all_ &= use.kind == EdgeUse::inside;
+        count_all_ |= shared_nodes;
         skip();
     }
     bool at_end() const { return at_ == uses_.size(); }
@@ -140,15 +142,15 @@ public:
 
 private:
     void skip() {
-        while (!only_inside_ && at_ < uses_.size() && uses_[at_].kind == EdgeUse::inside) ++at_;
+        while (!count_all_ && at_ < uses_.size() && uses_[at_].kind == EdgeUse::inside) ++at_;
     }
     std::span<const EdgeUse> uses_;
     std::size_t at_ = 0;
-    bool only_inside_ = true;
+    bool count_all_ = true;
 };
 
-bool same_signature(std::span<const EdgeUse> a, std::span<const EdgeUse> b) {
-    Signature x(a), y(b);
+bool same_signature(std::span<const EdgeUse> a, std::span<const EdgeUse> b, bool shared_nodes) {
+    Signature x(a, shared_nodes), y(b, shared_nodes);
     for (; !x.at_end() && !y.at_end(); ++x, ++y) {
         if ((*x).surface != (*y).surface) return false;
         if ((*x).kind == EdgeUse::stated && (*x).corner != (*y).corner) return false;
@@ -156,8 +158,8 @@ bool same_signature(std::span<const EdgeUse> a, std::span<const EdgeUse> b) {
     return x.at_end() && y.at_end();
 }
 
-bool borders(std::span<const EdgeUse> uses, std::uint32_t surface) {
-    for (Signature s(uses); !s.at_end(); ++s) {
+bool borders(std::span<const EdgeUse> uses, std::uint32_t surface, bool shared_nodes) {
+    for (Signature s(uses, shared_nodes); !s.at_end(); ++s) {
         if ((*s).surface == surface) return true;
     }
     return false;
@@ -201,7 +203,7 @@ struct LineVertices {
 };
 
 /// A surface that is present at a line vertex without bordering the line touches it there: a corner.
-void mark_touched(const BrepData& brep, const LineGraph& graph, LineVertices& at) {
+void mark_touched(const BrepData& brep, const LineGraph& graph, bool shared_nodes, LineVertices& at) {
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
         const auto& surface = brep.surfaces[s];
         std::vector<std::uint8_t> used(surface.nodes.size(), 0);
@@ -209,7 +211,7 @@ void mark_touched(const BrepData& brep, const LineGraph& graph, LineVertices& at
         for (std::size_t n = 0; n < surface.nodes.size(); ++n) {
             const std::uint32_t i = at.local[surface.nodes[n].value];
             if (i == no_index || at.corner[i] != 0 || used[n] == 0) continue;
-            if (!borders(graph.edge_uses(graph.edges[at.edges_at(i)[0]]), s)) at.corner[i] = 1;
+            if (!borders(graph.edge_uses(graph.edges[at.edges_at(i)[0]]), s, shared_nodes)) at.corner[i] = 1;
         }
     }
 }
@@ -217,14 +219,14 @@ void mark_touched(const BrepData& brep, const LineGraph& graph, LineVertices& at
 void mark_corners(const BrepData& brep, const LineGraph& graph, const StatedLines& stated, LineVertices& at) {
     for (std::uint32_t i = 0; i < at.vertex.size(); ++i) {
         const auto around = at.edges_at(i);
-        const bool through =
-            around.size() == 2 && same_signature(graph.edge_uses(graph.edges[around[0]]), graph.edge_uses(graph.edges[around[1]]));
+        const bool through = around.size() == 2 && same_signature(graph.edge_uses(graph.edges[around[0]]),
+                                                                  graph.edge_uses(graph.edges[around[1]]), stated.shared_nodes);
         if (!through) at.corner[i] = 1;
     }
     for (const std::uint32_t v : stated.corners) {
         if (at.local[v] != no_index) at.corner[at.local[v]] = 1;
     }
-    mark_touched(brep, graph, at);
+    mark_touched(brep, graph, stated.shared_nodes, at);
 }
 
 /// Walks from a corner (or any vertex of a closed line) along edges that are not taken yet.

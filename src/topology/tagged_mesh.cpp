@@ -190,7 +190,8 @@ private:
     void lose_object_attributes(const std::vector<Attribute>& attributes, const std::string& entity) {
         for (const Attribute& a : attributes) {
             if (a.location != AttributeLocation::object) continue;
-            add_loss(losses_, {LossClass::substance, entity, "attribute '" + a.name + "'", "entities of a mesh have no values of their own", 1});
+            add_loss(losses_,
+                     {LossClass::substance, entity, "attribute '" + a.name + "'", "entities of a mesh have no values of their own", 1});
         }
     }
 
