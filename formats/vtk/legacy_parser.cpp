@@ -27,10 +27,11 @@ public:
         if (file_.kind == LegacyKind::none && file_.fields.empty())
             return s_.fail("F017", s_.offset(), "a DATASET or FIELD record is expected, the file ends without one");
         if (file_.kind == LegacyKind::none) file_.kind = LegacyKind::field;
-        return true;
+        return whole();
     }
 
 private:
+    bool whole();
     bool header();
     bool record();
     bool dataset();
@@ -38,7 +39,7 @@ private:
     bool attribute(std::string_view keyword, std::uint64_t at, bool& known);
     bool unknown(std::string_view keyword, std::uint64_t at);
     bool trailing(std::uint64_t at);
-    void note(Severity severity, std::string message, std::uint64_t at);
+    void note(const char* code, Severity severity, std::string message, std::uint64_t at);
 
     bool dimensions(std::uint64_t at);
     bool three_reals(std::optional<Vec3>& out, const char* what);
@@ -65,6 +66,26 @@ private:
     LegacyScanner& s_;
     LegacyFile& file_;
 };
+
+// Where a file ends between records, what is still missing tells that it was cut.
+bool Parser::whole() {
+    using enum LegacyKind;
+    const std::uint64_t end = s_.bytes().size();
+    const auto need = [&](bool there, const char* record) {
+        return there || s_.fail("F004", end, std::string("the file ends without ") + record);
+    };
+    const bool with_points = file_.kind == structured_grid || file_.kind == unstructured_grid || file_.kind == polydata;
+    if (with_points && !need(file_.points_stated, "POINTS")) return false;
+    if (file_.kind == unstructured_grid && (!need(file_.cells.stated, "CELLS") || !need(file_.types_stated, "CELL_TYPES"))) return false;
+    if (file_.kind == structured_points && !file_.spacing) note("F105", Severity::warning, "there is no SPACING: 1 1 1 is taken", end);
+    if (file_.kind == structured_points && !file_.origin) note("F105", Severity::warning, "there is no ORIGIN: 0 0 0 is taken", end);
+    const bool open_section = !file_.sections.empty() && file_.sections.back().arrays.empty() && file_.sections.back().count != 0;
+    const char last = s_.bytes().back();
+    const bool open_line = !file_.binary && last != '\n' && last != ' ' && last != '\r' && last != '\t';
+    if (open_section) note("F101", Severity::warning, "the file ends after POINT_DATA or CELL_DATA, without the data", end);
+    else if (open_line) note("F101", Severity::warning, "the file ends without a line end: its last value may be cut", end);
+    return true;
+}
 
 bool Parser::header() {
     const std::string_view first = s_.line();
@@ -191,6 +212,8 @@ bool Parser::unknown(std::string_view word, std::uint64_t at) {
         return s_.fail("F008", at,
                        "the record before states fewer values than follow: a keyword is expected, '" + std::string(word.substr(0, 40)) +
                            "' was found");
+    if (at + word.size() == s_.bytes().size() && begins_legacy_keyword(word))
+        return s_.fail("F004", at, "the file ends inside the word '" + std::string(word) + "'");
     const std::string name(word.substr(0, 60));
     s_.line();
     while (!s_.at_end()) {
@@ -199,7 +222,7 @@ bool Parser::unknown(std::string_view word, std::uint64_t at) {
             if (s_.binary)
                 return s_.fail("F008", at,
                                "a keyword is expected here: the record before is longer than stated, or of a kind that is not known");
-            note(Severity::info, "the record '" + name + "' is not known and was not read", at);
+            note("F102", Severity::info, "the record '" + name + "' is not known and was not read", at);
             add_loss(file_.losses, {LossClass::substance, "", "record '" + name + "'", "it is not a record of the legacy VTK format"});
             return true;
         }
@@ -208,9 +231,9 @@ bool Parser::unknown(std::string_view word, std::uint64_t at) {
     return trailing(at);
 }
 
-void Parser::note(Severity severity, std::string message, std::uint64_t at) {
+void Parser::note(const char* code, Severity severity, std::string message, std::uint64_t at) {
     Finding finding;
-    finding.code = "F102";
+    finding.code = code;
     finding.severity = severity;
     finding.message = std::move(message);
     finding.where = s_.location(at);
@@ -221,7 +244,7 @@ void Parser::note(Severity severity, std::string message, std::uint64_t at) {
 bool Parser::trailing(std::uint64_t at) {
     if (file_.kind == LegacyKind::none && file_.fields.empty()) return s_.fail("F012", at, "a DATASET or FIELD record is expected");
     const std::uint64_t size = s_.bytes().size() - at;
-    note(Severity::warning, std::to_string(size) + " bytes after the last record were not read", at);
+    note("F102", Severity::warning, std::to_string(size) + " bytes after the last record were not read", at);
     add_loss(file_.losses, {LossClass::style, "", "bytes after the last record", "they belong to no record"});
     s_.take_rest();
     return true;

@@ -157,6 +157,11 @@ bool is_legacy_keyword(std::string_view word) {
     return std::ranges::any_of(keywords, [&](std::string_view k) { return same_word(k, word); });
 }
 
+bool begins_legacy_keyword(std::string_view word) {
+    return std::ranges::any_of(keywords,
+                               [&](std::string_view k) { return word.size() < k.size() && same_word(k.substr(0, word.size()), word); });
+}
+
 LegacyScanner::LegacyScanner(const Input& input, const Monitor* monitor)
     : input_(&input), monitor_(monitor), begin_(input.bytes().data()), at_(begin_), end_(begin_ + input.bytes().size()) {}
 
@@ -456,6 +461,7 @@ bool LegacyScanner::strings(std::uint64_t n, std::string_view what, AttributeVal
             return fail("F004", offset(),
                         "the file ends after " + std::to_string(i) + " of " + std::to_string(n) + " strings of " + std::string(what));
         all.push_back(percent_decoded(line()));
+        if (end_[-1] != '\n' && at_ == end_) return fail("F004", offset(), "the file ends inside a string of " + std::string(what));
     }
     return true;
 }

@@ -45,6 +45,8 @@ std::uint32_t stored_size(LegacyType type);
 std::string percent_decoded(std::string_view text);
 /// True for the words that begin a record of a dataset, in any case.
 bool is_legacy_keyword(std::string_view word);
+/// True for the first letters of such a word, but not the whole.
+bool begins_legacy_keyword(std::string_view word);
 
 /// Reads words, lines and blocks of values of a legacy file, in text or big-endian binary. The first failure is
 /// kept: everything returns false (or nothing) from then on.

@@ -127,7 +127,10 @@ void mark_active(vtkDataSetAttributes& data, const std::string& role, const char
 
 void add_attribute(vtkDataObject& object, vtkPointData& point_data, vtkCellData& cell_data, Attribute& a) {
     const std::uint32_t components = a.location == AttributeLocation::object ? 1 : a.components;
-    const auto array = std::visit(MakeArray{components}, a.values);
+    auto array = std::visit(MakeArray{components}, a.values);
+    const bool ids = std::ranges::find(a.annotations, std::pair<std::string, std::string>("vtk.type", "vtkIdType")) != a.annotations.end();
+    if (auto* values = std::get_if<std::vector<std::int64_t>>(&a.values); values != nullptr && ids)
+        array = in_place<vtkIdTypeArray>(*values, components);
     array->SetName(a.name.c_str());
     for (std::size_t i = 0; i < a.component_names.size() && a.location != AttributeLocation::object; ++i)
         array->SetComponentName(static_cast<vtkIdType>(i), a.component_names[i].c_str());

@@ -431,6 +431,7 @@ private:
         if (!values) return std::move(values).why();
         a.values = std::move(*values);
         read_details(doc_, array, a);
+        if (doc_.raw_attribute(array, "IdType") == "1") a.annotations.emplace_back("vtk.type", "vtkIdType");
         return {};
     }
 

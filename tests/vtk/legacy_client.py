@@ -1,17 +1,27 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """VTK's own library as a client of legacy files.
 
-dump FILE       reads with VTK and prints what it found, one thing per line
-make FOLDER     writes files of every kind with VTK, and beside each FILE.vtk its dump FILE.txt
+make FOLDER     writes files of every kind with VTK into a folder
+dump FOLDER     reads each FILE.vtk of a folder with VTK and writes what it found to FILE.txt beside it
 """
 import os
 import sys
 
-try:
-    import vtk
+try:  # the modules by name: all of VTK takes seconds to load
+    from vtkmodules import vtkCommonCore, vtkCommonDataModel, vtkIOLegacy
 except ImportError:
     print("no VTK for Python")
     sys.exit(77)
+
+
+class vtk:
+    """Classes of the three modules by their names."""
+
+
+for module in (vtkCommonCore, vtkCommonDataModel, vtkIOLegacy):
+    for word in dir(module):
+        if word.startswith("vtk"):
+            setattr(vtk, word, getattr(module, word))
 
 READ_ALL = ("Scalars", "Vectors", "Normals", "Tensors", "TCoords", "Fields", "ColorScalars")
 
@@ -156,12 +166,14 @@ def make(folder):
                 writer.SetFileType(file_type)
                 writer.SetFileName(path)
                 writer.Write()
-                with open(path[:-4] + ".txt", "w", encoding="utf-8") as out:
-                    out.write("\n".join(lines(load(path))) + "\n")
 
 
-if sys.argv[1] == "make":
-    make(sys.argv[2])
-elif sys.argv[1] == "dump":
-    with open(sys.argv[3], "w", encoding="utf-8") as result:
-        result.write("\n".join(lines(load(sys.argv[2]))) + "\n")
+def dump(folder):
+    for name in sorted(os.listdir(folder)):
+        if name.endswith(".vtk"):
+            path = os.path.join(folder, name)
+            with open(path[:-4] + ".txt", "w", encoding="utf-8") as out:
+                out.write("\n".join(lines(load(path))) + "\n")
+
+
+{"make": make, "dump": dump}[sys.argv[1]](sys.argv[2])

@@ -14,6 +14,7 @@ TEST(LegacyRead, TakesAnImageWithDefaultsForOriginAndSpacing) {
     EXPECT_EQ(raster.dims, (std::array<std::uint32_t, 3>{3, 2, 1}));
     EXPECT_EQ(raster.origin, (Vec3{0, 0, 0}));
     EXPECT_EQ(raster.step[1], (Vec3{0, 1, 0}));
+    EXPECT_EQ(data.findings.size(), 2u);
     EXPECT_EQ(values_of<float>(raster.info, "h", AttributeLocation::point), (std::vector<float>{1, 2, 3, 4, 5, 6.5f}));
     EXPECT_EQ(data.variant, "legacy 3.0 text, STRUCTURED_POINTS");
 }
@@ -147,6 +148,14 @@ TEST(LegacyRead, BytesAfterTheLastRecordAreAFinding) {
     EXPECT_EQ(data.findings[0].severity, Severity::warning);
 }
 
+TEST(LegacyRead, AFileWithoutItsLastLineEndMayBeCut) {
+    for (const char* rest : {"0 0 0.25", "0 0 0\nPOINT_DATA 1\n"}) {
+        const Dataset data = must_read(head + "DATASET POLYDATA\nPOINTS 1 float\n" + rest);
+        ASSERT_EQ(data.findings.size(), 1u);
+        EXPECT_EQ(data.findings[0].code, "F101");
+    }
+}
+
 TEST(LegacyRead, NonFiniteValuesAreOneFindingPerArray) {
     const Dataset data = must_read(
         head + "DATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 2 0 0\nPOINT_DATA 3\nSCALARS s float\nLOOKUP_TABLE default\nnan 1 -inf\n");
@@ -193,6 +202,9 @@ const std::string grid = head + "DATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 
 INSTANTIATE_TEST_SUITE_P(
     Files, LegacyFailure,
     testing::Values(
+        Wrong{"cut_in_a_keyword", poly + "POINTS 1 float\n0 0 0\nVERT", "F004", 7}, Wrong{"cut_before_points", poly, "F004", 5},
+        Wrong{"cut_before_types", grid + "CELLS 0 0\n", "F004", 8},
+        Wrong{"cut_in_a_string", poly + "POINTS 1 float\n0 0 0\nPOINT_DATA 1\nFIELD f 1\ns 1 1 string\nabc", "F004", 10},
         Wrong{"no_signature", "solid x\n", "F003", 1}, Wrong{"no_version", "# vtk DataFile Version x\nt\nASCII\n", "F005", 1},
         Wrong{"newer_version", "# vtk DataFile Version 7.0\nt\nASCII\n", "F013", 1},
         Wrong{"no_encoding", "# vtk DataFile Version 3.0\nt\nHEX\n", "F012", 3}, Wrong{"nothing_else", head, "F017", 4},
@@ -201,14 +213,14 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"keyword_among_numbers", poly + "POINTS 2 float\n0 0 0\nVERTICES 1 2\n1 0\n", "F008", 7},
         Wrong{"too_many_numbers", poly + "POINTS 1 float\n0 0 0\n1 1 1\n", "F008", 7},
         Wrong{"not_finite", poly + "POINTS 1 float\n0 0\nnan\n", "F006", 7},
-        Wrong{"cut_short", poly + "POINTS 4 float\n0 0 0 1 0 0\n0 0\n", "F004", 8},
+        Wrong{"cut_short", poly + "POINTS 3 float\n0.000000000 0.000000000 0.000000000\n0 0\n", "F004", 8},
         Wrong{"huge_count", poly + "POINTS 1000000000000000000 float\n0 0 0\n", "F014", 5},
         Wrong{"negative_count", poly + "POINTS -1 float\n0 0 0\n", "F005", 5},
         Wrong{"unknown_type", poly + "POINTS 1 quad\n0 0 0\n", "F013", 5},
         Wrong{"undefined_point", poly + "POINTS 1 float\n0 0 0\nVERTICES 2 4\n1 0\n1 1\n", "F007", 9},
-        Wrong{"list_beyond_size", grid + "CELLS 2 5\n3 0 1 2\n3 0 1 2\n", "F008", 8},
+        Wrong{"list_beyond_size", grid + "CELLS 2 5\n3 0 1 2\n3 0 1 2\n", "F008", 9},
         Wrong{"size_beyond_lists", grid + "CELLS 1 6\n3 0 1 2\n0 0\nCELL_TYPES 1\n5\n", "F008", 7},
-        Wrong{"no_types", grid + "CELLS 1 4\n3 0 1 2\n", "F008", 7},
+        Wrong{"no_types", grid + "CELLS 1 4\n3 0 1 2\n", "F004", 9},
         Wrong{"wrong_number_of_types", grid + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 2\n5 5\n", "F008", 9},
         Wrong{"wrong_size_for_type", grid + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n10\n", "F008", 8},
         Wrong{"unknown_cell", grid + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n69\n", "F013", 10},
