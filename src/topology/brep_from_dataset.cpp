@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "topology/cell_regions.h"
+#include "topology/cut_nodes.h"
 #include "topology/face_volume.h"
 #include "topology/faces_from_mesh.h"
 #include "topology/faces_from_surfaces.h"
@@ -233,6 +234,7 @@ void ModelBuilder::make_lines() {
     a_.graph = build_lines(a_.brep, a_.faces, stated());
     name_corners();
     if (mesh_object_ == no_index) return;
+    for (auto& surface : a_.brep.surfaces) split_nodes_along_cuts(a_.brep, surface);
     const CellMesh& mesh = *mesh_of(mesh_object_);
     for (std::size_t l = 0; l < a_.brep.lines.size(); ++l) {
         if (a_.graph.stated_line[l] != no_index) a_.brep.lines[l].name = mesh.entities[a_.graph.stated_line[l]].name;

@@ -140,8 +140,9 @@ TEST(MadeModels, ASurfaceAroundABoxMeetsItInOneClosedLine) {
     // The lower and upper half of a box's skin, and a lid between them.
     ModelMaker m;
     const auto ring = [](double z0, double z1) {
-        return test::joined({quad(at(0, 0, z0), at(1, 0, z0), at(1, 0, z1), at(0, 0, z1)), quad(at(1, 0, z0), at(1, 1, z0), at(1, 1, z1), at(1, 0, z1)),
-                             quad(at(1, 1, z0), at(0, 1, z0), at(0, 1, z1), at(1, 1, z1)), quad(at(0, 1, z0), at(0, 0, z0), at(0, 0, z1), at(0, 1, z1))});
+        return test::joined(
+            {quad(at(0, 0, z0), at(1, 0, z0), at(1, 0, z1), at(0, 0, z1)), quad(at(1, 0, z0), at(1, 1, z0), at(1, 1, z1), at(1, 0, z1)),
+             quad(at(1, 1, z0), at(0, 1, z0), at(0, 1, z1), at(1, 1, z1)), quad(at(0, 1, z0), at(0, 0, z0), at(0, 0, z1), at(0, 1, z1))});
     };
     m.add_parts("box", FeatureRole::boundary,
                 {test::joined({ring(0, 0.25), quad(at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0))}),
@@ -163,7 +164,8 @@ TEST(MadeModels, ASlitOfTwinNodesIsAnInternalLine) {
     m.add("cut", FeatureRole::fault, {});
     Surface& s = m.surface(0);
     s.points = {at(0, 0, 0), at(2, 0, 0), at(2, 1, 0), at(2, 2, 0), at(0, 2, 0), at(1, 1, 0), at(2, 1, 0)};
-    for (const auto& t : std::vector<std::array<std::uint32_t, 3>>{{0, 1, 5}, {1, 2, 5}, {6, 3, 5}, {3, 4, 5}, {4, 0, 5}}) s.polygons.push_back(t);
+    for (const auto& t : std::vector<std::array<std::uint32_t, 3>>{{0, 1, 5}, {1, 2, 5}, {6, 3, 5}, {3, 4, 5}, {4, 0, 5}})
+        s.polygons.push_back(t);
     s.alias = {no_index, no_index, no_index, no_index, no_index, no_index, 2};
     const BrepData& b = built(m.data);
     expect_counts(b, 2, 2, 1, 0);
@@ -184,7 +186,10 @@ TEST(MadeModels, ALineAcrossAnUncutSurfaceHasACornerAtEveryPointOnIt) {
         for (const auto& t : quad(at(i, 0, 0), at(i + 1, 0, 0), at(i + 1, 1, 0), at(i, 1, 0))) floor.push_back(t);
     }
     m.add("floor", FeatureRole::horizon, floor);
-    const auto wall = [](double z) { return test::joined({quad(at(1, 0, 0), at(2, 0, 0), at(2, 0, z), at(1, 0, z)), quad(at(2, 0, 0), at(3, 0, 0), at(3, 0, z), at(2, 0, z))}); };
+    const auto wall = [](double z) {
+        return test::joined(
+            {quad(at(1, 0, 0), at(2, 0, 0), at(2, 0, z), at(1, 0, z)), quad(at(2, 0, 0), at(3, 0, 0), at(3, 0, z), at(2, 0, z))});
+    };
     m.add("up", FeatureRole::fault, wall(1));
     m.add("down", FeatureRole::fault, wall(-1));
     const BrepData& b = built(m.data);
@@ -197,8 +202,12 @@ TEST(MadeModels, ALineAcrossAnUncutSurfaceHasACornerAtEveryPointOnIt) {
 
 TEST(MadeModels, SurfacesThatCrossAlongEdgesMeetInALine) {
     ModelMaker m;
-    m.add("flat", FeatureRole::horizon, test::joined({quad(at(0, -1, 0), at(1, -1, 0), at(1, 0, 0), at(0, 0, 0)), quad(at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0))}));
-    m.add("steep", FeatureRole::fault, test::joined({quad(at(0, 0, -1), at(1, 0, -1), at(1, 0, 0), at(0, 0, 0)), quad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1))}));
+    m.add("flat", FeatureRole::horizon,
+          test::joined(
+              {quad(at(0, -1, 0), at(1, -1, 0), at(1, 0, 0), at(0, 0, 0)), quad(at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0))}));
+    m.add("steep", FeatureRole::fault,
+          test::joined(
+              {quad(at(0, 0, -1), at(1, 0, -1), at(1, 0, 0), at(0, 0, 0)), quad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1))}));
     const BrepData& b = built(m.data);
     expect_counts(b, 2, 5, 2, 0);
 }
@@ -218,7 +227,10 @@ TEST(MadeModels, RepeatedAndDegenerateTrianglesMakeNoLines) {
 ModelMaker skin_with_crack(int sign_of_skin) {  // E15 and E16 of the rules
     ModelMaker m;
     m.add("skin", FeatureRole::boundary,
-          {{at(0, 0, 0), at(0, 1, 0), at(1, 0, 0)}, {at(0, 0, 0), at(1, 0, 0), at(0, 0, 1)}, {at(1, 0, 0), at(0, 1, 0), at(0, 0, 1)}, {at(0, 1, 0), at(0, 0, 0), at(0, 0, 1)}});
+          {{at(0, 0, 0), at(0, 1, 0), at(1, 0, 0)},
+           {at(0, 0, 0), at(1, 0, 0), at(0, 0, 1)},
+           {at(1, 0, 0), at(0, 1, 0), at(0, 0, 1)},
+           {at(0, 1, 0), at(0, 0, 0), at(0, 0, 1)}});
     m.add("frac", FeatureRole::fault, {{at(0.1, 0.1, 0.1), at(0.2, 0.1, 0.1), at(0.1, 0.2, 0.1)}});
     m.region("Universe", {1});
     m.region("R", {sign_of_skin, 2, -2});

@@ -105,14 +105,17 @@ inline ModelMaker two_blocks() {
 
 /// A box with outward normals, as one closed surface.
 inline std::vector<Triangle> box(const Vec3& low, const Vec3& high) {
-    const auto at = [&](int x, int y, int z) { return Vec3{x != 0 ? high[0] : low[0], y != 0 ? high[1] : low[1], z != 0 ? high[2] : low[2]}; };
+    const auto at = [&](int x, int y, int z) {
+        return Vec3{x != 0 ? high[0] : low[0], y != 0 ? high[1] : low[1], z != 0 ? high[2] : low[2]};
+    };
     return joined({quad(at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0)), quad(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)),
                    quad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1)), quad(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)),
                    quad(at(1, 1, 0), at(0, 1, 0), at(0, 1, 1), at(1, 1, 1)), quad(at(0, 1, 0), at(0, 0, 0), at(0, 0, 1), at(0, 1, 1))});
 }
 
 inline std::size_t count_code(const Dataset& data, const std::string& code) {
-    return static_cast<std::size_t>(std::count_if(data.findings.begin(), data.findings.end(), [&](const Finding& f) { return f.code == code; }));
+    return static_cast<std::size_t>(
+        std::count_if(data.findings.begin(), data.findings.end(), [&](const Finding& f) { return f.code == code; }));
 }
 
 }  // namespace geomend::test

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/cut_nodes.h"
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+
+#include "topology/face_edges.h"
+#include "topology/faces_from_surfaces.h"
+
+namespace geomend::topology {
+
+namespace {
+
+/// Nodes of the surface on lines that run inside it.
+std::vector<std::uint8_t> nodes_on_cuts(const BrepData& brep, const BrepData::Surface& surface) {
+    std::unordered_map<std::uint32_t, std::uint8_t> vertices;
+    for (const auto& use : surface.lines) {
+        if (!use.internal) continue;
+        for (const VertexId v : brep.lines[use.line.value].vertices) vertices.emplace(v.value, 1);
+    }
+    if (vertices.empty()) return {};
+    std::vector<std::uint8_t> on_cut(surface.nodes.size(), 0);
+    for (std::size_t n = 0; n < on_cut.size(); ++n) on_cut[n] = vertices.contains(surface.nodes[n].value) ? 1 : 0;
+    return on_cut;
+}
+
+std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+/// Corners of neighbouring polygons at one node belong to one fan.
+std::vector<std::uint32_t> fans(const BrepData::Surface& surface, const PolygonEdges& edges) {
+    std::vector<std::uint32_t> parent(surface.polygons.corners.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    for (std::uint32_t c = 0; c < parent.size(); ++c) {
+        const std::uint32_t q = surface.neighbours[c];
+        if (q == no_index) continue;
+        const auto other = surface.polygons[q];
+        const auto first = static_cast<std::uint32_t>(other.data() - surface.polygons.corners.data());
+        for (const std::uint32_t mine : {c, edges.next(c)}) {
+            for (std::uint32_t k = 0; k < other.size(); ++k) {
+                if (other[k] != surface.polygons.corners[mine]) continue;
+                const std::uint32_t a = root(parent, mine), b = root(parent, first + k);
+                parent[std::max(a, b)] = std::min(a, b);
+            }
+        }
+    }
+    return parent;
+}
+
+}  // namespace
+
+void split_nodes_along_cuts(const BrepData& brep, BrepData::Surface& surface) {
+    const auto on_cut = nodes_on_cuts(brep, surface);
+    if (on_cut.empty()) return;
+    const PolygonEdges edges(surface.polygons);
+    auto fan_of = fans(surface, edges);
+    std::vector<std::uint32_t> source(surface.nodes.size());  // where each node's values come from
+    std::iota(source.begin(), source.end(), 0u);
+    std::vector<std::uint32_t> first_fan(surface.nodes.size(), no_index);
+    std::unordered_map<std::uint32_t, std::uint32_t> node_of_fan;
+    auto corners = surface.polygons.corners;
+    for (std::uint32_t c = 0; c < corners.size(); ++c) {
+        const std::uint32_t node = surface.polygons.corners[c];
+        if (on_cut[node] == 0) continue;
+        const std::uint32_t fan = root(fan_of, c);
+        if (first_fan[node] == no_index) first_fan[node] = fan;
+        if (first_fan[node] == fan) continue;
+        const auto [at, is_new] = node_of_fan.emplace(fan, static_cast<std::uint32_t>(source.size()));
+        if (is_new) source.push_back(node);
+        corners[c] = at->second;
+    }
+    if (source.size() == surface.nodes.size()) return;
+    surface.polygons.corners = std::move(corners);
+    for (std::size_t n = surface.nodes.size(); n < source.size(); ++n) surface.nodes.push_back(surface.nodes[source[n]]);
+    for (Attribute& a : surface.attributes) {
+        if (a.location == AttributeLocation::point) a = restricted(a, source, a.location);
+    }
+}
+
+}  // namespace geomend::topology
