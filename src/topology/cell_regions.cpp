@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "geometry/measures.h"
 #include "topology/face_volume.h"

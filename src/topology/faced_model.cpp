@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <unordered_map>
 #include <variant>
 

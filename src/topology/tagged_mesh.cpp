@@ -15,7 +15,7 @@ std::int64_t tag_of(std::uint32_t index) { return std::int64_t{index} + 1; }
 /// it, negative where the surface's own sense of rotation runs against it.
 class BorderTags {
 public:
-    explicit BorderTags(const BrepData& brep) : brep_(brep) {
+    explicit BorderTags(const BrepData& brep) {
         for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
             const auto& v = brep.lines[l].vertices;
             first_segment_[{std::min(v[0], v[1]), std::max(v[0], v[1])}] = {l, v[0] < v[1]};
@@ -45,7 +45,6 @@ public:
     }
 
 private:
-    const BrepData& brep_;
     std::map<std::pair<VertexId, VertexId>, std::pair<std::uint32_t, bool>> first_segment_;
 };
 
