@@ -64,7 +64,7 @@ std::optional<std::pair<DimTag, std::string_view>> parse_dim_tag(std::string_vie
 }
 
 // Entities that the writer made for cells without one go again.
-void remove_loose(CellMesh& mesh, const std::vector<DimTag>& loose) {
+void remove_loose(CellMesh& mesh, std::vector<StatedModel>& models, const std::vector<DimTag>& loose) {
     if (loose.empty()) return;
     std::vector<std::uint32_t> index(mesh.entities.size(), no_index);
     std::vector<CellMesh::Entity> kept;
@@ -77,9 +77,16 @@ void remove_loose(CellMesh& mesh, const std::vector<DimTag>& loose) {
     mesh.entities = std::move(kept);
     for (std::uint32_t& e : mesh.cell_entity) e = e == no_index ? no_index : index[e];
     if (mesh.entities.empty()) mesh.cell_entity.clear();
+    std::erase_if(models, [&](StatedModel& model) {
+        for (StatedModel::Face& face : model.faces) {
+            if (face.part >= index.size() || index[face.part] == no_index) return true;
+            face.part = index[face.part];
+        }
+        return false;
+    });
 }
 
-void take_notes(CellMesh& mesh) {
+void take_notes(CellMesh& mesh, std::vector<StatedModel>& models) {
     std::vector<DimTag> loose;
     std::vector<std::pair<DimTag, std::string>> names;
     std::erase_if(mesh.info.annotations, [&](const Annotation& a) {
@@ -90,7 +97,7 @@ void take_notes(CellMesh& mesh) {
         }
         return true;
     });
-    remove_loose(mesh, loose);
+    remove_loose(mesh, models, loose);
     for (auto& [key, name] : names) {
         for (CellMesh::Group& g : mesh.groups) {
             if (g.dimension == key.first && g.tag == key.second) g.name = name;
@@ -170,7 +177,7 @@ void apply_geomend_line(std::string_view line, Dataset& dataset) {
         }
     }
     restore_attributes(mesh.info.attributes);
-    take_notes(mesh);
+    take_notes(mesh, dataset.models);
 }
 
 }  // namespace geomend::gmsh

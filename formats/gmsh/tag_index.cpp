@@ -13,7 +13,8 @@ std::optional<std::size_t> TagIndex::build(Labels& labels, std::size_t count) {
     if (count == 0) return {};
     std::vector<std::int64_t>& ids = labels.ids;
     bool consecutive = true;
-    for (std::size_t i = 0; consecutive && i < ids.size(); ++i) consecutive = ids[i] == ids[0] + static_cast<std::int64_t>(i);
+    for (std::size_t i = 0; consecutive && i < ids.size(); ++i)
+        consecutive = static_cast<std::uint64_t>(ids[i]) - static_cast<std::uint64_t>(ids[0]) == i;
     if (consecutive) {
         labels.first = first_;
         ids = {};
