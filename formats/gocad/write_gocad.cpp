@@ -29,13 +29,9 @@ Result<void> write_object(std::uint32_t index, bool light, GocadOutput& to) {
         Result<void> operator()(const PolylineSet& o) const { return write_pline(o, to); }
         Result<void> operator()(const Surface& o) const { return write_tsurf(o, to); }
         Result<void> operator()(const CellMesh& o) const { return write_solid(o, model_of(index, to.dataset), light, to); }
-        Result<void> operator()(const StructuredGrid& o) const { return left_out(o.info, "structured grid"); }
-        Result<void> operator()(const Raster& o) const { return left_out(o.info, "raster"); }
-        Result<void> operator()(const Well& o) const { return left_out(o.info, "well"); }
-        Result<void> left_out(const ObjectInfo& info, const char* what) const {
-            add_loss(to.losses, {LossClass::substance, info.name, what, "objects of this kind are not written to Gocad files yet"});
-            return {};
-        }
+        Result<void> operator()(const StructuredGrid& o) const { return write_sgrid(o, to); }
+        Result<void> operator()(const Raster& o) const { return write_raster(o, to); }
+        Result<void> operator()(const Well& o) const { return write_well(o, to); }
     };
     return std::visit(Visitor{to, index, light}, to.dataset.objects[index]);
 }
