@@ -1,9 +1,8 @@
-#!/ usr / bin / env python3
-#SPDX - License - Identifier : AGPL - 3.0 - or -later
-""
-    "Reads a VTK XML file with VTK's own library and writes what it finds: xml_client.py FILE COUNTS.txt.
+#!/usr/bin/env python3
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""Reads a VTK XML file with VTK's own library and writes what it finds: xml_client.py FILE COUNTS.txt.
 
-    Fails(1) where VTK reports an error; --probe only tells whether VTK is there."""
+Fails (1) where VTK reports an error; --probe only tells whether VTK is there."""
 import sys
 
 import vtk
