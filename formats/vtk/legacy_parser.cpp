@@ -119,11 +119,11 @@ bool Parser::record() {
     const std::string_view word = s_.peek_word();
     const std::uint64_t at = s_.offset();
     if (!is_legacy_keyword(word)) return unknown(word, at);
+    if (same_word(word, "METADATA")) return metadata(nullptr);
     s_.word();
     const std::string keyword = upper_case(word);
     if (keyword == "DATASET") return dataset();
     if (keyword == "FIELD") return field();
-    if (keyword == "METADATA") return metadata(nullptr);
     if (keyword == "POINT_DATA") return section(at, false);
     if (keyword == "CELL_DATA") return section(at, true);
     bool known = false;

@@ -104,6 +104,14 @@ TEST(LegacyRead, MetadataGivesComponentNamesAndTheUnit) {
     EXPECT_EQ(values_of<std::int32_t>(set.info, "w", AttributeLocation::point), (std::vector<std::int32_t>{3}));
 }
 
+TEST(LegacyRead, MetadataMayFollowAnyRecord) {
+    const Dataset data = must_read(head +
+                                   "DATASET POLYDATA\nPOINTS 2 float\n0 0 0 1 0 0\nLINES 1 3\n2 0 1\nMETADATA\nINFORMATION 0\n\nPOINT_DATA "
+                                   "2\nNORMALS n float\n0 0 1 0 0 1\n");
+    EXPECT_TRUE(data.findings.empty());
+    EXPECT_EQ(only<PolylineSet>(data).info.attributes.size(), 1u);
+}
+
 TEST(LegacyRead, StringsOfALineEachMayBeEmptyAndArePercentDecoded) {
     const Dataset data = must_read(
         head + "DATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 2 0 0\nPOINT_DATA 3\nFIELD f 1\nname 1 3 string\na%20b\n\nc%25%zz\n");
