@@ -31,11 +31,12 @@ std::string synthetic_model() {
     for (int s = 0; s != surfaces; ++s) header += "TSURF s" + std::to_string(s) + '\n';
     for (int s = 0; s != surfaces; ++s) {
         const auto corner = [&](std::string& out, int i, int j) {
-            real(out, 4e5 + static_cast<double>(static_cast<float>(25.3 * i + 0.37 * j + 900.1 * (s % 7))));
+            real(out, 4e5 + static_cast<double>(static_cast<float>(25.3 * i + 0.37 * j + 900.1 * (s % 7))) * 1.000000001);
             out += ' ';
             real(out, 5.3e6 + static_cast<double>(static_cast<float>(31.7 * j - 0.11 * i)) * 1.000000001);
             out += ' ';
-            real(out, -static_cast<double>(static_cast<float>(1000 + 40.0 * s + 90 * std::sin(0.13 * i) * std::cos(0.21 * j))));
+            real(out,
+                 -static_cast<double>(static_cast<float>(1000 + 40.0 * s + 90 * std::sin(0.13 * i) * std::cos(0.21 * j))) * 1.000000001);
         };
         header += "TFACE " + std::to_string(s + 1) + "  none s" + std::to_string(s) + "\n  ";
         corner(header, 0, 0);

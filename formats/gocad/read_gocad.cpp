@@ -137,13 +137,14 @@ private:
     // A file that was cut short must not pass for a whole one.
     void judge_ends() {
         for (std::size_t i = 0; i != parts_.size(); ++i) {
-            if (frame(i).ended) continue;
             Part& part = parts_[i];
             ObjectLog& log = part.scanner->log;
             const bool last = i + 1 == parts_.size();
             const auto& objects = part.scanner->objects;
             const bool empty = std::ranges::all_of(objects, holds_nothing);  // none at all: a Model3d or an unknown type
             const bool whole_line = input_.bytes().ends_with('\n');
+            // "END" as the last bytes of an object that holds nothing is what a cut leaves of "END_ORIGINAL_...".
+            if (frame(i).ended && !(last && empty && !whole_line && !frame(i).group)) continue;
             if (frame(i).group || (last && (empty || !whole_line))) {
                 log.add("F004", list_.last_line, 0, [&] {
                     return "expected END of the " + std::string(frame(i).type) + " that begins in line " + std::to_string(frame(i).line) +
@@ -230,8 +231,8 @@ private:
             if (object.empty() && !dataset_.objects.empty() && lacks_only_companions(of_part)) {
                 // The other objects of the file are whole: this one is told as lost instead.
                 for (Finding& finding : of_part) finding.severity = std::min(finding.severity, Severity::warning);
-                add_loss(dataset_.losses, {LossClass::substance, name, "the whole " + std::string(frame(i).type),
-                                           "a file that it names is missing"});
+                add_loss(dataset_.losses,
+                         {LossClass::substance, name, "the whole " + std::string(frame(i).type), "a file that it names is missing"});
             } else failed |= parts_[i].scanner->log.has_error();
             for (Finding& finding : of_part) findings.push_back(std::move(finding));
         }

@@ -140,6 +140,11 @@ TEST(GocadModel3d, TruncatedAnywhereIsNeverASilentSuccess) {
     }
 }
 
+TEST(GocadModel3d, CutInsideTheEndOfABlockIsSeen) {
+    EXPECT_EQ(read_text("GOCAD Model3d 1\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nZPOSITIVE Depth\nEND").why().error.code, "F004");
+    EXPECT_EQ(read_text("GOCAD TSurf 1\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nZPOSITIVE Depth\nEND").why().error.code, "F004");
+}
+
 TEST(GocadModel3d, AnyByteMayBeWrongWithoutHarm) {
     for (std::size_t i = 0; i != whole.size(); ++i) {
         for (const char c : {'\0', '\n', '9', '-', '{', '\xff'}) {
