@@ -62,13 +62,13 @@ private:
 
     void append_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t polygon) {
         char line[96];
-        char* const end = line + sizeof line;
+        // Each number has its own bound, so that a blank always has room after it.
         char* p = std::copy_n("TRGL ", 5, line);
-        p = std::to_chars(p, end, labels_[a]).ptr;
+        p = std::to_chars(p, line + 30, labels_[a]).ptr;
         *p++ = ' ';
-        p = std::to_chars(p, end, labels_[b]).ptr;
+        p = std::to_chars(p, line + 60, labels_[b]).ptr;
         *p++ = ' ';
-        p = std::to_chars(p, end, labels_[c]).ptr;
+        p = std::to_chars(p, line + 90, labels_[c]).ptr;
         text_.append(line, p);
         if (!polygon_attributes_.empty()) append_values(text_, polygon_attributes_, polygon);
         text_ += '\n';

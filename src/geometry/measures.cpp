@@ -235,6 +235,32 @@ double volume(const CellMesh& mesh) {
     return ordered_sum(mesh.cell_count(), [&](std::size_t i) { return std::abs(cell_volume(mesh, i)); });
 }
 
+namespace {
+
+double split_hexahedron(const std::array<Vec3, 8>& p) {
+    return tetrahedron_volume(p[0], p[1], p[3], p[4]) + tetrahedron_volume(p[1], p[2], p[3], p[6]) +
+           tetrahedron_volume(p[1], p[4], p[5], p[6]) + tetrahedron_volume(p[3], p[4], p[6], p[7]) +
+           tetrahedron_volume(p[1], p[3], p[4], p[6]);
+}
+
+double split_pyramid(const std::array<Vec3, 5>& p) {
+    const Vec3 a = minus(p[2], p[0]), b = minus(p[3], p[1]);
+    if (dot(a, a) < dot(b, b)) return tetrahedron_volume(p[0], p[1], p[2], p[4]) + tetrahedron_volume(p[0], p[2], p[3], p[4]);
+    return tetrahedron_volume(p[0], p[1], p[3], p[4]) + tetrahedron_volume(p[1], p[2], p[3], p[4]);
+}
+
+}  // namespace
+
+double volume_by_tetrahedra(const CellMesh& mesh) {
+    return ordered_sum(mesh.cell_count(), [&](std::size_t i) {
+        const auto nodes = mesh.cell_nodes(i);
+        const CellType type = linear_type(mesh.types[i]);
+        if (type == CellType::hexahedron) return std::abs(split_hexahedron(corner_points<8>(mesh, nodes)));
+        if (type == CellType::pyramid) return std::abs(split_pyramid(corner_points<5>(mesh, nodes)));
+        return std::abs(cell_volume(mesh, i));
+    });
+}
+
 double volume(const StructuredGrid& grid) {
     if (grid.dims[0] < 2 || grid.dims[1] < 2 || grid.dims[2] < 2) return 0;
     const SplitCorners splits = split_corners(grid);

@@ -29,6 +29,10 @@ double volume(const CellMesh& mesh);
 /// wound the same way round is measured as wound like its first face; its sign is that of faces with normals
 /// pointing out.
 double cell_volume(const CellMesh& mesh, std::size_t cell);
+/// The same with hexahedra cut into five tetrahedra and pyramids into two along the shorter diagonal of their base. It
+/// is the figure that VTK and ParaView give; where faces are warped it differs from volume(), and neighbours
+/// may overlap or leave gaps in it.
+double volume_by_tetrahedra(const CellMesh& mesh);
 /// Sum of the absolute trilinear volumes of the cells that are not blanked, with split nodes where they apply; 0
 /// unless all three dims exceed 1.
 double volume(const StructuredGrid& grid);

@@ -61,8 +61,11 @@ void count_object(const CellMesh& o, ObjectSummary& s) {
                 any_volume = true;
         }
     }
-    if (any_volume) s.volume = volume(o);
     if (any_area) s.area = area(o);
+    if (!any_volume) return;
+    s.volume = volume_by_tetrahedra(o);
+    const double exact = volume(o);
+    if (std::abs(exact - *s.volume) > 1e-12 * std::abs(exact)) s.volume_trilinear = exact;
 }
 
 void count_lattice(const std::array<std::uint32_t, 3>& dims, ObjectSummary& s) {
@@ -120,7 +123,7 @@ ObjectSummary summarise_object(const Dataset& dataset, const Object& object) {
     s.units = info.crs.axis_units;
     s.z_positive = frame_of(dataset, info.crs);
     std::visit([&](const auto& o) { count_object(o, s); }, object);
-    if (!axis_units_agree(info.crs)) s.area = s.volume = std::nullopt;
+    if (!axis_units_agree(info.crs)) s.area = s.volume = s.volume_trilinear = std::nullopt;
     s.bounds = bounds(object);
     if (s.bounds) into_frame(*s.bounds, s.z_positive);
     for (const Attribute& a : info.attributes)

@@ -24,7 +24,9 @@ struct ObjectSummary {
     std::optional<std::array<Vec3, 2>> bounds;         ///< in the file's own frame
     ZPositive z_positive = ZPositive::elevation;
     std::array<std::string, 3> units;
-    std::optional<double> area, volume;
+    std::optional<double> area;
+    std::optional<double> volume;            ///< of cell meshes: by tetrahedra, as VTK and ParaView measure
+    std::optional<double> volume_trilinear;  ///< exact integral; only where warped faces make it differ
     struct AttributeRow {
         std::string name, location, type, unit;
         std::uint32_t components = 1;

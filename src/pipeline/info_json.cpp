@@ -31,6 +31,7 @@ Json object_json(const ObjectSummary& o) {
     if (any_stated(o.units)) j["units"] = units_json(o.units);
     if (o.area) j["area"] = *o.area;
     if (o.volume) j["volume"] = *o.volume;
+    if (o.volume_trilinear) j["volume_trilinear"] = *o.volume_trilinear;
     Json attributes = Json::array();
     for (const auto& a : o.attributes) {
         Json one{{"name", a.name}, {"location", a.location}, {"components", a.components}, {"type", a.type}};

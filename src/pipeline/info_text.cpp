@@ -57,6 +57,8 @@ std::string object_text(const ObjectSummary& o, bool verbose) {
     text += ": " + counts_line(o) + '\n';
     if (o.area) text += "    area " + short_number(*o.area) + unit_suffix(o.units, "2") + '\n';
     if (o.volume) text += "    volume " + short_number(*o.volume) + unit_suffix(o.units, "3") + '\n';
+    if (o.volume_trilinear)
+        text += "    trilinear volume " + short_number(*o.volume_trilinear) + unit_suffix(o.units, "3") + " (warped faces)\n";
     if (o.bounds) {
         const char* axes[] = {"x", "y", o.z_positive == ZPositive::depth ? "z (depth)" : "z"};
         text += "    bounds";

@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
                                  0,
                                  0},
                     VolumeOracle{"gocad/CloudSpin_fixed.ml", {}, 2.12636e12, 6},
-                    VolumeOracle{"gocad/split_cube.ml", {{0.372727, 6}, {0.627273, 6}}, 1, 6},
+                    VolumeOracle{"gocad/split_cube.ml", {{0.3, 6}, {0.7, 6}}, 1, 6},
                     VolumeOracle{"gocad/cube_model_equi.so", {{13361.3, 6}, {6680.63, 6}}, 0, 0},
                     VolumeOracle{"gocad/test.lso", {{1760, 4}, {960, 3}, {240, 3}, {1040, 4}}, 4000, 4}));
 

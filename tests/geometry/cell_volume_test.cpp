@@ -115,6 +115,14 @@ TEST(CellVolume, OfATwistedHexahedronIsKnownInClosedForm) {
     EXPECT_DOUBLE_EQ(cell_volume(one_cell(CellType::hexahedron, p), 0), 1.25);
 }
 
+TEST(VolumeByTetrahedra, AgreesWhereFacesAreFlatAndDiffersWhereTheyAreWarped) {
+    EXPECT_DOUBLE_EQ(volume_by_tetrahedra(one_cell(CellType::hexahedron, cube)), 1);
+    // By determinants: 1/6 for (0,1,3,4), 1/3 for (1,2,3,6), 1/6 each for (1,4,5,6) and (3,4,6,7), 1/2 for (1,3,4,6).
+    vector<Vec3> p = cube;
+    p[6][2] = 2;
+    EXPECT_DOUBLE_EQ(volume_by_tetrahedra(one_cell(CellType::hexahedron, p)), 4.0 / 3.0);
+}
+
 TEST(CellVolume, AddsUpOverACutThroughWarpedFaces) {
     // A warped hexahedron cut along i = 1/2 into two, and one half of it into two wedges by a bilinear face.
     rc::check("halves of a trilinear map add up", [] {
