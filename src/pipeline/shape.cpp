@@ -38,17 +38,34 @@ bool is_tagged_mesh(const Dataset& dataset, const Format& target) {
     return dataset.format == target.family || mesh.alias.empty();
 }
 
+std::vector<bool> objects_inside(const Dataset& dataset) {
+    std::vector<bool> used(dataset.objects.size(), false);
+    const auto use = [&](std::uint32_t object) {
+        if (object < used.size()) used[object] = true;
+    };
+    for (const Brep& brep : dataset.breps) {
+        for (const auto& surface : brep->surfaces) use(surface.source_object);
+        for (const auto& region : brep->regions) use(region.source_object);
+    }
+    return used;
+}
+
+// Parts of an object that a boundary representation has no place for.
+void list_losses(const Object& object, std::vector<Loss>& losses) {
+    const ObjectInfo& info = info_of(object);
+    for (const NamedSet& set : info.sets) {
+        add_loss(losses,
+                 {LossClass::identity, info.name, "set '" + set.name + "'", "a boundary representation has no sets of points or cells", 1});
+    }
+}
+
 // The objects that no brep was built from stay beside the models.
 std::vector<Object> objects_outside(Dataset& dataset) {
-    std::vector<bool> used(dataset.objects.size(), false);
-    for (const Brep& brep : dataset.breps) {
-        for (const auto& surface : brep->surfaces) {
-            if (surface.source_object < used.size()) used[surface.source_object] = true;
-        }
-    }
+    const std::vector<bool> used = objects_inside(dataset);
     std::vector<Object> outside;
     for (std::size_t i = 0; i < dataset.objects.size(); ++i) {
-        if (!used[i]) outside.push_back(std::move(dataset.objects[i]));
+        if (used[i]) list_losses(dataset.objects[i], dataset.losses);
+        else outside.push_back(std::move(dataset.objects[i]));
     }
     return outside;
 }
