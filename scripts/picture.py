@@ -52,8 +52,8 @@ def main(model, picture):
     reader.SetFileName(model)
     reader.Update()
     all_blocks = list(blocks(reader.GetOutput()))
-    regions = [(name, data) for group, name, data in all_blocks if group == "regions"]
-    faults = [data for group, name, data in all_blocks if group == "surfaces" and name.startswith("fault")]
+    regions = [(name, data) for group, name, data in all_blocks if group == "Regions"]
+    faults = [data for group, name, data in all_blocks if group == "Surfaces" and name.startswith("fault")]
     if len(regions) != 6 or not faults:
         sys.exit(f"{model}: {len(regions)} regions and {len(faults)} parts of the fault, not 6 and some: "
                  + ", ".join(f"{group}/{name}" for group, name, _ in all_blocks))
