@@ -42,8 +42,8 @@ def actor(data, colour, shift, opacity=1.0, edges=True):
     look.SetEdgeVisibility(edges)
     look.SetEdgeColor(0.15, 0.15, 0.15)
     look.SetLineWidth(1.2)
-    look.SetAmbient(0.25)
-    look.SetDiffuse(0.75)
+    look.SetAmbient(0.4)
+    look.SetDiffuse(0.65)
     return drawn
 
 
@@ -71,14 +71,14 @@ def main(model, picture):
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
-    window.SetSize(1200, 760)
+    window.SetSize(1200, 800)
     window.AddRenderer(renderer)
     camera = renderer.GetActiveCamera()
     camera.SetFocalPoint(*middle)
-    camera.SetPosition(middle[0] + 900, middle[1] - 2600, middle[2] + 1150)
+    camera.SetPosition(middle[0] + 1300, middle[1] - 2400, middle[2] + 1000)
     camera.SetViewUp(0, 0, 1)
     renderer.ResetCamera()
-    camera.Zoom(1.35)
+    camera.Zoom(1.03)
     renderer.ResetCameraClippingRange()
     window.Render()
 
