@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 ROOT = os.path.abspath(os.environ.get("GEOMEND_SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", "..")))
-SHOWN = re.compile(r'#\s*include\s*[<"](vtk|CGAL/|tetgen|tbb/)')
+SHOWN = re.compile(r'#\s*include\s*[<"](vtk|CGAL/|tetgen)')
 
 def run(*command):
     result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
