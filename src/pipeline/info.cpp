@@ -112,12 +112,26 @@ void into_frame(std::array<Vec3, 2>& box, ZPositive frame) {
     box[1][2] = 0.0 - low;
 }
 
-ObjectSummary summarise_object(const Dataset& dataset, const Object& object) {
+// The file's word for an object's role: its own, else that of the faces that a model makes of it.
+std::string role_of(const Dataset& dataset, std::size_t object) {
+    const ObjectInfo& info = info_of(dataset.objects[object]);
+    std::string word = info.role_text;
+    if (word.empty() && info.role != FeatureRole::unknown) word = to_string(info.role);
+    for (const StatedModel& model : dataset.models) {
+        for (const StatedModel::Face& face : model.faces) {
+            if (face.object == object && word.empty()) word = face.role_text;
+        }
+    }
+    return word == "none" ? std::string() : word;
+}
+
+ObjectSummary summarise_object(const Dataset& dataset, std::size_t index) {
+    const Object& object = dataset.objects[index];
     ObjectSummary s;
     const ObjectInfo& info = info_of(object);
     s.name = info.name;
     s.kind = kind_name(object);
-    s.role = info.role_text.empty() ? (info.role == FeatureRole::unknown ? "" : to_string(info.role)) : info.role_text;
+    s.role = role_of(dataset, index);
     s.feature = info.feature;
     s.groups = info.groups;
     s.units = info.crs.axis_units;
@@ -169,7 +183,7 @@ FileSummary summarise(const std::string& path, const Dataset& dataset) {
     summary.file = path;
     summary.format = dataset.format;
     summary.variant = dataset.variant;
-    for (const Object& object : dataset.objects) summary.objects.push_back(summarise_object(dataset, object));
+    for (std::size_t i = 0; i < dataset.objects.size(); ++i) summary.objects.push_back(summarise_object(dataset, i));
     for (const Brep& brep : dataset.breps) summary.breps.push_back(summarise_brep(*brep));
     const auto take = [&](const CoordinateSystem& crs) {
         if (!summary.crs.stated && crs.stated) summary.crs = crs;

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "topology/brep_from_dataset.h"
+#include "topology/flat_objects.h"
 #include "topology/model_from_brep.h"
 
 namespace geomend {
@@ -102,21 +103,43 @@ void to_tagged_meshes(Dataset& dataset) {
     std::ranges::move(outside, std::back_inserter(dataset.objects));
 }
 
+// VTK and MSH hold cells of every dimension; elsewhere a mesh of cells is a volume.
+bool holds_flat_meshes(const Format& target) { return target.family == "vtk" || target.family == "gmsh"; }
+
+bool is_flat_mesh(const Object& object) {
+    const auto* mesh = std::get_if<CellMesh>(&object);
+    return mesh != nullptr && topology::is_flat(*mesh);
+}
+
+// Takes meshes of points, lines and faces apart into surfaces, polylines and point sets.
+void to_flat_objects(Dataset& dataset) {
+    if (std::ranges::none_of(dataset.objects, is_flat_mesh)) return;
+    if (!dataset.models.empty()) return to_faced_models(dataset);  // models speak of the meshes by number
+    std::vector<Object> objects;
+    for (Object& object : dataset.objects) {
+        if (!is_flat_mesh(object)) objects.push_back(std::move(object));
+        else std::ranges::move(topology::flat_objects(std::get<CellMesh>(object), dataset.losses), std::back_inserter(objects));
+    }
+    dataset.objects = std::move(objects);
+}
+
 }  // namespace
 
 void shape_for(Dataset& dataset, const Format& target) {
-    if (!states_a_model(dataset)) return;
+    const bool stated = states_a_model(dataset);
     switch (target.wants) {
         case WriterWants::objects:
+            if (!holds_flat_meshes(target)) to_flat_objects(dataset);
             break;
         case WriterWants::brep:
-            topology::build_breps(dataset);
+            if (stated) topology::build_breps(dataset);
             break;
         case WriterWants::faced_model:
-            if (!is_faced(dataset)) to_faced_models(dataset);
+            if (stated && !is_faced(dataset)) to_faced_models(dataset);
             break;
         case WriterWants::tagged_mesh:
-            if (!is_tagged_mesh(dataset, target)) to_tagged_meshes(dataset);
+            if (stated && !is_tagged_mesh(dataset, target)) to_tagged_meshes(dataset);
+            if (!stated && !holds_flat_meshes(target)) to_flat_objects(dataset);
             break;
     }
 }
