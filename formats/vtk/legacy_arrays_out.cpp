@@ -123,11 +123,10 @@ void LegacyArraysOut::points_as_float(std::span<const Vec3> points) {
     for (const Vec3& p : points) {
         std::string& bytes = piece.bytes();
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto x = static_cast<float>(p[axis]);
             if (binary_) {
-                append_big_endian(bytes, x);
+                append_big_endian(bytes, static_cast<float>(p[axis]));
             } else {
-                append_number(bytes, x);
+                append_number(bytes, p[axis]);  // as a double: who reads the text as doubles gets the same point, too
                 bytes += axis == 2 ? '\n' : ' ';
             }
         }

@@ -38,7 +38,7 @@ TEST(ExitStatus, IsThreeForAnInputThatCannotBeRead) {
 TEST(ExitStatus, IsTheWorstOfSeveralFilesAndAllAreLookedAt) {
     const TemporaryFolder folder;
     write_file(folder / "good.ts", triangle);
-    const Run run = run_geomend({"info", "--json", (folder / "none.ts").string(), (folder / "good.ts").string()});
+    const ProgramRun run = run_geomend({"info", "--json", (folder / "none.ts").string(), (folder / "good.ts").string()});
     EXPECT_EQ(run.status, 3);
     const auto all = nlohmann::json::parse(run.out, nullptr, false);
     ASSERT_EQ(all.size(), 2u);
@@ -49,7 +49,7 @@ TEST(ExitStatus, IsTheWorstOfSeveralFilesAndAllAreLookedAt) {
 TEST(ExitStatus, IsFourWhereTheOutputCannotBeWritten) {
     const TemporaryFolder folder;
     write_file(folder / "good.ts", triangle);
-    const Run run = run_geomend({"convert", (folder / "good.ts").string(), "-o", (folder / "no/such/folder.vtp").string()});
+    const ProgramRun run = run_geomend({"convert", (folder / "good.ts").string(), "-o", (folder / "no/such/folder.vtp").string()});
     EXPECT_EQ(run.status, 4) << run.err;
     EXPECT_EQ(run_geomend({"convert", (folder / "good.ts").string(), "--to", "vtp", "-o", folder.path().string()}).status, 4);
 }
@@ -59,10 +59,10 @@ TEST(ExitStatus, IsFourWhereSubstanceWouldBeLostAndNothingIsWritten) {
     write_file(folder / "good.ts", triangle);
     write_file(folder / "old.irapp", "old");
     const auto in = (folder / "good.ts").string(), out = (folder / "old.irapp").string();
-    const Run refused = run_geomend({"convert", in, "-o", out, "--to", "irap-points"});
+    const ProgramRun refused = run_geomend({"convert", in, "-o", out, "--to", "irap-points"});
     EXPECT_EQ(refused.status, 4) << refused.err;
     EXPECT_EQ(read_file(out), "old");
-    const Run lossy = run_geomend({"convert", in, "-o", out, "--to", "irap-points", "--lossy", "--json"});
+    const ProgramRun lossy = run_geomend({"convert", in, "-o", out, "--to", "irap-points", "--lossy", "--json"});
     EXPECT_EQ(lossy.status, 0) << lossy.err;
     const auto result = nlohmann::json::parse(lossy.out, nullptr, false);
     ASSERT_FALSE(result["loss"].empty());
@@ -73,7 +73,7 @@ TEST(ExitStatus, IsFourWhereSubstanceWouldBeLostAndNothingIsWritten) {
 TEST(StandardStreams, AreInputAndOutput) {
     const TemporaryFolder folder;
     write_file(folder / "good.ts", triangle);
-    const Run run = run_geomend({"convert", "-", "-o", "-", "--to", "gocad-ts"}, folder / "good.ts");
+    const ProgramRun run = run_geomend({"convert", "-", "-o", "-", "--to", "gocad-ts"}, folder / "good.ts");
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.out.substr(0, 12), "GOCAD TSurf ");
     write_file(folder / "back.ts", run.out);
@@ -104,7 +104,7 @@ TEST(Convert, NeedsLeaveForAnUnterminatedObject) {
     text.resize(text.size() - 4);
     write_file(folder / "open.ts", text);
     const auto in = (folder / "open.ts").string(), out = (folder / "o.ts").string();
-    const Run look = run_geomend({"info", in});
+    const ProgramRun look = run_geomend({"info", in});
     EXPECT_EQ(look.status, 0);
     EXPECT_NE(look.err.find("F101"), std::string::npos) << look.err;
     EXPECT_EQ(run_geomend({"convert", in, "-o", out}).status, 3);

@@ -29,9 +29,12 @@ const char* const files[] = {"gocad/modelA1.ml",
                              "vtk/Domain_Mesh_FaultModel.vtu"};
 
 // Exit 3 with a message, or exit 0 with a finding on standard error that says the end is missing.
-void expect_told(const Run& run, const std::string& what) {
-    if (run.status == 0) EXPECT_NE(run.err.find("F101"), std::string::npos) << what << ": silent success";
-    else EXPECT_EQ(run.status, 3) << what << '\n' << run.err;
+void expect_told(const ProgramRun& run, const std::string& what) {
+    if (run.status == 0) {
+        EXPECT_NE(run.err.find("F101"), std::string::npos) << what << ": silent success";
+    } else {
+        EXPECT_EQ(run.status, 3) << what << '\n' << run.err;
+    }
     EXPECT_FALSE(run.err.empty()) << what;
 }
 
@@ -62,7 +65,7 @@ TEST_P(Hostile, SurvivesRandomBytes) {
         std::string damaged = bytes;
         for (int i = 0; i < 1 + 4 * round; ++i) damaged[random() % damaged.size()] = static_cast<char>(random());
         write_file(changed, damaged);
-        const Run run = run_geomend({"info", changed.string()});
+        const ProgramRun run = run_geomend({"info", changed.string()});
         EXPECT_TRUE(run.status == 0 || run.status == 3 || run.status == 5) << "round " << round << ": status " << run.status << '\n'
                                                                            << run.err;
     }

@@ -38,8 +38,12 @@ TEST_P(Breps, HaveTheKnownCounts) {
     EXPECT_EQ(brep["lines"], o.lines);
     EXPECT_EQ(brep["surfaces"], o.surfaces);
     EXPECT_EQ(brep["regions"], o.regions);
-    if (o.vertices >= 0) EXPECT_EQ(brep["vertices"], o.vertices);
-    if (o.triangles >= 0) EXPECT_EQ(brep["triangles"], o.triangles);
+    if (o.vertices >= 0) {
+        EXPECT_EQ(brep["vertices"], o.vertices);
+    }
+    if (o.triangles >= 0) {
+        EXPECT_EQ(brep["triangles"], o.triangles);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(

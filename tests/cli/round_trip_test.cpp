@@ -56,9 +56,9 @@ TEST_P(RoundTrip, GivesTheSameModel) {
     if (!path) GTEST_SKIP() << trip.file << " is not here";
     const TemporaryFolder folder;
     const auto through = (folder / trip.through).string(), back = (folder / trip.back).string();
-    const Run there = run_geomend({"convert", path->string(), "-o", through});
+    const ProgramRun there = run_geomend({"convert", path->string(), "-o", through});
     ASSERT_EQ(there.status, 0) << there.err;
-    const Run here = run_geomend({"convert", through, "-o", back});
+    const ProgramRun here = run_geomend({"convert", through, "-o", back});
     ASSERT_EQ(here.status, 0) << here.err;
     const Json a = info(*path), b = info(back);
     ASSERT_TRUE(a.is_object() && b.is_object());

@@ -18,13 +18,13 @@ extern char** environ;
 namespace geomend::test {
 
 /// What a run of the program came to.
-struct Run {
+struct ProgramRun {
     int status = -1;  ///< exit status; 128 + signal where a signal ended it
     std::string out, err;
 };
 
 /// Runs geomend as a user would, with standard output and error kept. `input` is its standard input.
-inline Run run_geomend(const std::vector<std::string>& arguments, const std::filesystem::path& input = "/dev/null") {
+inline ProgramRun run_geomend(const std::vector<std::string>& arguments, const std::filesystem::path& input = "/dev/null") {
     const TemporaryFolder folder;
     const auto out = folder / "out", err = folder / "err";
     const pid_t child = ::fork();
@@ -46,7 +46,7 @@ inline Run run_geomend(const std::vector<std::string>& arguments, const std::fil
     }
     int status = 0;
     ::waitpid(child, &status, 0);
-    Run run;
+    ProgramRun run;
     run.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     run.out = read_file(out);
     run.err = read_file(err);
@@ -57,7 +57,7 @@ inline Run run_geomend(const std::vector<std::string>& arguments, const std::fil
 inline nlohmann::json info(const std::filesystem::path& file, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"info", "--json", file.string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Run run = run_geomend(arguments);
+    const ProgramRun run = run_geomend(arguments);
     if (run.status != 0) return nullptr;
     const auto all = nlohmann::json::parse(run.out, nullptr, false);
     return all.is_array() && all.size() == 1 ? all[0] : nlohmann::json(nullptr);

@@ -255,6 +255,15 @@ TEST(LegacyWrite, SinglePrecisionIsKeptOnlyWhereItIsExact) {
     EXPECT_NE(written(must_read(head + "0.1 1 2\n")).find("POINTS 1 double\n0.1 1 2\n"), std::string::npos);
 }
 
+TEST(LegacyWrite, SinglePrecisionTextHasTheDigitsOfTheDouble) {
+    PointSet set;
+    set.points = {{double{0.1f}, double{-2.1966224f}, 0}};
+    set.info.annotations.push_back({"vtk.points", "Float32"});
+    const std::string text = written(dataset(set));
+    EXPECT_NE(text.find("0.10000000149011612 "), std::string::npos) << text;
+    EXPECT_EQ(only<PointSet>(must_read(text)).points, set.points);
+}
+
 TEST(LegacyWrite, SeveralObjectsAreRefusedWithAWayOut) {
     Dataset data;
     data.objects.resize(2);
