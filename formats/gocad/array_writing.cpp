@@ -129,9 +129,10 @@ void ArrayWriting::write_records(const Attribute& a, std::size_t number, const s
         return name_token(text.empty() ? other : std::string_view(text));
     };
     const std::string cls = stated(a.property_class, a.name);
-    out << "\nPROPERTY" << n << name_token(a.name) << "\nPROPERTY_CLASS" << n << cls << '\n';
+    out << "\nPROPERTY" << n << name_token(a.name) << '\n';
+    if (!a.property_class.empty()) out << "PROPERTY_CLASS" << n << cls << '\n';
     if (const auto method = annotation(a, "gocad.interpolation_method"); !method.empty()) out << "INTERPOLATION_METHOD " << method << '\n';
-    out << "PROPERTY_KIND" << n << stated(a.kind, "unknown") << '\n';
+    if (!a.kind.empty()) out << "PROPERTY_KIND" << n << name_token(a.kind) << '\n';
     bool open = false;
     for (const auto& [key, value] : a.annotations) {
         if (key != "gocad.class_header") continue;
@@ -141,16 +142,13 @@ void ArrayWriting::write_records(const Attribute& a, std::size_t number, const s
     }
     if (open) out << "}\n";
     const auto subclass = annotation(a, "gocad.subclass");
-    out << "PROPERTY_SUBCLASS" << n << (subclass.empty() ? "QUANTITY Float" : subclass) << '\n';
-    bool original_unit = false;
+    if (!subclass.empty()) out << "PROPERTY_SUBCLASS" << n << subclass << '\n';
     for (const auto& [key, value] : a.annotations) {
         if (key != "gocad.prop_record") continue;
         const std::size_t blank = value.find(' ');
-        original_unit |= value.starts_with("PROP_ORIGINAL_UNIT");
         out << std::string_view(value).substr(0, blank) << n
             << (blank == std::string::npos ? "" : std::string_view(value).substr(blank + 1)) << '\n';
     }
-    if (!original_unit) out << "PROP_ORIGINAL_UNIT" << n << stated(a.unit, "none") << '\n';
     if (!a.unit.empty()) out << "PROP_UNIT" << n << name_token(a.unit) << '\n';
     if (a.no_data) (out << "PROP_NO_DATA_VALUE" << n).number(*a.no_data) << '\n';
     if (a.legal_min || a.legal_max) {

@@ -9,6 +9,7 @@ namespace geomend::gocad {
 namespace {
 
 constexpr double usual_no_data = -99999;
+constexpr double other_no_data = 1e30;
 constexpr std::string_view no_range = "**none**";
 
 void take_tokens(std::vector<std::string>& list, TextCursor& line) {
@@ -36,6 +37,24 @@ void take_subclasses(std::vector<std::string>& list, TextCursor& line) {
 const std::string& entry(const std::vector<std::string>& list, std::size_t i) {
     static const std::string none;
     return i < list.size() ? list[i] : none;
+}
+
+bool is_missing(double value) { return std::isnan(value); }
+bool is_usual(double value) { return value == usual_no_data; }
+
+template <class Test>
+bool holds(const Attribute& a, const std::vector<bool>* written, const Test& test) {
+    return std::visit(
+        [&](const auto& values) {
+            using Value = typename std::decay_t<decltype(values)>::value_type;
+            if constexpr (std::is_arithmetic_v<Value>) {
+                for (std::size_t i = 0; i < values.size(); ++i) {
+                    if (test(static_cast<double>(values[i])) && (written == nullptr || (*written)[i / a.components])) return true;
+                }
+            }
+            return false;
+        },
+        a.values);
 }
 
 std::optional<double> range_end(const std::string& text) {
@@ -150,8 +169,12 @@ std::vector<const Attribute*> writable_attributes(const ObjectInfo& info, Attrib
         if (a.location != location) continue;
         if (std::holds_alternative<std::vector<std::string>>(a.values)) {
             add_loss(losses, {LossClass::substance, info.name, "attribute '" + a.name + "'", "Gocad properties are numbers, not text"});
-        } else {
-            out.push_back(&a);
+            continue;
+        }
+        out.push_back(&a);
+        if (!a.no_data && holds(a, nullptr, is_missing) && holds(a, nullptr, is_usual)) {
+            add_loss(losses, {LossClass::substance, info.name, "values -99999 of '" + a.name + "'",
+                              "its NaN are written as -99999, so that these values read as missing, too"});
         }
     }
     return out;
@@ -173,7 +196,8 @@ void append_values(std::string& line, const std::vector<const Attribute*>& attri
     }
 }
 
-void write_property_lists(OutputFile& out, const std::vector<const Attribute*>& attributes, std::string_view prefix) {
+void write_property_lists(OutputFile& out, const std::vector<const Attribute*>& attributes, std::string_view prefix,
+                          const std::vector<bool>* written) {
     if (attributes.empty()) return;
     const auto list = [&](std::string_view keyword, auto&& entry_of) {
         out << prefix << keyword;
@@ -192,17 +216,37 @@ void write_property_lists(OutputFile& out, const std::vector<const Attribute*>& 
     const auto range = [](std::optional<double> end) { return end ? number_text(*end) : std::string(no_range); };
     list("PROPERTIES", [](const Attribute& a) { return name_token(a.name); });
     list("PROP_LEGAL_RANGES", [&](const Attribute& a) { return range(a.legal_min) + ' ' + range(a.legal_max); });
-    list("NO_DATA_VALUES", [](const Attribute& a) { return number_text(written_no_data(a)); });
+    const auto needs_no_data = [&](const Attribute* a) { return a->no_data || holds(*a, written, is_missing); };
+    if (std::ranges::any_of(attributes, needs_no_data)) {
+        list("NO_DATA_VALUES", [&](const Attribute& a) {
+            // Where nothing is missing, the entry that the list needs must not make a value missing.
+            const bool in_the_way = !needs_no_data(&a) && holds(a, written, is_usual);
+            return number_text(in_the_way ? other_no_data : written_no_data(a));
+        });
+    }
     for (const std::string_view keyword : {"READ_ONLY", "FIXED", "INTERPOLATION_METHODS"}) {
         const std::string key = "gocad.list." + std::string(keyword);
         const bool all = std::ranges::all_of(attributes, [&](const Attribute* a) { return !annotation(*a, key, "").empty(); });
         if (all) list(keyword, [&](const Attribute& a) { return name_token(annotation(a, key, "")); });
     }
-    list("PROPERTY_CLASSES", [&](const Attribute& a) { return or_else(a.property_class, a.name); });
-    list("PROPERTY_KINDS", [&](const Attribute& a) { return or_else(a.kind, "unknown"); });
-    list("PROPERTY_SUBCLASSES", [&](const Attribute& a) { return annotation(a, "gocad.subclass", "QUANTITY Float"); });
+    // What no property states is not invented: the reader of a file without the line knows as little.
+    const auto stated_by_any = [&](auto&& text_of) {
+        return std::ranges::any_of(attributes, [&](const Attribute* a) { return !text_of(*a).empty(); });
+    };
+    const auto list_if_stated = [&](std::string_view keyword, auto&& text_of, auto&& entry_of) {
+        if (stated_by_any(text_of)) list(keyword, entry_of);
+    };
+    list_if_stated(
+        "PROPERTY_CLASSES", [](const Attribute& a) { return a.property_class; },
+        [&](const Attribute& a) { return or_else(a.property_class, a.name); });
+    list_if_stated(
+        "PROPERTY_KINDS", [](const Attribute& a) { return a.kind; }, [&](const Attribute& a) { return or_else(a.kind, "unknown"); });
+    list_if_stated(
+        "PROPERTY_SUBCLASSES", [&](const Attribute& a) { return annotation(a, "gocad.subclass", ""); },
+        [&](const Attribute& a) { return annotation(a, "gocad.subclass", "QUANTITY Float"); });
     list("ESIZES", [](const Attribute& a) { return std::to_string(a.components); });
-    list("UNITS", [&](const Attribute& a) { return or_else(a.unit, "none"); });
+    list_if_stated(
+        "UNITS", [](const Attribute& a) { return a.unit; }, [&](const Attribute& a) { return or_else(a.unit, "none"); });
 }
 
 }  // namespace geomend::gocad

@@ -33,9 +33,12 @@ private:
     std::uint64_t line_ = 0;
 };
 
-/// Writes the complete lists for the attributes. Attributes without a no-data value get -99999 where they hold NaN.
-/// \param prefix "" or "TETRA_" or "TRGL_"
-void write_property_lists(OutputFile& out, const std::vector<const Attribute*>& attributes, std::string_view prefix);
+/// Writes the lists for the attributes: complete ones, but none of classes, kinds, units or no-data values where no
+/// attribute states any. Attributes without a no-data value get -99999 where they hold NaN.
+/// \param prefix  "" or "TETRA_" or "TRGL_"
+/// \param written which things have their values written; nullptr: all
+void write_property_lists(OutputFile& out, const std::vector<const Attribute*>& attributes, std::string_view prefix,
+                          const std::vector<bool>* written = nullptr);
 
 /// The no-data value that is written for an attribute: its own, or -99999.
 double written_no_data(const Attribute& attribute);

@@ -102,6 +102,7 @@ private:
 
     void sort_cells() {
         plan_.volume_of.assign(mesh_.cell_count(), no_index);
+        const std::vector<bool> on_faces = nodes_of_faces_and_volumes();
         constexpr std::size_t none = static_cast<std::size_t>(-1);
         std::vector<std::size_t> volume_of_entity(mesh_.entities.size() + 1, none), face_of_entity(mesh_.entities.size() + 1, none);
         // Entities keep their order, whatever the order of the cells.
@@ -128,11 +129,27 @@ private:
                 }
                 plan_.faces[face_of_entity[e]].cells.push_back(c);
             } else {
-                const int d = dimension(mesh_.types[c]);
-                lose(d >= 2 ? LossClass::substance : LossClass::identity, std::string(to_string(mesh_.types[c])) + " cells",
-                     d >= 2 ? "a solid holds tetrahedra and triangles" : "lines and corners follow from the triangles");
+                lose_cell(c, on_faces);
             }
         }
+    }
+
+    std::vector<bool> nodes_of_faces_and_volumes() const {
+        std::vector<bool> found(mesh_.points.size());
+        for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
+            if (dimension(mesh_.types[c]) < 2) continue;
+            for (const std::uint32_t node : mesh_.cell_nodes(c)) found[node] = true;
+        }
+        return found;
+    }
+
+    // Lines and corners of surfaces follow from them; those that stand alone do not.
+    void lose_cell(std::size_t c, const std::vector<bool>& on_faces) {
+        const std::string what = std::string(to_string(mesh_.types[c])) + " cells";
+        if (dimension(mesh_.types[c]) >= 2) return lose(LossClass::substance, what, "a solid holds tetrahedra and triangles");
+        const bool follows = std::ranges::all_of(mesh_.cell_nodes(c), [&](std::uint32_t node) { return on_faces[node]; });
+        if (follows) lose(LossClass::identity, what, "lines and corners follow from the triangles");
+        else lose(LossClass::substance, what + " that stand on no surface", "a solid holds tetrahedra and triangles");
     }
 
     std::size_t entity_index(std::size_t cell) const {

@@ -7,6 +7,7 @@
 #include "formats/gocad/object_writers.h"
 #include "formats/gocad/region_indicators.h"
 #include "formats/gocad/solid_plan.h"
+#include "formats/gocad/solid_twins.h"
 
 namespace geomend::gocad {
 
@@ -17,15 +18,16 @@ constexpr std::size_t block = 1u << 12;
 class SolidWriter {
 public:
     SolidWriter(const CellMesh& mesh, const StatedModel* model, bool light, GocadOutput& to)
-        : mesh_(mesh),
-          to_(to),
+        : to_(to),
           out_(to.out),
           light_(light),
           plan_(plan_solid(mesh, model)),
-          labels_(writable_labels(mesh.point_labels, mesh.points.size())),
-          point_attributes_(writable_attributes(mesh.info, AttributeLocation::point, to.losses)),
-          cell_attributes_(writable_attributes(mesh.info, AttributeLocation::cell, to.losses)),
-          nodes_(mesh.points, mesh.alias, labels_, mesh.info, point_attributes_) {}
+          split_(split_at_volumes(mesh, plan_)),
+          mesh_(split_ ? *split_ : mesh),
+          labels_(writable_labels(mesh_.point_labels, mesh_.points.size())),
+          point_attributes_(writable_attributes(mesh_.info, AttributeLocation::point, to.losses)),
+          cell_attributes_(writable_attributes(mesh_.info, AttributeLocation::cell, to.losses)),
+          nodes_(mesh_.points, mesh_.alias, labels_, mesh_.info, point_attributes_) {}
 
     Result<void> run() {
         for (const Loss& loss : plan_.losses) add_loss(to_.losses, loss);
@@ -39,7 +41,9 @@ public:
 
         write_object_head(out_, light_ ? "LightTSolid" : "TSolid", mesh_.info);
         write_property_lists(out_, point_attributes_, "");
-        write_property_lists(out_, cell_attributes_, "TETRA_");
+        std::vector<bool> is_tetrahedron;
+        for (const std::uint32_t volume : plan_.volume_of) is_tetrahedron.push_back(volume != no_index);
+        write_property_lists(out_, cell_attributes_, "TETRA_", &is_tetrahedron);
         write_class_headers(out_, mesh_.info);
         write_region_names(out_, "REGION", point_sets);
         write_region_names(out_, "TETRA_REGION", cell_set_views);
@@ -208,11 +212,12 @@ private:
         flush();
     }
 
-    const CellMesh& mesh_;
     GocadOutput& to_;
     OutputFile& out_;
     bool light_;
     SolidPlan plan_;
+    std::optional<CellMesh> split_;
+    const CellMesh& mesh_;  // the split one, or as given
     Labels labels_;
     std::vector<const Attribute*> point_attributes_, cell_attributes_;
     NodeWriter nodes_;

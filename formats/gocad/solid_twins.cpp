@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "formats/gocad/solid_twins.h"
+
+#include <algorithm>
+
+#include "formats/gocad/region_indicators.h"
+
+namespace geomend::gocad {
+
+namespace {
+
+class Splitter {
+public:
+    Splitter(const CellMesh& mesh, const SolidPlan& plan) : mesh_(mesh), plan_(plan), first_(mesh.points.size(), no_index) {}
+
+    std::optional<CellMesh> run() {
+        if (!mesh_.alias.empty() || plan_.volumes.size() < 2 || mesh_.points.size() + mesh_.nodes.size() >= no_index) return {};
+        split_.nodes = mesh_.nodes;
+        number_nodes();
+        if (source_.size() == mesh_.points.size()) return {};
+        take_first_twins();
+        split_.types = mesh_.types;
+        split_.offsets = mesh_.offsets;
+        split_.points.reserve(source_.size());
+        for (const std::uint32_t node : source_) split_.points.push_back(mesh_.points[node]);
+        label_nodes();
+        split_.info = mesh_.info;
+        for (Attribute& a : split_.info.attributes) {
+            if (a.location == AttributeLocation::point) spread_values(a);
+        }
+        for (NamedSet& set : split_.info.sets) {
+            if (set.location == AttributeLocation::point) spread_set(set);
+        }
+        return std::move(split_);
+    }
+
+private:
+    void number_nodes() {
+        std::vector<std::uint32_t> number(mesh_.points.size(), no_index), last_volume(mesh_.points.size(), no_index), own;
+        source_.reserve(mesh_.points.size());
+        for (std::uint32_t v = 0; v < plan_.volumes.size(); ++v) {
+            own.clear();
+            for (const std::uint32_t c : plan_.volumes[v].cells) {
+                for (const std::uint32_t node : mesh_.cell_nodes(c)) {
+                    if (last_volume[node] == v) continue;
+                    last_volume[node] = v;
+                    own.push_back(node);
+                }
+            }
+            std::ranges::sort(own);
+            for (const std::uint32_t node : own) number[node] = add_node(node);
+            for (const std::uint32_t c : plan_.volumes[v].cells) {
+                for (std::uint64_t i = mesh_.offsets[c]; i < mesh_.offsets[c + 1]; ++i) split_.nodes[i] = number[mesh_.nodes[i]];
+            }
+        }
+        for (std::uint32_t node = 0; node < first_.size(); ++node) {
+            if (first_[node] == no_index) add_node(node);
+        }
+    }
+
+    std::uint32_t add_node(std::uint32_t node) {
+        const auto index = static_cast<std::uint32_t>(source_.size());
+        source_.push_back(node);
+        split_.alias.push_back(first_[node]);
+        if (first_[node] == no_index) first_[node] = index;
+        return index;
+    }
+
+    void take_first_twins() {
+        for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
+            if (plan_.volume_of[c] != no_index) continue;
+            for (std::uint64_t i = mesh_.offsets[c]; i < mesh_.offsets[c + 1]; ++i) split_.nodes[i] = first_[mesh_.nodes[i]];
+        }
+    }
+
+    // Stated ids stay with their nodes; twins get new ones.
+    void label_nodes() {
+        split_.point_labels.first = mesh_.point_labels.first;
+        const auto& ids = mesh_.point_labels.ids;
+        if (ids.size() != mesh_.points.size() || ids.empty()) return;
+        const std::int64_t last = *std::ranges::max_element(ids);
+        if (last > largest_id_to_go_on_from) return;
+        std::int64_t next = last + 1;
+        for (std::size_t i = 0; i < source_.size(); ++i) {
+            split_.point_labels.ids.push_back(split_.alias[i] == no_index ? ids[source_[i]] : next++);
+        }
+    }
+
+    void spread_values(Attribute& a) const {
+        std::visit(
+            [&](auto& values) {
+                std::decay_t<decltype(values)> spread;
+                spread.reserve(source_.size() * a.components);
+                for (const std::uint32_t node : source_) {
+                    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(std::size_t{node} * a.components);
+                    spread.insert(spread.end(), begin, begin + a.components);
+                }
+                values = std::move(spread);
+            },
+            a.values);
+    }
+
+    void spread_set(NamedSet& set) const {
+        std::vector<bool> is_member(mesh_.points.size());
+        for (const std::uint32_t node : set.members) is_member[node] = true;
+        const bool flag = set.name.starts_with(control_set_prefix);
+        set.members.clear();
+        for (std::uint32_t i = 0; i < source_.size(); ++i) {
+            if (is_member[source_[i]] && (!flag || split_.alias[i] == no_index)) set.members.push_back(i);
+        }
+    }
+
+    static constexpr std::int64_t largest_id_to_go_on_from = 1'000'000'000'000;
+
+    const CellMesh& mesh_;
+    const SolidPlan& plan_;
+    CellMesh split_;
+    std::vector<std::uint32_t> source_;  // per node of the split mesh its node in the mesh
+    std::vector<std::uint32_t> first_;   // per node of the mesh the first of its twins
+};
+
+}  // namespace
+
+std::optional<CellMesh> split_at_volumes(const CellMesh& mesh, const SolidPlan& plan) { return Splitter(mesh, plan).run(); }
+
+}  // namespace geomend::gocad
