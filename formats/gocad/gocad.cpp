@@ -19,8 +19,8 @@ constexpr std::array<std::string_view, 1> ml{".ml"}, ts{".ts"}, pl{".pl"}, vs{".
     wl{".wl"}, gp{".gp"};
 constexpr std::array<std::string_view, 2> gs{".gs", ".grs"};
 
-Format row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions, Writer write = write_objects,
-           WriterWants wants = WriterWants::objects) {
+Format row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions, std::string_view tried_on,
+           Writer write = write_objects, WriterWants wants = WriterWants::objects) {
     Format format;
     format.name = name;
     format.family = "gocad";
@@ -38,9 +38,10 @@ Format row(std::string_view name, std::string_view title, std::span<const std::s
     keeps.attributes = partly;
     keeps.brep = write == write_model3d || wants == WriterWants::tagged_mesh ? yes : no;
     format.lossy_note =
-        "substance: polygons with more than three corners (but with triangulate=yes), cells that are not tetrahedra, text values; "
-        "identity: types of numbers; style: annotations of other formats";
-    format.tried_on = "real files";
+        "substance: polygons with more than three corners (but with triangulate=yes), cells that are not tetrahedra, text values, "
+        "regions of a model (but in .ml, .so, .lso), sets and values of cells in a Voxet, vectors in a grid; "
+        "identity: types of numbers in text, lines and corners of solids; style: annotations of other formats";
+    format.tried_on = tried_on;
     return format;
 }
 
@@ -48,17 +49,18 @@ Format row(std::string_view name, std::string_view title, std::span<const std::s
 
 std::span<const Format> formats() {
     static const std::array rows{
-        row("gocad-ml", "Gocad Model3d: surfaces, regions, layers", ml, write_model3d, WriterWants::faced_model),
-        row("gocad-ts", "Gocad TSurf: triangulated surfaces", ts),
-        row("gocad-pl", "Gocad PLine: polylines", pl),
-        row("gocad-vs", "Gocad VSet: points", vs),
-        row("gocad-so", "Gocad TSolid: tetrahedra", so, write_objects, WriterWants::tagged_mesh),
-        row("gocad-lso", "Gocad LightTSolid: tetrahedra", lso, write_light_objects, WriterWants::tagged_mesh),
-        row("gocad-sg", "Gocad SGrid: curvilinear grid", sg),
-        row("gocad-vo", "Gocad Voxet: regular lattice", vo),
-        row("gocad-gs", "Gocad 2D grid", gs),
-        row("gocad-wl", "Gocad Well", wl),
-        row("gocad-gp", "Gocad groups of objects", gp),
+        row("gocad-ml", "Gocad Model3d: surfaces, regions, layers", ml, "real files", write_model3d, WriterWants::faced_model),
+        row("gocad-ts", "Gocad TSurf: triangulated surfaces", ts, "real files"),
+        row("gocad-pl", "Gocad PLine: polylines", pl, "real files"),
+        row("gocad-vs", "Gocad VSet: points", vs, "real files"),
+        row("gocad-so", "Gocad TSolid: tetrahedra", so, "real files", write_objects, WriterWants::tagged_mesh),
+        row("gocad-lso", "Gocad LightTSolid: tetrahedra", lso, "real files", write_light_objects, WriterWants::tagged_mesh),
+        row("gocad-sg", "Gocad SGrid: curvilinear grid", sg,
+            "fixtures only: of a real grid only the header was found, without its binary files"),
+        row("gocad-vo", "Gocad Voxet: regular lattice", vo, "real files"),
+        row("gocad-gs", "Gocad 2D grid", gs, "fixtures only: no real file was found"),
+        row("gocad-wl", "Gocad Well", wl, "real files"),
+        row("gocad-gp", "Gocad groups of objects", gp, "real files"),
     };
     return rows;
 }

@@ -218,18 +218,12 @@ private:
         if (well_.path.empty() && !stations_.empty()) place_stations();
     }
 
-    // The survey starts at the reference point; where its first station is deeper, the way to it starts vertically there.
-    // Only the stations become points of the path.
     void place_stations() {
         Vec3 start = well_.head;
         start[2] += well_.kelly_bushing;
-        const bool starts_below = stations_.front().measured_depth > 0;
-        if (starts_below) stations_.insert(stations_.begin(), SurveyStation{});
-        well_.path = minimum_curvature(start, stations_);
-        for (const SurveyStation& s : stations_) well_.measured_depth.push_back(s.measured_depth);
-        if (!starts_below) return;
-        well_.path.erase(well_.path.begin());
-        well_.measured_depth.erase(well_.measured_depth.begin());
+        SurveyedPath path = surveyed_path(start, stations_);
+        well_.path = std::move(path.points);
+        well_.measured_depth = std::move(path.measured_depth);
     }
 
     // The catalogue file repeats the measured depths as float32.

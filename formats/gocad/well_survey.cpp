@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "base/text_cursor.h"
 
 namespace geomend::gocad {
 
@@ -35,6 +38,32 @@ std::vector<Vec3> minimum_curvature(const Vec3& start, std::span<const SurveySta
         path.push_back(p);
     }
     return path;
+}
+
+SurveyedPath surveyed_path(const Vec3& start, std::vector<SurveyStation> stations) {
+    SurveyedPath path;
+    if (stations.empty()) return path;
+    for (const SurveyStation& s : stations) path.measured_depth.push_back(s.measured_depth);
+    const bool starts_below = stations.front().measured_depth > 0;
+    if (starts_below) stations.insert(stations.begin(), SurveyStation{});
+    path.points = minimum_curvature(start, stations);
+    if (starts_below) path.points.erase(path.points.begin());
+    return path;
+}
+
+bool parse_station(std::string_view text, SurveyStation& station) {
+    TextCursor line(text);
+    line.next_line();
+    if (line.token() != "STATION") return false;
+    constexpr double degree = std::numbers::pi / 180;
+    double inclination = 0, azimuth = 0;
+    if (line.real(station.measured_depth) != NumberStatus::ok || line.real(inclination) != NumberStatus::ok ||
+        line.real(azimuth) != NumberStatus::ok) {
+        return false;
+    }
+    station.inclination = inclination * degree;
+    station.azimuth = azimuth * degree;
+    return true;
 }
 
 }  // namespace geomend::gocad

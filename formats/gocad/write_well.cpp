@@ -3,6 +3,7 @@
 
 #include "formats/gocad/object_head.h"
 #include "formats/gocad/object_writers.h"
+#include "formats/gocad/well_survey.h"
 
 namespace geomend::gocad {
 
@@ -25,7 +26,29 @@ bool relative_is_exact(const Well& well) {
     return true;
 }
 
+// The stations as they were read, where they still give this very path.
+bool write_survey(const Well& well, GocadOutput& to) {
+    std::vector<SurveyStation> stations;
+    for (const Annotation& a : well.info.annotations) {
+        SurveyStation station;
+        if (a.key == "gocad.station" && parse_station(a.value, station)) stations.push_back(station);
+    }
+    if (stations.empty()) return false;
+    const SurveyedPath path = surveyed_path({well.head[0], well.head[1], well.head[2] + well.kelly_bushing}, std::move(stations));
+    if (path.points != well.path || path.measured_depth != well.measured_depth) {
+        add_loss(to.losses,
+                 {LossClass::identity, well.info.name, "the deviation survey", "the path is not (or no longer) that of its stations"});
+        return false;
+    }
+    to.out << "DEVIATION_SURVEY \"Minimum Curvature\"\n";
+    for (const Annotation& a : well.info.annotations) {
+        if (a.key == "gocad.station") to.out << a.value << '\n';
+    }
+    return true;
+}
+
 void write_path(const Well& well, GocadOutput& to) {
+    if (write_survey(well, to)) return;
     const double sign = z_sign(well.info.crs);
     if (relative_is_exact(well)) {
         for (std::size_t i = 0; i < well.path.size(); ++i) {
@@ -47,11 +70,16 @@ void write_curve(const Well::Curve& curve, GocadOutput& to, const std::string& w
         add_loss(to.losses, {LossClass::substance, well, "curve '" + a.name + "'", "a curve has one number per depth"});
         return;
     }
+    if (!std::holds_alternative<std::vector<double>>(a.values)) {
+        add_loss(to.losses, {LossClass::identity, well, "type of curve '" + a.name + "' (" + type_name(a.values) + ')',
+                             "its values are written as text, which has no types"});
+    }
     OutputFile& out = to.out;
     const auto or_else = [](const std::string& text, std::string_view other) {
         return name_token(text.empty() ? other : std::string_view(text));
     };
-    out << "WELL_CURVE\nPROPERTY " << name_token(a.name) << "\nPROPERTY_CLASS " << or_else(a.property_class, a.name) << '\n';
+    out << "WELL_CURVE\nPROPERTY " << name_token(a.name) << '\n';
+    if (!a.property_class.empty()) out << "PROPERTY_CLASS " << name_token(a.property_class) << '\n';
     if (!a.kind.empty()) out << "PROPERTY_KIND " << name_token(a.kind) << '\n';
     bool open = false;
     for (const auto& [key, value] : a.annotations) {
