@@ -349,6 +349,14 @@ std::vector<StatedModel::RegionList> lists_from(const Json& j, const char* key, 
     return lists;
 }
 
+Json interface_json(const StatedModel::Interface& interface) {
+    Json j = Json::object();
+    j["name"] = text_json(interface.name);
+    put_text(j, "feature", interface.feature);
+    put_list(j, "annotations", annotations_json(interface.annotations));
+    return j;
+}
+
 Json model_json(const StatedModel& model) {
     Json j = Json::object();
     j["name"] = text_json(model.name);
@@ -359,7 +367,10 @@ Json model_json(const StatedModel& model) {
     for (const auto& region : model.regions) regions.push_back(region_json(region));
     for (const auto& f : model.features) features.push_back(Json{{"name", text_json(f.name)}, {"faces", f.faces}});
     for (const auto& c : model.corners) corners.push_back(Json{{"name", text_json(c.name)}, {"position", point_json(c.position)}});
+    Json interfaces = Json::array();
+    for (const auto& interface : model.interfaces) interfaces.push_back(interface_json(interface));
     put_list(j, "faces", std::move(faces));
+    put_list(j, "interfaces", std::move(interfaces));
     put_list(j, "regions", std::move(regions));
     put_list(j, "features", std::move(features));
     put_list(j, "layers", lists_json(model.layers));
@@ -386,6 +397,9 @@ std::optional<StatedModel> model_from(const Json& j, const std::vector<Object>& 
         fits = fits && face.object < objects.size() && face.part < part_count(objects[face.object]);
     });
     if (!fits) return std::nullopt;
+    for_each_member(j, "interfaces", [&](const Json& one) {
+        model.interfaces.push_back({text_member(one, "name"), text_member(one, "feature"), annotations_from(one)});
+    });
     for_each_member(j, "regions", [&](const Json& one) { model.regions.push_back(region_from(one, model.faces.size())); });
     for_each_member(j, "features", [&](const Json& one) {
         model.features.push_back({text_member(one, "name"), indices_from(one, "faces", model.faces.size())});

@@ -34,6 +34,14 @@ struct StatedModel {
     };
     std::vector<Face> faces;
 
+    /// What is said of whole interfaces whose faces are entities of a mesh; a Surface says it in its own ObjectInfo.
+    struct Interface {
+        std::string name;     ///< Face::interface_name
+        std::string feature;  ///< geological feature that it is a part of; empty: not stated
+        std::vector<Annotation> annotations;
+    };
+    std::vector<Interface> interfaces;
+
     /// A face seen from one side: the region lies on the side the face's normal points into (front) or behind it.
     struct Side {
         std::uint32_t face = 0;  ///< index into faces

@@ -32,11 +32,15 @@ bool is_faced(const Dataset& dataset) {
     return true;
 }
 
+// MSH carries all that a StatedModel says beside the mesh; Gocad solids have but their own records.
+bool carries_statements(const Format& target) { return target.family == "gmsh"; }
+
 // True when there is just one mesh with entities, whose points need no welding, and nothing else.
 bool is_tagged_mesh(const Dataset& dataset, const Format& target) {
     if (dataset.objects.size() != 1 || !is_meshed(dataset.objects.front())) return false;
+    if (dataset.format == target.family) return true;
     const auto& mesh = std::get<CellMesh>(dataset.objects.front());
-    return dataset.format == target.family || mesh.alias.empty();
+    return mesh.alias.empty() && (dataset.models.empty() || carries_statements(target));
 }
 
 std::vector<bool> objects_inside(const Dataset& dataset) {
@@ -71,6 +75,16 @@ std::vector<Object> objects_outside(Dataset& dataset) {
     return outside;
 }
 
+// Adds a model and the objects that it stands on.
+void append(Dataset& dataset, Dataset model) {
+    const auto shift = static_cast<std::uint32_t>(dataset.objects.size());
+    for (StatedModel& stated : model.models) {
+        for (StatedModel::Face& face : stated.faces) face.object += shift;
+        dataset.models.push_back(std::move(stated));
+    }
+    std::ranges::move(model.objects, std::back_inserter(dataset.objects));
+}
+
 void to_faced_models(Dataset& dataset) {
     topology::build_breps(dataset);
     if (dataset.breps.empty()) return;
@@ -79,19 +93,11 @@ void to_faced_models(Dataset& dataset) {
     dataset.objects.clear();
     dataset.models.clear();
     dataset.breps.clear();
-    for (const Brep& brep : breps) {
-        Dataset model = topology::faced_model(brep, dataset.losses);
-        const auto shift = static_cast<std::uint32_t>(dataset.objects.size());
-        for (StatedModel& stated : model.models) {
-            for (StatedModel::Face& face : stated.faces) face.object += shift;
-            dataset.models.push_back(std::move(stated));
-        }
-        std::ranges::move(model.objects, std::back_inserter(dataset.objects));
-    }
+    for (const Brep& brep : breps) append(dataset, topology::faced_model(brep, dataset.losses));
     std::ranges::move(outside, std::back_inserter(dataset.objects));
 }
 
-void to_tagged_meshes(Dataset& dataset) {
+void to_tagged_meshes(Dataset& dataset, const Format& target) {
     topology::build_breps(dataset);
     if (dataset.breps.empty()) return;
     std::vector<Object> outside = objects_outside(dataset);
@@ -99,7 +105,10 @@ void to_tagged_meshes(Dataset& dataset) {
     dataset.objects.clear();
     dataset.models.clear();
     dataset.breps.clear();
-    for (const Brep& brep : breps) dataset.objects.emplace_back(topology::tagged_mesh(brep, dataset.losses));
+    for (const Brep& brep : breps) {
+        if (carries_statements(target)) append(dataset, topology::tagged_model(brep, dataset.losses));
+        else dataset.objects.emplace_back(topology::tagged_mesh(brep, dataset.losses));
+    }
     std::ranges::move(outside, std::back_inserter(dataset.objects));
 }
 
@@ -138,7 +147,7 @@ void shape_for(Dataset& dataset, const Format& target) {
             if (stated && !is_faced(dataset)) to_faced_models(dataset);
             break;
         case WriterWants::tagged_mesh:
-            if (stated && !is_tagged_mesh(dataset, target)) to_tagged_meshes(dataset);
+            if (stated && !is_tagged_mesh(dataset, target)) to_tagged_meshes(dataset, target);
             if (!stated && !holds_flat_meshes(target)) to_flat_objects(dataset);
             break;
     }

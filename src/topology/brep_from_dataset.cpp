@@ -50,6 +50,7 @@ private:
 
     const CellMesh* mesh_of(std::uint32_t object) const { return std::get_if<CellMesh>(&dataset_.objects[object]); }
     bool has_volume_entities() const;
+    bool has_volume_cells() const;
     void choose_objects();
     void choose_mesh_faces();
     void weld();
@@ -78,6 +79,7 @@ private:
     std::uint64_t points_ = 0, aliases_ = 0;
     std::uint32_t mesh_object_ = no_index;  // whose cells fill the regions
     std::vector<std::vector<std::uint32_t>> entity_cells_;
+    std::optional<Twins> twins_;              // as the mesh states them
     std::vector<std::uint8_t> key_reversed_;  // per face
     Assembly a_;
 };
@@ -94,6 +96,15 @@ bool ModelBuilder::has_volume_entities() const {
     if (mesh_object_ == no_index) return false;
     const auto& entities = mesh_of(mesh_object_)->entities;
     return std::any_of(entities.begin(), entities.end(), [](const auto& e) { return e.dimension == 3; });
+}
+
+bool ModelBuilder::has_volume_cells() const {
+    if (mesh_object_ == no_index) return false;
+    const auto& entities = mesh_of(mesh_object_)->entities;
+    for (std::size_t e = 0; e < entities.size(); ++e) {
+        if (entities[e].dimension == 3 && !entity_cells_[e].empty()) return true;
+    }
+    return false;
 }
 
 void ModelBuilder::choose_mesh_faces() {
@@ -141,7 +152,10 @@ void ModelBuilder::choose_objects() {
     }
     std::sort(objects_.begin(), objects_.end());
     objects_.erase(std::unique(objects_.begin(), objects_.end()), objects_.end());
-    if (mesh_object_ != no_index) entity_cells_ = cells_by_entity(*mesh_of(mesh_object_));
+    if (mesh_object_ != no_index) {
+        entity_cells_ = cells_by_entity(*mesh_of(mesh_object_));
+        twins_ = stated_twins(*mesh_of(mesh_object_));
+    }
     if (model_ == nullptr) choose_mesh_faces();
 }
 
@@ -185,12 +199,13 @@ void ModelBuilder::make_surfaces() {
     auto& surfaces = a_.brep.surfaces;
     surfaces.resize(faces_.size());
     a_.faces.resize(faces_.size());
-    const bool point_attributes_here = !has_volume_entities();
+    const bool point_attributes_here = !has_volume_cells();  // else they are the regions' own
     parallel_for_each_index(faces_.size(), [&](std::size_t f) {
         const Face& face = faces_[f];
         const auto& vertex_of = vertex_of_.at(face.object);
         if (const CellMesh* mesh = mesh_of(face.object)) {
-            surfaces[f] = surface_of_cells(*mesh, entity_cells_[face.part], vertex_of, point_attributes_here);
+            surfaces[f] = surface_of_cells(*mesh, entity_cells_[face.part], vertex_of, mesh->entities[face.part].tag,
+                                           twins_ ? &*twins_ : nullptr, point_attributes_here);
         } else {
             surfaces[f] = surface_of_part(std::get<Surface>(dataset_.objects[face.object]), face.part, vertex_of);
         }
@@ -209,12 +224,21 @@ void ModelBuilder::make_surfaces() {
         interface.feature = info.feature;
         interface.annotations = info.annotations;
     }
+    if (model_ != nullptr) {
+        for (const auto& said : model_->interfaces) {
+            const auto found = std::ranges::find(a_.brep.interfaces, said.name, &BrepData::Interface::name);
+            if (found == a_.brep.interfaces.end()) continue;
+            found->feature = said.feature;
+            found->annotations = said.annotations;
+        }
+    }
     name_surfaces(a_.brep);
 }
 
 StatedLines ModelBuilder::stated() const {
     StatedLines lines;
     if (mesh_object_ != no_index) lines = stated_lines(*mesh_of(mesh_object_), entity_cells_, vertex_of_.at(mesh_object_));
+    if (twins_) lines.shared_nodes = false;
     for (const std::uint32_t o : objects_) {
         const auto* surface = std::get_if<Surface>(&dataset_.objects[o]);
         if (surface == nullptr) continue;
@@ -234,7 +258,9 @@ void ModelBuilder::make_lines() {
     a_.graph = build_lines(a_.brep, a_.faces, stated());
     name_corners();
     if (mesh_object_ == no_index) return;
-    for (auto& surface : a_.brep.surfaces) split_nodes_along_cuts(a_.brep, surface);
+    if (!twins_) {
+        for (auto& surface : a_.brep.surfaces) split_nodes_along_cuts(a_.brep, surface);
+    }
     const CellMesh& mesh = *mesh_of(mesh_object_);
     for (std::size_t l = 0; l < a_.brep.lines.size(); ++l) {
         if (a_.graph.stated_line[l] != no_index) a_.brep.lines[l].name = mesh.entities[a_.graph.stated_line[l]].name;
@@ -406,15 +432,22 @@ void ModelBuilder::regions_from_mesh() {
 /// What a MODEL section says of regions (one side each, or whole lists) against the regions of the cells.
 void ModelBuilder::check_model_regions(const std::vector<RegionId>& region_of_entity) {
     const CellMesh& mesh = *mesh_of(mesh_object_);
-    std::map<std::string, RegionId> by_name;
+    std::multimap<std::string, RegionId> by_name;  // regions of one name are in the order of their statements
     for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
         if (region_of_entity[e].valid()) by_name.emplace(a_.brep.regions[region_of_entity[e].value].name, region_of_entity[e]);
     }
     std::vector<RegionId> ids;
+    std::map<std::string, std::ptrdiff_t> seen;
     for (const auto& list : stated_lists()) {
-        const auto found = by_name.find(list.name);
-        ids.push_back(found == by_name.end() ? RegionId() : found->second);
-        if (list.universe || found == by_name.end()) continue;
+        const auto [first, last] = by_name.equal_range(list.name);
+        if (first == last) {
+            ids.emplace_back();
+            continue;
+        }
+        auto& taken = seen[list.name];
+        const auto found = std::next(first, std::min(taken++, std::distance(first, last) - 1));
+        ids.push_back(found->second);
+        if (list.universe) continue;
         const auto& sides = a_.brep.regions[found->second.value].sides;
         for (const auto& side : list.sides) {
             const bool there =
@@ -456,9 +489,10 @@ void ModelBuilder::fill_hollow_regions() {
 void ModelBuilder::make_regions() {
     a_.cones = cone_volumes(a_.brep, a_.faces);
     key_reversed_ = reversed_keys();
-    if (has_volume_entities()) {
+    const bool listed = model_ != nullptr && !model_->regions.empty();
+    if (has_volume_cells() || (has_volume_entities() && !listed)) {
         regions_from_mesh();
-    } else if (model_ != nullptr && !model_->regions.empty()) {
+    } else if (listed) {
         regions_from_lists();
         fill_hollow_regions();
     } else {

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "geometry/measures.h"
+#include "topology/corner_values.h"
 #include "topology/face_volume.h"
 #include "topology/faces_from_mesh.h"
 #include "topology/faces_from_surfaces.h"
@@ -201,7 +202,9 @@ void fill(BrepData::Region& region, const CellMesh& mesh, const std::vector<std:
     }
     for (const Attribute& a : mesh.info.attributes) {
         if (a.location == AttributeLocation::point) region.attributes.push_back(restricted(a, points, a.location));
-        if (a.location == AttributeLocation::cell) region.attributes.push_back(restricted(a, cells, a.location));
+        if (a.location != AttributeLocation::cell) continue;
+        if (components_per_corner(a) > 0 && missing_in(a, cells)) continue;  // values of surfaces
+        region.attributes.push_back(restricted(a, cells, a.location));
     }
 }
 

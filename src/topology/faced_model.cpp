@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <unordered_map>
 #include <variant>
 
 #include "topology/attribute_merge.h"
 #include "topology/model_from_brep.h"
+#include "topology/statements.h"
 
 namespace geomend::topology {
 
@@ -87,84 +87,6 @@ private:
     std::unordered_map<std::uint32_t, std::uint32_t> first_at_;  // vertex -> point
 };
 
-std::optional<std::array<Vec3, 3>> key_of(const BrepData& brep, const BrepData::Surface& surface) {
-    for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
-        const auto polygon = surface.polygons[p];
-        if (polygon.size() < 3) continue;
-        std::array<Vec3, 3> key{};
-        for (std::size_t i = 0; i < 3; ++i) key[i] = brep.vertices[surface.nodes[polygon[i]].value];
-        if (key[0] != key[1] && key[1] != key[2] && key[2] != key[0]) return key;
-    }
-    return std::nullopt;
-}
-
-class StatementWriter {
-public:
-    StatementWriter(const BrepData& brep, StatedModel& out) : brep_(brep), out_(out) {}
-
-    void add_faces() {
-        face_of_.assign(brep_.surfaces.size(), no_index);
-        for (std::uint32_t i = 0; i < brep_.interfaces.size(); ++i) {
-            std::uint32_t part = 0;
-            for (const SurfaceId s : brep_.interfaces[i].surfaces) {
-                const auto& surface = brep_.surfaces[s.value];
-                face_of_[s.value] = static_cast<std::uint32_t>(out_.faces.size());
-                StatedModel::Face face;
-                face.number = static_cast<std::int64_t>(out_.faces.size()) + 1;
-                face.object = i;
-                face.part = part++;
-                face.interface_name = brep_.interfaces[i].name;
-                face.name = surface.name;
-                face.role = surface.role;
-                face.role_text = surface.role_text;
-                face.key = key_of(brep_, surface);
-                out_.faces.push_back(std::move(face));
-            }
-        }
-    }
-
-    void add_regions() {
-        std::int64_t number = static_cast<std::int64_t>(out_.faces.size()) + 1;
-        if (!brep_.universe.empty()) out_.regions.push_back({number++, "Universe", true, sides(brep_.universe)});
-        first_region_ = static_cast<std::uint32_t>(out_.regions.size());
-        for (const auto& region : brep_.regions) out_.regions.push_back({number++, region.name, false, sides(region.sides)});
-        add_lists(brep_.layers, out_.layers);
-        add_lists(brep_.fault_blocks, out_.fault_blocks);
-    }
-
-    void add_features() {
-        for (const auto& feature : brep_.features) {
-            StatedModel::Feature made{feature.name, {}};
-            for (const SurfaceId s : feature.surfaces) made.faces.push_back(face_of_[s.value]);
-            out_.features.push_back(std::move(made));
-        }
-        for (const auto& corner : brep_.corners) {
-            if (!corner.name.empty()) out_.corners.push_back({corner.name, brep_.vertices[corner.vertex.value]});
-        }
-    }
-
-private:
-    std::vector<StatedModel::Side> sides(const std::vector<BrepData::Side>& from) const {
-        std::vector<StatedModel::Side> result;
-        for (const auto& side : from) result.push_back({face_of_[side.surface.value], side.front});
-        return result;
-    }
-    void add_lists(const std::vector<BrepData::RegionList>& from, std::vector<StatedModel::RegionList>& to) const {
-        for (const auto& list : from) {
-            StatedModel::RegionList made;
-            made.name = list.name;
-            made.unresolved = list.unresolved;
-            for (const RegionId r : list.regions) made.regions.push_back(first_region_ + r.value);
-            to.push_back(std::move(made));
-        }
-    }
-
-    const BrepData& brep_;
-    StatedModel& out_;
-    std::vector<std::uint32_t> face_of_;
-    std::uint32_t first_region_ = 0;
-};
-
 void list_losses(const BrepData& brep, std::vector<Loss>& losses) {
     for (const auto& region : brep.regions) {
         if (!region.cell_types.empty()) {
@@ -193,16 +115,13 @@ Dataset faced_model(const Brep& brep, std::vector<Loss>& losses) {
     const BrepData& b = *brep;
     InterfaceWriter writer(b, losses);
     for (const auto& interface : b.interfaces) result.objects.emplace_back(writer.make(interface));
-    StatedModel model;
-    model.name = b.name;
-    model.crs = b.crs;
-    model.annotations = b.annotations;
-    StatementWriter statements(b, model);
-    statements.add_faces();
-    statements.add_regions();
-    statements.add_features();
+    std::vector<FacePlace> places;
+    for (std::uint32_t i = 0; i < b.interfaces.size(); ++i) {
+        std::uint32_t part = 0;
+        for (const SurfaceId s : b.interfaces[i].surfaces) places.push_back({s, i, part++});
+    }
     list_losses(b, losses);
-    result.models.push_back(std::move(model));
+    result.models.push_back(stated_model(b, places));
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "topology/corner_values.h"
 #include "topology/faces_from_surfaces.h"
 
 namespace geomend::topology {
@@ -21,20 +22,9 @@ std::span<const std::uint32_t> corner_nodes(const CellMesh& mesh, std::size_t ce
     return corners == 0 || corners > nodes.size() ? nodes : nodes.first(corners);
 }
 
-namespace {
-
-bool all_missing(const Attribute& a) {
-    if (!a.no_data) return false;
-    for (std::size_t i = 0; i < value_count(a); ++i) {
-        if (!is_no_data(a, value_as_double(a, i))) return false;
-    }
-    return true;
-}
-
-}  // namespace
-
 BrepData::Surface surface_of_cells(const CellMesh& mesh, const std::vector<std::uint32_t>& cells,
-                                   const std::vector<std::uint32_t>& vertex_of, bool with_point_attributes) {
+                                   const std::vector<std::uint32_t>& vertex_of, std::int64_t tag, const Twins* twins,
+                                   bool with_point_attributes) {
     BrepData::Surface result;
     std::vector<std::uint32_t> points;
     for (const std::uint32_t c : cells) {
@@ -52,12 +42,16 @@ BrepData::Surface surface_of_cells(const CellMesh& mesh, const std::vector<std::
         }
         result.polygons.push_back(polygon);
     }
+    if (twins != nullptr) {
+        if (const auto own = twins->find(tag); own != twins->end()) {
+            for (const std::uint32_t node : make_twins(own->second, result)) points.push_back(points[node]);
+        }
+    }
     for (const Attribute& a : mesh.info.attributes) {
         if (a.location == AttributeLocation::point && with_point_attributes) result.attributes.push_back(restricted(a, points, a.location));
-        if (a.location == AttributeLocation::cell) {
-            auto values = restricted(a, cells, AttributeLocation::polygon);
-            if (!all_missing(values)) result.attributes.push_back(std::move(values));
-        }
+        if (a.location != AttributeLocation::cell) continue;
+        if (components_per_corner(a) > 0) add_corner_values(mesh, a, cells, tag, result);
+        else if (!missing_in(a, cells)) result.attributes.push_back(restricted(a, cells, AttributeLocation::polygon));
     }
     return result;
 }

@@ -3,7 +3,10 @@
 #include <map>
 
 #include "topology/attribute_merge.h"
+#include "topology/corner_values.h"
 #include "topology/model_from_brep.h"
+#include "topology/statements.h"
+#include "topology/twin_nodes.h"
 
 namespace geomend::topology {
 
@@ -50,7 +53,11 @@ private:
 
 class MeshWriter {
 public:
-    MeshWriter(const BrepData& brep, std::vector<Loss>& losses) : b_(brep), losses_(losses) {}
+    /// \param stated whether a StatedModel and annotations go beside the mesh; else surfaces give way to shared points
+    MeshWriter(const BrepData& brep, bool stated, std::vector<Loss>& losses) : b_(brep), stated_(stated), losses_(losses) {}
+
+    /// The entity of each surface, once the mesh is made.
+    const std::vector<std::uint32_t>& surface_entities() const { return surface_entity_; }
 
     CellMesh run() {
         out_.info.name = b_.name;
@@ -70,7 +77,8 @@ public:
         add_regions();
         attributes_.extend(AttributeLocation::cell, out_.cell_count());
         out_.info.attributes = attributes_.finish(b_.name, losses_);
-        list_losses();
+        if (stated_) add_statements();
+        else list_losses();
         return std::move(out_);
     }
 
@@ -133,6 +141,8 @@ private:
                 entity.groups.push_back(group);
             }
             const std::size_t first_cell = out_.cell_count();
+            first_cell_.push_back(first_cell);
+            surface_entity_.push_back(e);
             std::vector<std::uint32_t> polygon, target;
             for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
                 polygon.clear();
@@ -140,9 +150,11 @@ private:
                 const CellType type = polygon.size() == 3 ? CellType::triangle : polygon.size() == 4 ? CellType::quad : CellType::polygon;
                 add_cell(type, polygon, e);
             }
-            for (const VertexId v : surface.nodes) target.push_back(v.value);
-            attributes_.add(surface.attributes, AttributeLocation::point, AttributeLocation::point, target);
-            target.clear();
+            if (!stated_) {
+                for (const VertexId v : surface.nodes) target.push_back(v.value);
+                attributes_.add(surface.attributes, AttributeLocation::point, AttributeLocation::point, target);
+                target.clear();
+            }
             for (std::size_t p = 0; p < surface.polygons.size(); ++p) target.push_back(static_cast<std::uint32_t>(first_cell + p));
             attributes_.add(surface.attributes, AttributeLocation::polygon, AttributeLocation::cell, target);
             lose_object_attributes(surface.attributes, surface.name);
@@ -194,6 +206,30 @@ private:
         }
     }
 
+    /// What shared points and entities do not say: values of the surfaces' own nodes, and which of them are twins.
+    void add_statements() {
+        std::vector<std::int64_t> tags;
+        Twins twins;
+        for (std::uint32_t s = 0; s < b_.surfaces.size(); ++s) {
+            tags.push_back(tag_of(s));
+            if (auto own = twins_of(b_.surfaces[s]); !own.empty()) twins.emplace(tag_of(s), std::move(own));
+            lose_loose_nodes(b_.surfaces[s]);
+        }
+        out_.info.annotations.push_back(twins_annotation(twins));
+        for (Attribute& a : shared_node_attributes(b_, first_cell_, tags, out_.cell_count())) out_.info.attributes.push_back(std::move(a));
+    }
+
+    void lose_loose_nodes(const BrepData::Surface& surface) {
+        std::vector<std::uint8_t> used(surface.nodes.size(), 0);
+        for (const std::uint32_t node : surface.polygons.corners) used[node] = 1;
+        const auto loose = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), 0));
+        if (loose == 0) return;
+        const bool valued = std::any_of(surface.attributes.begin(), surface.attributes.end(),
+                                        [](const Attribute& a) { return a.location == AttributeLocation::point; });
+        add_loss(losses_, {valued ? LossClass::substance : LossClass::identity, surface.name, "nodes that no polygon uses",
+                           "the points of a mesh are no surface's own", loose});
+    }
+
     void list_losses() {
         const auto lose = [&](std::size_t count, const char* what) {
             if (count > 0) add_loss(losses_, {LossClass::identity, b_.name, what, "a tagged mesh has no place for them", count});
@@ -201,11 +237,17 @@ private:
         lose(b_.layers.size(), "layers");
         lose(b_.fault_blocks.size(), "fault blocks");
         lose(b_.features.size(), "geological features");
+        if (const auto twins = count_twins(b_); twins > 0) {
+            add_loss(losses_, {LossClass::identity, b_.name, "twin nodes that cut a surface", "a mesh has one node for them", twins});
+        }
     }
 
     const BrepData& b_;
+    bool stated_;
     std::vector<Loss>& losses_;
     CellMesh out_;
+    std::vector<std::size_t> first_cell_;        // per surface
+    std::vector<std::uint32_t> surface_entity_;  // per surface
     AttributeMerge attributes_;
     std::map<int, std::int64_t> last_group_tag_;
     bool has_polyhedra_ = false;
@@ -213,6 +255,23 @@ private:
 
 }  // namespace
 
-CellMesh tagged_mesh(const Brep& brep, std::vector<Loss>& losses) { return MeshWriter(*brep, losses).run(); }
+CellMesh tagged_mesh(const Brep& brep, std::vector<Loss>& losses) { return MeshWriter(*brep, false, losses).run(); }
+
+Dataset tagged_model(const Brep& brep, std::vector<Loss>& losses) {
+    Dataset result;
+    MeshWriter writer(*brep, true, losses);
+    result.objects.emplace_back(writer.run());
+    std::vector<FacePlace> places;
+    for (std::uint32_t s = 0; s < brep->surfaces.size(); ++s) places.push_back({SurfaceId(s), 0, writer.surface_entities()[s]});
+    StatedModel model = stated_model(*brep, places);
+    for (auto& face : model.faces) face.key.reset();  // sides are those of the mesh's own polygons
+    for (const auto& interface : brep->interfaces) {
+        if (!interface.feature.empty() || !interface.annotations.empty()) {
+            model.interfaces.push_back({interface.name, interface.feature, interface.annotations});
+        }
+    }
+    result.models.push_back(std::move(model));
+    return result;
+}
 
 }  // namespace geomend::topology

@@ -65,10 +65,19 @@ TEST_P(RealModels, HaveTheirKnownCountsAndKeepThemOnTheWayBack) {
     Dataset faced = topology::faced_model(data->breps[0], losses);
     topology::build_breps(faced);
     expect_counts(*faced.breps.at(0), "from surfaces");
-    Dataset tagged;
-    tagged.objects.emplace_back(topology::tagged_mesh(data->breps[0], losses));
+    losses.clear();
+    Dataset tagged = topology::tagged_model(data->breps[0], losses);
+    for (const Loss& loss : losses) EXPECT_EQ(loss.loss_class, LossClass::style) << loss.entity << ": " << loss.what;
     topology::build_breps(tagged);
-    expect_counts(*tagged.breps.at(0), "from a tagged mesh");
+    const BrepData& t = *tagged.breps.at(0);
+    expect_counts(t, "from a tagged mesh");
+    EXPECT_EQ(t.layers.size(), b.layers.size());
+    EXPECT_EQ(t.fault_blocks.size(), b.fault_blocks.size());
+    EXPECT_EQ(t.features.size(), b.features.size());
+    for (std::size_t s = 0; s < b.surfaces.size(); ++s) {
+        EXPECT_EQ(t.surfaces[s].nodes.size(), b.surfaces[s].nodes.size()) << b.surfaces[s].name;
+        EXPECT_EQ(t.surfaces[s].attributes.size(), b.surfaces[s].attributes.size()) << b.surfaces[s].name;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(
