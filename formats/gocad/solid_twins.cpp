@@ -2,6 +2,9 @@
 #include "formats/gocad/solid_twins.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
 
 #include "formats/gocad/region_indicators.h"
 
@@ -35,22 +38,82 @@ public:
     }
 
 private:
+    // --- which corners share a node ---
+
+    struct Facet {
+        std::array<std::uint32_t, 3> nodes;    // ascending
+        std::array<std::uint32_t, 3> corners;  // places in mesh_.nodes, in that order
+        std::uint32_t volume;
+        bool on_surface;
+    };
+
+    std::uint32_t root(std::uint32_t corner) {
+        while (joined_[corner] != corner) corner = joined_[corner] = joined_[joined_[corner]];
+        return corner;
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = root(a);
+        b = root(b);
+        joined_[std::max(a, b)] = std::min(a, b);
+    }
+
+    template <class Take>
+    void each_facet(const Take& take) const {
+        std::size_t tag = 0;
+        for (std::uint32_t c = 0; c < mesh_.cell_count(); ++c) {
+            if (plan_.volume_of[c] == no_index) continue;
+            const auto first = static_cast<std::uint32_t>(mesh_.offsets[c]);
+            for (std::uint32_t i = 0; i < 4; ++i, ++tag) {
+                Facet facet{{}, {first + (i == 0 ? 1 : 0), first + (i <= 1 ? 2 : 1), first + (i <= 2 ? 3 : 2)}, plan_.volume_of[c], false};
+                std::ranges::sort(facet.corners, {}, [&](std::uint32_t corner) { return mesh_.nodes[corner]; });
+                for (std::size_t k = 0; k < 3; ++k) facet.nodes[k] = mesh_.nodes[facet.corners[k]];
+                facet.on_surface = !plan_.facet_tags.empty() && plan_.facet_tags[tag].sign != 0;
+                take(facet);
+            }
+        }
+    }
+
+    // Facets are sorted by their lowest node first, so that each sort is a small one.
+    void join_corners() {
+        joined_.resize(mesh_.nodes.size());
+        std::iota(joined_.begin(), joined_.end(), 0u);
+        std::vector<std::size_t> begin(mesh_.points.size() + 1);
+        each_facet([&](const Facet& f) { ++begin[f.nodes[0] + std::size_t{1}]; });
+        for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+        std::vector<Facet> facets(begin.back());
+        std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+        each_facet([&](const Facet& f) { facets[next[f.nodes[0]]++] = f; });
+        for (std::size_t node = 0; node + 1 < begin.size(); ++node) {
+            const std::span<Facet> of_node(facets.data() + begin[node], begin[node + 1] - begin[node]);
+            std::ranges::sort(of_node, {}, &Facet::nodes);
+            for (std::size_t i = 1; i < of_node.size(); ++i) {
+                const Facet &a = of_node[i - 1], &b = of_node[i];
+                if (a.nodes != b.nodes || a.volume != b.volume || a.on_surface || b.on_surface) continue;
+                for (std::size_t k = 0; k < 3; ++k) join(a.corners[k], b.corners[k]);
+            }
+        }
+    }
+
     void number_nodes() {
-        std::vector<std::uint32_t> number(mesh_.points.size(), no_index), last_volume(mesh_.points.size(), no_index), own;
+        join_corners();
+        std::vector<std::uint32_t> number(mesh_.nodes.size(), no_index);  // per root
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> own;         // node, root
         source_.reserve(mesh_.points.size());
-        for (std::uint32_t v = 0; v < plan_.volumes.size(); ++v) {
+        for (const SolidPlan::Volume& volume : plan_.volumes) {
             own.clear();
-            for (const std::uint32_t c : plan_.volumes[v].cells) {
-                for (const std::uint32_t node : mesh_.cell_nodes(c)) {
-                    if (last_volume[node] == v) continue;
-                    last_volume[node] = v;
-                    own.push_back(node);
+            for (const std::uint32_t c : volume.cells) {
+                for (std::uint64_t i = mesh_.offsets[c]; i < mesh_.offsets[c + 1]; ++i) {
+                    const std::uint32_t r = root(static_cast<std::uint32_t>(i));
+                    if (r == i) own.emplace_back(mesh_.nodes[i], r);
                 }
             }
             std::ranges::sort(own);
-            for (const std::uint32_t node : own) number[node] = add_node(node);
-            for (const std::uint32_t c : plan_.volumes[v].cells) {
-                for (std::uint64_t i = mesh_.offsets[c]; i < mesh_.offsets[c + 1]; ++i) split_.nodes[i] = number[mesh_.nodes[i]];
+            for (const auto& [node, r] : own) number[r] = add_node(node);
+            for (const std::uint32_t c : volume.cells) {
+                for (std::uint64_t i = mesh_.offsets[c]; i < mesh_.offsets[c + 1]; ++i) {
+                    split_.nodes[i] = number[root(static_cast<std::uint32_t>(i))];
+                }
             }
         }
         for (std::uint32_t node = 0; node < first_.size(); ++node) {
@@ -116,6 +179,7 @@ private:
     const SolidPlan& plan_;
     CellMesh split_;
     std::vector<std::uint32_t> source_;  // per node of the split mesh its node in the mesh
+    std::vector<std::uint32_t> joined_;  // per corner (place in mesh_.nodes) one that shares its node, towards the root
     std::vector<std::uint32_t> first_;   // per node of the mesh the first of its twins
 };
 
