@@ -35,12 +35,19 @@ bool is_faced(const Dataset& dataset) {
 // MSH carries all that a StatedModel says beside the mesh; Gocad solids have but their own records.
 bool carries_statements(const Format& target) { return target.family == "gmsh"; }
 
+// MSH bounds surfaces by lines and lines by corners; Gocad solids, for one, do not state them.
+bool lacks_lines(const CellMesh& mesh) {
+    const auto has = [&](int d) { return std::ranges::any_of(mesh.entities, [d](const CellMesh::Entity& e) { return e.dimension == d; }); };
+    return has(2) && !has(1);
+}
+
 // True when there is just one mesh with entities, whose points need no welding, and nothing else.
 bool is_tagged_mesh(const Dataset& dataset, const Format& target) {
     if (dataset.objects.size() != 1 || !is_meshed(dataset.objects.front())) return false;
     if (dataset.format == target.family) return true;
     const auto& mesh = std::get<CellMesh>(dataset.objects.front());
-    return mesh.alias.empty() && (dataset.models.empty() || carries_statements(target));
+    if (!mesh.alias.empty() || (target.family == "gmsh" && lacks_lines(mesh))) return false;
+    return dataset.models.empty() || carries_statements(target);
 }
 
 std::vector<bool> objects_inside(const Dataset& dataset) {

@@ -159,6 +159,7 @@ private:
         for (const Attribute& a : mesh_.info.attributes) {
             Attribute copy = a;
             if (a.location == AttributeLocation::point) copy.values = picked(a.values, chosen_, a.components);
+            if (a.location == AttributeLocation::cell && part.cells.empty()) continue;  // points without cells
             if (a.location == AttributeLocation::cell) {
                 copy.location = part.dimension == 2   ? AttributeLocation::polygon
                                 : part.dimension == 1 ? AttributeLocation::edge

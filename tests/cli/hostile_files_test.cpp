@@ -47,7 +47,9 @@ TEST_P(Hostile, IsNeverSilentlyReadWhenCut) {
     const TemporaryFolder folder;
     const auto cut = folder / path->filename().string();
     for (const std::size_t percent : {10, 50, 90}) {
-        write_file(cut, bytes.substr(0, bytes.size() * percent / 100));
+        const std::string kept = bytes.substr(0, bytes.size() * percent / 100);
+        if (kept.ends_with("\nEND\n")) continue;  // just between two objects: what is left is a whole file
+        write_file(cut, kept);
         expect_told(run_geomend({"info", cut.string()}), std::to_string(percent) + " %");
     }
     write_file(cut, "");
