@@ -380,7 +380,7 @@ std::vector<StatedRegion> ModelBuilder::boundary_lists(const std::vector<std::ui
     }
     std::vector<StatedRegion> lists;
     for (const std::uint32_t e : entities) {
-        StatedRegion list{entity_name(mesh, mesh.entities[e], "Volume"), false, {}};
+        StatedRegion list{entity_name(mesh, mesh.entities[e], "Region"), false, {}};
         for (const std::int64_t tag : mesh.entities[e].boundary) {
             const auto found = surface_of_tag.find(tag < 0 ? -tag : tag);
             if (found != surface_of_tag.end()) list.sides.push_back({SurfaceId(found->second), tag < 0});  // normals point outwards
@@ -403,7 +403,7 @@ void ModelBuilder::regions_from_mesh() {
     std::vector<SurfaceId> partial;
     for (std::size_t i = 0; i < filled.size(); ++i) {
         region_of_entity[filled[i]] = RegionId(a_.brep.regions.size());
-        made[i].region.name = entity_name(mesh, mesh.entities[filled[i]], "Volume");
+        made[i].region.name = entity_name(mesh, mesh.entities[filled[i]], "Region");
         made[i].region.source_object = mesh_object_;
         partial.insert(partial.end(), made[i].incomplete.begin(), made[i].incomplete.end());
         a_.brep.regions.push_back(std::move(made[i].region));
