@@ -31,7 +31,7 @@ Attribute vertex_numbers(const std::vector<VertexId>& nodes) {
 
 class BlockMaker {
 public:
-    BlockMaker(const BrepData& brep, std::vector<Loss>& losses) : brep_(brep), losses_(losses) {}
+    explicit BlockMaker(const BrepData& brep) : brep_(brep) {}
 
     std::vector<ModelBlock> run() {
         for (std::size_t i = 0; i < brep_.corners.size(); ++i) corner(i);
@@ -43,7 +43,6 @@ public:
 
 private:
     const BrepData& brep_;
-    std::vector<Loss>& losses_;
     std::vector<ModelBlock> blocks_;
 
     template <class Kind>
@@ -296,9 +295,9 @@ bool has_cells(const BrepData& brep) {
 
 }  // namespace
 
-ModelBlocks blocks_of_brep(const BrepData& brep, std::vector<Loss>& losses) {
+ModelBlocks blocks_of_brep(const BrepData& brep) {
     ModelBlocks all;
-    all.blocks = BlockMaker(brep, losses).run();
+    all.blocks = BlockMaker(brep).run();
     Json j = Json::object();
     j["model"] = 1;
     j["counts"] = {brep.corners.size(), brep.lines.size(), brep.surfaces.size(), brep.regions.size()};

@@ -30,7 +30,7 @@ struct ModelBlocks {
 
 /// Corners are points, lines polylines, surfaces polygons with the values of their nodes; a region is its cells or,
 /// where it has none, its sides. Every point carries the number of its model vertex ("model_vertex").
-ModelBlocks blocks_of_brep(const BrepData& brep, std::vector<Loss>& losses);
+ModelBlocks blocks_of_brep(const BrepData& brep);
 
 bool is_model_text(std::string_view structure);
 

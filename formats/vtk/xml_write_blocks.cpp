@@ -176,7 +176,7 @@ Result<std::vector<Loss>> write_vtm(const Dataset& dataset, OutputSet& out, cons
     std::vector<Loss> losses;
     const std::vector<bool> used = objects_in_breps(dataset);
     std::vector<ModelBlocks> models;
-    for (const Brep& brep : dataset.breps) models.push_back(blocks_of_brep(*brep, losses));
+    for (const Brep& brep : dataset.breps) models.push_back(blocks_of_brep(*brep));
     BlockWriter writer(out, options, *settings);
     for (std::size_t m = 0; m < models.size(); ++m) {
         for (const ModelBlock& block : models[m].blocks) {

@@ -40,9 +40,9 @@ public:
         if (buffer_.size() >= flush_size) flush();
         return *this;
     }
-    /// Flushes, syncs and closes the file, so that results of very many files do not hold as many descriptors. Nothing
+    /// Flushes and closes the file, so that results of very many files do not hold as many descriptors. Nothing
     /// may be written after. The commit does it for files that are still open.
-    void close() { finish(); }
+    void close() { end(); }
     /// False once a write has failed: long loops may stop early.
     bool good() const { return error_ == 0; }
     /// Where the bytes go for now; for libraries that write by path. Such a library must replace or
@@ -59,7 +59,8 @@ private:
     void open();
     void flush();
     void put(const char* bytes, std::size_t size);
-    void finish();  // flush, end the gzip stream, fsync, close
+    void end();   // flush, end the gzip stream, close
+    void sync();  // what stands in the temporary file is on the disk
 
     std::filesystem::path target_;
     std::filesystem::path temporary_;
