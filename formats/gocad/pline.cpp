@@ -2,6 +2,7 @@
 #include <array>
 #include <cstring>
 
+#include "formats/gocad/line_walk.h"
 #include "formats/gocad/node_table.h"
 #include "formats/gocad/object_readers.h"
 #include "formats/gocad/region_indicators.h"
@@ -15,34 +16,16 @@ public:
     explicit PLineReader(ObjectScanner& scanner) : scanner_(scanner), log_(scanner.log), head_(scanner), nodes_(scanner, head_) {}
 
     Result<void> run() {
-        const char* p = scanner_.frame.body.data();
-        const char* const end = p + scanner_.frame.body.size();
         lines_.edges.reserve(scanner_.frame.cell_lines);
-        TextCursor cursor = scanner_.text();
-        std::uint64_t line = scanner_.frame.body_line;
-        while (p != end) {
-            const char* next = scan_line(p, end, line);
-            if (next != nullptr) {
-                p = next;
-                ++line;
-            } else {
-                cursor.jump(p, line);
-                cursor.next_line();
-                take_line(cursor);
-                p = cursor.next_line_begin();
-                line = cursor.line() + 1;
-            }
-            if ((line & 0xffff) == 0 && scanner_.stopped()) return scanner_.stop();
-        }
+        const bool whole = walk_lines(
+            scanner_, [this](const char* p, const char* end, std::uint64_t line) { return scan_line(p, end, line); },
+            [this](TextCursor& cursor) { take_line(cursor); });
+        if (!whole) return scanner_.stop();
         finish();
         return {};
     }
 
 private:
-    static bool starts_with(const char* p, const char* end, std::string_view word) {
-        return static_cast<std::size_t>(end - p) > word.size() && std::memcmp(p, word.data(), word.size()) == 0;
-    }
-
     const char* scan_line(const char* p, const char* end, std::uint64_t line) {
         if (starts_with(p, end, "VRTX ")) return nodes_.scan_vertex(p + 5, end, false, line);
         if (starts_with(p, end, "PVRTX ")) return nodes_.scan_vertex(p + 6, end, true, line);

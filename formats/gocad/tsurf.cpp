@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "formats/gocad/line_walk.h"
 #include "formats/gocad/node_table.h"
 #include "formats/gocad/object_readers.h"
 #include "formats/gocad/region_indicators.h"
@@ -10,43 +11,16 @@ namespace geomend::gocad {
 
 namespace {
 
-// How many lines go by between two looks at whether to stop.
-constexpr std::uint64_t lines_between_looks = 1u << 16;
-
-template <std::size_t N>
-bool starts_with(const char* p, const char* end, const char (&word)[N]) {
-    return static_cast<std::size_t>(end - p) >= N && std::memcmp(p, word, N - 1) == 0;
-}
-
 class TSurfReader {
 public:
     explicit TSurfReader(ObjectScanner& scanner) : scanner_(scanner), log_(scanner.log), head_(scanner), nodes_(scanner, head_) {}
 
     Result<void> run() {
-        const std::string_view body = scanner_.frame.body;
-        const char* p = body.data();
-        const char* const end = p + body.size();
         surface_.polygons.corners.reserve(3 * scanner_.frame.cell_lines);
-        TextCursor cursor = scanner_.text();
-        std::uint64_t line = scanner_.frame.body_line;
-        std::uint64_t next_look = line + lines_between_looks;
-        while (p != end) {
-            const char* next = scan_line(p, end, line);
-            if (next != nullptr) [[likely]] {
-                p = next;
-                ++line;
-            } else {
-                cursor.jump(p, line);
-                cursor.next_line();
-                take_line(cursor);
-                p = cursor.next_line_begin();
-                line = cursor.line() + 1;
-            }
-            if (line >= next_look) {
-                if (scanner_.stopped()) return scanner_.stop();
-                next_look = line + lines_between_looks;
-            }
-        }
+        const bool whole = walk_lines(
+            scanner_, [this](const char* p, const char* end, std::uint64_t line) { return scan_line(p, end, line); },
+            [this](TextCursor& cursor) { take_line(cursor); });
+        if (!whole) return scanner_.stop();
         finish();
         return {};
     }

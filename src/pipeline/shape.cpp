@@ -92,7 +92,9 @@ void append(Dataset& dataset, Dataset model) {
     std::ranges::move(model.objects, std::back_inserter(dataset.objects));
 }
 
-void to_faced_models(Dataset& dataset) {
+// Puts in place of a dataset's models what add(brep) makes of each; objects outside the models stay behind them.
+template <class Add>
+void replace_models(Dataset& dataset, const Add& add) {
     topology::build_breps(dataset);
     if (dataset.breps.empty()) return;
     std::vector<Object> outside = objects_outside(dataset);
@@ -100,23 +102,19 @@ void to_faced_models(Dataset& dataset) {
     dataset.objects.clear();
     dataset.models.clear();
     dataset.breps.clear();
-    for (const Brep& brep : breps) append(dataset, topology::faced_model(brep, dataset.losses));
+    for (const Brep& brep : breps) add(brep);
     std::ranges::move(outside, std::back_inserter(dataset.objects));
 }
 
+void to_faced_models(Dataset& dataset) {
+    replace_models(dataset, [&](const Brep& brep) { append(dataset, topology::faced_model(brep, dataset.losses)); });
+}
+
 void to_tagged_meshes(Dataset& dataset, const Format& target) {
-    topology::build_breps(dataset);
-    if (dataset.breps.empty()) return;
-    std::vector<Object> outside = objects_outside(dataset);
-    std::vector<Brep> breps = std::move(dataset.breps);
-    dataset.objects.clear();
-    dataset.models.clear();
-    dataset.breps.clear();
-    for (const Brep& brep : breps) {
+    replace_models(dataset, [&](const Brep& brep) {
         if (carries_statements(target)) append(dataset, topology::tagged_model(brep, dataset.losses));
         else dataset.objects.emplace_back(topology::tagged_mesh(brep, dataset.losses));
-    }
-    std::ranges::move(outside, std::back_inserter(dataset.objects));
+    });
 }
 
 // VTK and MSH hold cells of every dimension; elsewhere a mesh of cells is a volume.
