@@ -5,6 +5,7 @@
 #include <new>
 
 #include "geometry/measures.h"
+#include "grid/cell_geometry.h"
 #include "topology/brep_from_dataset.h"
 
 namespace geomend {
@@ -97,6 +98,15 @@ void count_object(const Well& o, ObjectSummary& s) {
     if (!o.markers.empty()) s.counts["markers"] = o.markers.size();
     if (!o.zones.empty()) s.counts["zones"] = o.zones.size();
     if (!o.curves.empty()) s.counts["curves"] = o.curves.size();
+}
+
+void count_object(const CornerPointGrid& o, ObjectSummary& s) {
+    s.dims = o.dims;
+    s.counts["cells"] = o.cell_count();
+    s.counts["active_cells"] = active_count(o);
+    if (!o.faults.empty()) s.counts["faults"] = o.faults.size();
+    if (!o.connections.empty()) s.counts["stated_connections"] = o.connections.size();
+    s.volume = grid::volume(o);
 }
 
 // VTK and MSH files store elevations whatever sign the model came with.
