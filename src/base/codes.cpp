@@ -62,6 +62,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F131", warning, "a companion file was found beside the file, not where it is said to be", ""},
     CodeInfo{"F132", warning, "the corner depths of a grid are elevations: their sign was turned", ""},
     CodeInfo{"F133", warning, "a grid file of the same name stands beside the file but does not fit: not used", "check that both belong together"},
+    CodeInfo{"F134", info, "cells of a grid are not in the file: taken as inactive", ""},
     // Corner-point grids, numbered as in the rules that they come from.
     CodeInfo{"C01", error, "the length of an array does not fit the dimensions", "correct SPECGRID or the array"},
     CodeInfo{"C02", error, "a coordinate is not finite or as large as 1e20", "export the grid again, or make the cells inactive"},
