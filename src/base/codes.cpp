@@ -35,6 +35,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F021", error, "the target format cannot hold this without loss", "choose another format, or accept the loss with --lossy"},
     CodeInfo{"F022", error, "work was stopped", ""},
     CodeInfo{"F023", error, "a time or memory limit was hit", "raise the limit"},
+    CodeInfo{"F024", error, "the numbers of cells of a grid are not stated", "give them with --option dims=NX,NY,NZ, or read the whole deck"},
     CodeInfo{"F101", warning, "the last object has no END", "--accept-unterminated, after checking that nothing is missing"},
     CodeInfo{"F102", info, "a record is not known", ""},
     CodeInfo{"F103", warning, "degenerate element: the same node twice", "repair"},
@@ -63,6 +64,8 @@ constexpr std::array catalogue = {
     CodeInfo{"F132", warning, "the corner depths of a grid are elevations: their sign was turned", ""},
     CodeInfo{"F133", warning, "a grid file of the same name stands beside the file but does not fit: not used", "check that both belong together"},
     CodeInfo{"F134", info, "cells of a grid are not in the file: taken as inactive", ""},
+    CodeInfo{"F141", info, "the numbers of cells are not stated: taken from the faults", "give them with --option dims=NX,NY,NZ"},
+    CodeInfo{"F142", warning, "an operation names an array that is not there: kept, not applied", "read the whole deck"},
     // Corner-point grids, numbered as in the rules that they come from.
     CodeInfo{"C01", error, "the length of an array does not fit the dimensions", "correct SPECGRID or the array"},
     CodeInfo{"C02", error, "a coordinate is not finite or as large as 1e20", "export the grid again, or make the cells inactive"},
