@@ -44,11 +44,11 @@ struct GridText {
     std::optional<Dims> dims;
     bool dims_stated = false;  ///< by DIMENS, SPECGRID or CARFIN
     std::uint32_t coordinate_sets = 1;
-    std::vector<double> pillars, depths;                  ///< COORD, ZCORN
-    std::vector<CellArray> arrays;                        ///< in the order in which they appear
-    std::array<std::vector<double>, 3> widths;            ///< DXV or DRV, DYV or DTHETAV, DZV
-    std::vector<double> corner_tops;                      ///< DEPTHZ
-    std::optional<double> inner_radius, outer_radius;     ///< INRAD, OUTRAD
+    std::vector<double> pillars, depths;               ///< COORD, ZCORN
+    std::vector<CellArray> arrays;                     ///< in the order in which they appear
+    std::array<std::vector<double>, 3> widths;         ///< DXV or DRV, DYV or DTHETAV, DZV
+    std::vector<double> corner_tops;                   ///< DEPTHZ
+    std::optional<double> inner_radius, outer_radius;  ///< INRAD, OUTRAD
     bool radial = false;
     std::array<std::vector<std::uint32_t>, 3> fine_cells;  ///< NXFIN ...: fine cells of each host cell
     std::array<std::vector<double>, 3> fine_widths;        ///< HXFIN ...: their relative widths
@@ -141,13 +141,17 @@ EditResult apply_edit(const Scanner& in, std::string_view keyword, const Record&
 // ---- into the model (build_grid.cpp, block_geometry.cpp, local_grids.cpp) ----
 
 /// Makes the grid of a text; `dual` says that the deck's layers are those of two porosities. Arrays move out of it.
-Result<CornerPointGrid> build_grid(GridText&& text, const Input& input, bool dual, std::vector<Finding>& findings, std::vector<Loss>& losses);
+/// \param room values that may still be made
+Result<CornerPointGrid> build_grid(GridText&& text, const Input& input, bool dual, std::uint64_t& room, std::vector<Finding>& findings,
+                                   std::vector<Loss>& losses);
 
 /// Pillars and corner depths from block sizes (DX DY DZ TOPS and their like), Cartesian or radial; takes those arrays
 /// out of the text. Nothing is done where there are none.
-Trouble make_block_geometry(GridText& text, const Input& input, std::uint32_t layers, std::vector<Finding>& findings);
+Trouble make_block_geometry(GridText& text, const Input& input, std::uint32_t layers, std::uint64_t& room, std::vector<Finding>& findings);
 
 /// The geometry of a local grid that has none of its own: its host's cells cut evenly. Sets host cells and activity.
-Trouble refine_host(CornerPointGrid& grid, const GridText& text, const CornerPointGrid& host, const Input& input);
+Trouble refine_host(CornerPointGrid& grid, const std::array<std::vector<std::uint32_t>, 3>& fine_cells,
+                    const std::array<std::vector<double>, 3>& fine_widths, const CornerPointGrid& host, const Input& input,
+                    std::uint64_t& room);
 
 }  // namespace geomend::grdecl

@@ -22,7 +22,8 @@ const char* line_end(const char* at, const char* end) {
 }
 
 Failure bad_repeat(const Scanner& in, const Item& item) {
-    return unreadable("F012", in.location(item.at), "expected a repeat count (a whole number from 1) before '*', found " + shown(item.text));
+    return unreadable("F012", in.location(item.at),
+                      "expected a repeat count (a whole number from 1) before '*', found " + shown(item.text));
 }
 
 /// Splits "N*" or "N*value"; count 0 where it is neither.
@@ -124,7 +125,8 @@ Result<Record> Scanner::record(std::string_view keyword) {
     for (;;) {
         Item next = item();
         if (next.at == nullptr) {
-            return unreadable("F004", here(), "expected a '/' that ends the record of " + std::string(keyword) + ", found the end of the file");
+            return unreadable("F004", here(),
+                              "expected a '/' that ends the record of " + std::string(keyword) + ", found the end of the file");
         }
         if (!next.quoted && next.text == "/") {
             record.slash = next.at;
@@ -137,7 +139,8 @@ Result<Record> Scanner::record(std::string_view keyword) {
             continue;
         }
         if (repeat.count > longest_record || record.items.size() + repeat.count > longest_record) {
-            return unreadable("F014", location(next.at), "the record of " + std::string(keyword) + " repeats an item too often: " + shown(next.text));
+            return unreadable("F014", location(next.at),
+                              "the record of " + std::string(keyword) + " repeats an item too often: " + shown(next.text));
         }
         Item copy{repeat.value, next.at, false, !repeat.value.empty()};
         if (repeat.value.empty() && at_ != end_ && is_quote(*at_)) copy = item();

@@ -24,7 +24,8 @@ Trouble read_map_axes(Scanner& in, GridText& g) {
         if (auto failed = need_real(in, *record, i, "six coordinates of MAPAXES", axes[i])) return failed;
     }
     if (record->items.size() > 6)
-        return unreadable("F008", in.location(record->items[6].at), "expected '/' after the six numbers of MAPAXES, found " + shown(record->items[6].text));
+        return unreadable("F008", in.location(record->items[6].at),
+                          "expected '/' after the six numbers of MAPAXES, found " + shown(record->items[6].text));
     g.grid.map_axes = axes;
     g.grid.info.crs.stated = true;
     return {};
@@ -52,7 +53,8 @@ Trouble read_orientation(Scanner& in, GridText& g) {
     if (!record) return std::move(record).why();
     const std::array<std::string, 5> usual = {"INC", "INC", "INC", "DOWN", "RIGHT"};
     if (record->items.size() > 5)
-        return unreadable("F008", in.location(record->items[5].at), "expected '/' after the five words of GDORIENT, found " + shown(record->items[5].text));
+        return unreadable("F008", in.location(record->items[5].at),
+                          "expected '/' after the five words of GDORIENT, found " + shown(record->items[5].text));
     g.grid.orientation.assign(usual.begin(), usual.end());
     for (std::size_t i = 0; i < 5; ++i) {
         if (record->given(i)) g.grid.orientation[i] = word(*record, i);
@@ -70,8 +72,9 @@ Trouble read_reservoirs(Scanner& in, GridText& g) {
         if (auto failed = take_whole(in, *record, 0, "the first layer", first)) return failed;
         if (auto failed = take_whole(in, *record, 1, "the last layer", last)) return failed;
         if (first < 1 || last < first || (layers != 0 && last > layers)) {
-            return unreadable("F012", in.location(record->begin),
-                              "expected layers from 1 to " + std::to_string(layers) + ", found " + std::to_string(first) + " to " + std::to_string(last));
+            return unreadable(
+                "F012", in.location(record->begin),
+                "expected layers from 1 to " + std::to_string(layers) + ", found " + std::to_string(first) + " to " + std::to_string(last));
         }
         CornerPointGrid::Reservoir reservoir;
         reservoir.first_layer = static_cast<std::uint32_t>(first - 1);

@@ -27,15 +27,18 @@ Trouble take_fault_box(const Scanner& in, const Record& record, Fault::Box& box)
         std::int64_t value = 0;
         if (auto failed = need_whole(in, record, 1 + n, "name, I1 I2 J1 J2 K1 K2 and face of a fault", value)) return failed;
         if (value < 1 || value > 2'000'000'000)
-            return unreadable("F012", in.location(record.items[1 + n].at), "expected " + std::string(names[n]) + " from 1, found " + std::to_string(value));
+            return unreadable("F012", in.location(record.items[1 + n].at),
+                              "expected " + std::string(names[n]) + " from 1, found " + std::to_string(value));
         (n % 2 == 0 ? box.first : box.last)[n / 2] = static_cast<std::uint32_t>(value - 1);
     }
     if (!record.given(7)) return unreadable("F012", in.location(record.slash), "expected the face of a fault, found the end of the record");
     const auto face = face_of(record.text(7));
     if (!face)
-        return unreadable("F012", in.location(record.items[7].at), "expected a face (X, X-, Y, I, J-, ...), found " + shown(record.text(7)));
+        return unreadable("F012", in.location(record.items[7].at),
+                          "expected a face (X, X-, Y, I, J-, ...), found " + shown(record.text(7)));
     if (record.items.size() > 8)
-        return unreadable("F008", in.location(record.items[8].at), "expected '/' after the face of a fault, found " + shown(record.items[8].text));
+        return unreadable("F008", in.location(record.items[8].at),
+                          "expected '/' after the face of a fault, found " + shown(record.items[8].text));
     box.face = *face;
     return {};
 }
@@ -48,7 +51,8 @@ Trouble take_cell(const Scanner& in, const Record& record, std::size_t i, const 
         if (auto failed = need_whole(in, record, i + a, "I J K of two cells", value)) return failed;
         if (value < 1 || value > dims[a]) {
             return unreadable("F007", in.location(record.items[i + a].at),
-                              "expected " + std::string(names[a]) + " of a cell from 1 to " + std::to_string(dims[a]) + ", found " + std::to_string(value));
+                              "expected " + std::string(names[a]) + " of a cell from 1 to " + std::to_string(dims[a]) + ", found " +
+                                  std::to_string(value));
         }
         ijk[a] = static_cast<std::uint64_t>(value - 1);
     }
@@ -65,7 +69,8 @@ bool list_ends(Scanner& in, std::string_view keyword, std::vector<Finding>& find
     if (!bytes.empty() && bytes.back() == '\n')
         findings.push_back(finding("F101", in.here(), "the list of " + std::string(keyword) + " has no '/' at its end"));
     else
-        trouble = unreadable("F004", in.here(), "expected a '/' that ends the list of " + std::string(keyword) + ", found the end of the file");
+        trouble =
+            unreadable("F004", in.here(), "expected a '/' that ends the list of " + std::string(keyword) + ", found the end of the file");
     return true;
 }
 
@@ -85,20 +90,27 @@ Trouble read_faults(Scanner& in, GridText& g, std::vector<Finding>& findings) {
 }
 
 Trouble read_fault_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    std::unordered_map<std::string, std::size_t> known;
+    for (std::size_t f = 0; f < g.grid.faults.size(); ++f) known.emplace(g.grid.faults[f].name, f);
     return read_list(in, "MULTFLT", findings, [&](const Record& record) -> Trouble {
         if (!record.given(0)) return unreadable("F012", in.location(record.begin), "expected the name of a fault");
         double value = 1;
         if (auto failed = take_real(in, record, 1, "a multiplier", value)) return failed;
         const std::string name(trimmed(record.text(0)));
-        const bool pattern = name.ends_with('*');
-        const std::string_view stem = std::string_view(name).substr(0, name.size() - (pattern ? 1 : 0));
-        bool met = false;
-        for (Fault& fault : g.grid.faults) {
-            if (pattern ? !fault.name.starts_with(stem) : fault.name != name) continue;
-            fault.multiplier = value;
-            met = true;
+        if (name.ends_with('*')) {
+            const std::string_view stem = std::string_view(name).substr(0, name.size() - 1);
+            bool met = false;
+            for (Fault& fault : g.grid.faults) {
+                if (!fault.name.starts_with(stem)) continue;
+                fault.multiplier = value;
+                met = true;
+            }
+            if (met) return {};
         }
-        if (!met) g.grid.faults.push_back({name, {}, value});  // its faces may be in another include
+        // A fault that is not here has its faces in another include.
+        const auto [place, is_new] = known.emplace(name, g.grid.faults.size());
+        if (is_new) g.grid.faults.push_back({name, {}, {}});
+        g.grid.faults[place->second].multiplier = value;
         return {};
     });
 }
@@ -121,7 +133,8 @@ Trouble read_connections(Scanner& in, GridText& g, std::vector<Finding>& finding
         return {};
     });
     if (more > 0)
-        losses.push_back({LossClass::substance, g.grid.info.name, "further items of stated connections (tables, faces, areas)", "only cells and transmissibility are kept", more});
+        losses.push_back({LossClass::substance, g.grid.info.name, "further items of stated connections (tables, faces, areas)",
+                          "only cells and transmissibility are kept", more});
     return failed;
 }
 

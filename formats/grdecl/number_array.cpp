@@ -90,7 +90,8 @@ ArrayStatus slow_value(std::string_view item, std::int32_t& value, bool&) {
         double real = 0;
         return parse_real(item, real) == NumberStatus::ok && !std::isfinite(real) ? ArrayStatus::not_finite : ArrayStatus::malformed;
     }
-    if (status != NumberStatus::ok || wide > std::numeric_limits<std::int32_t>::max() || wide <= unset_whole) return ArrayStatus::out_of_range;
+    if (status != NumberStatus::ok || wide > std::numeric_limits<std::int32_t>::max() || wide <= unset_whole)
+        return ArrayStatus::out_of_range;
     value = static_cast<std::int32_t>(wide);
     return ArrayStatus::ok;
 }
@@ -137,7 +138,8 @@ const char* fast_value(const char* p, const char* end, double& value, bool& whol
     }
     if (mantissa > (std::uint64_t{1} << 53) || exponent > 22 || exponent < -22) return nullptr;
     const double m = static_cast<double>(mantissa);
-    const double size = exponent < 0 ? m / powers_of_ten[static_cast<std::size_t>(-exponent)] : m * powers_of_ten[static_cast<std::size_t>(exponent)];
+    const double size =
+        exponent < 0 ? m / powers_of_ten[static_cast<std::size_t>(-exponent)] : m * powers_of_ten[static_cast<std::size_t>(exponent)];
     value = negative ? -size : size;
     if (whole && (mantissa > 2147483646 || (negative && mantissa == 0))) whole = false;
     return p;

@@ -60,8 +60,9 @@ Trouble take_box(const Scanner& in, const Record& record, std::size_t i, const D
         const std::uint32_t limit = dims[n / 2] == 0 ? 2'000'000'000 : dims[n / 2];
         if (value < 1 || value > limit) {
             const char* at = record.given(i + n) ? record.items[i + n].at : record.slash;
-            return unreadable("F012", in.location(at),
-                              "expected " + std::string(names[n]) + " from 1 to " + std::to_string(limit) + ", found " + std::to_string(value));
+            return unreadable(
+                "F012", in.location(at),
+                "expected " + std::string(names[n]) + " from 1 to " + std::to_string(limit) + ", found " + std::to_string(value));
         }
         end = static_cast<std::uint32_t>(value - 1);
     }
