@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "grid/pillar_nodes.h"
 
 namespace geomend::grid {
 
@@ -24,13 +25,13 @@ bool in_order(std::span<const Side> sides, std::span<const std::uint8_t> active)
     return true;
 }
 
-void column_activity(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::vector<std::uint8_t>& active) {
+void column_presence(const CornerPointGrid& grid, std::span<const std::uint8_t> present, std::uint32_t i, std::uint32_t j,
+                     std::vector<std::uint8_t>& column) {
     const std::size_t layer = std::size_t{grid.dims[0]} * grid.dims[1];
-    active.assign(grid.dims[2], 1);
-    if (grid.activity.empty()) return;
+    column.resize(grid.dims[2]);
     std::size_t cell = grid.cell(i, j, 0);
-    for (std::uint8_t& a : active) {
-        a = grid.activity[cell] != 0;
+    for (std::uint8_t& p : column) {
+        p = present[cell];
         cell += layer;
     }
 }
@@ -42,7 +43,7 @@ struct RowResult {
 
 void connect_row(const CornerPointGrid& grid, std::uint32_t j, PairSides& sides, Connections& to, RowResult& row) {
     each_pair_of_row(grid, j, [&](const ColumnPair& pair) {
-        load(grid, pair, sides);
+        load(grid, to.present, pair, sides);
         const auto first = static_cast<std::uint32_t>(grid.cell(pair.i, pair.j, 0));
         const std::uint32_t second = first + (pair.along_i ? 1 : grid.dims[0]);
         const std::uint32_t layer = grid.dims[0] * grid.dims[1];
@@ -62,7 +63,7 @@ void connect_downwards(const CornerPointGrid& grid, std::uint32_t j, Connections
         std::size_t above = grid.cell_count();
         for (std::uint32_t k = 0; k < grid.dims[2]; ++k) {
             const std::size_t cell = grid.cell(i, j, k);
-            if (!grid.is_active(cell)) continue;
+            if (to.present[cell] == 0) continue;
             if (above < grid.cell_count() && stacked(grid, above, cell)) {
                 to.neighbours[above] |= Connections::below;
                 ++row.internal;
@@ -74,10 +75,10 @@ void connect_downwards(const CornerPointGrid& grid, std::uint32_t j, Connections
 
 }  // namespace
 
-std::size_t next_active_below(const CornerPointGrid& grid, std::size_t cell) {
+std::size_t next_below(const CornerPointGrid& grid, std::span<const std::uint8_t> present, std::size_t cell) {
     const std::size_t layer = std::size_t{grid.dims[0]} * grid.dims[1], cells = grid.cell_count();
     for (std::size_t next = cell + layer; next < cells; next += layer) {
-        if (grid.is_active(next)) return next;
+        if (present[next] != 0) return next;
     }
     return cells;
 }
@@ -102,20 +103,21 @@ void column_sides(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j,
     }
 }
 
-void load(const CornerPointGrid& grid, const ColumnPair& pair, PairSides& sides) {
+void load(const CornerPointGrid& grid, std::span<const std::uint8_t> present, const ColumnPair& pair, PairSides& sides) {
     const std::uint32_t i2 = pair.i + (pair.along_i ? 1 : 0), j2 = pair.j + (pair.along_i ? 0 : 1);
     sides.first.resize(grid.dims[2]);
     sides.second.resize(grid.dims[2]);
     column_sides(grid, pair.i, pair.j, pair.along_i ? CellFace::i_plus : CellFace::j_plus, sides.first);
     column_sides(grid, i2, j2, pair.along_i ? CellFace::i_minus : CellFace::j_minus, sides.second);
-    column_activity(grid, pair.i, pair.j, sides.first_active);
-    column_activity(grid, i2, j2, sides.second_active);
+    column_presence(grid, present, pair.i, pair.j, sides.first_active);
+    column_presence(grid, present, i2, j2, sides.second_active);
     sides.ordered = in_order(sides.first, sides.first_active) && in_order(sides.second, sides.second_active);
 }
 
 Connections connections(const CornerPointGrid& grid) {
     Connections result;
     result.neighbours.assign(grid.cell_count(), 0);
+    result.present = present_cells(grid);
     std::vector<RowResult> rows(grid.dims[1]);
     parallel_blocks(rows.size(), 1, [&](std::size_t first, std::size_t last) {
         PairSides sides;

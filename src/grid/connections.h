@@ -10,8 +10,8 @@
 
 // Which active cells touch. Cells of neighbouring columns do where their sides share area; cells of one column where
 // bottom and top coincide on all four pillars and nothing active lies between. The geometry of inactive cells is never
-// looked at. That is the rule of simulators that process corner-point grids (opm-grid among them), so that the same
-// pairs come out.
+// looked at, and active cells without any thickness count as inactive. That is the rule of simulators that process corner-point grids
+// (opm-grid among them), so that the same pairs come out.
 
 namespace geomend::grid {
 
@@ -28,14 +28,15 @@ struct Connections {
     std::vector<std::uint8_t> neighbours;  ///< per cell
     std::vector<NonNeighbour> others;      ///< sorted by direction, column, then cells
     std::uint64_t internal = 0;            ///< all pairs: neighbours and others
+    std::vector<std::uint8_t> present;     ///< per cell, as present_cells() gives it
 };
 
 /// \pre misfit(grid) is empty; fewer than 2^32 cells
 /// Cost: linear in cells where columns are in order; quadratic in layers for columns whose cells overlap.
 Connections connections(const CornerPointGrid& grid);
 
-/// The next active cell below, in the same column, or grid.cell_count().
-std::size_t next_active_below(const CornerPointGrid& grid, std::size_t cell);
+/// The next present cell below, in the same column, or grid.cell_count().
+std::size_t next_below(const CornerPointGrid& grid, std::span<const std::uint8_t> present, std::size_t cell);
 
 /// True where the bottom of one cell is the top of another of the same column, on all four pillars.
 bool stacked(const CornerPointGrid& grid, std::size_t upper, std::size_t lower);
@@ -58,8 +59,8 @@ struct PairSides {
     bool ordered = false;  ///< active cells of both columns lie one below the other, upright
 };
 
-/// Fills the buffers for a pair.
-void load(const CornerPointGrid& grid, const ColumnPair& pair, PairSides& sides);
+/// Fills the buffers for a pair; cells that are not present count as inactive.
+void load(const CornerPointGrid& grid, std::span<const std::uint8_t> present, const ColumnPair& pair, PairSides& sides);
 
 /// Calls body(k of the first column, k of the second) for each pair of active cells whose sides share area, ascending.
 template <class Body>

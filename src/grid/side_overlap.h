@@ -40,20 +40,15 @@ bool overlaps(const Side& a, const Side& b);
 /// agree to the bit share them wholly.
 Overlap overlap(const Side& a, const Side& b);
 
-/// Position of a corner given the points of the pillars at the depths of its edges: mean of both edges at u.
+/// Position of a corner: where its edges cross, both pillars are taken at the depth of the crossing, as simulators do.
 /// \param at(pillar 0|1, depth) gives the point of a pillar
 template <class At>
 Vec3 position(const OverlapCorner& corner, const At& at) {
-    const auto on = [&](const std::array<double, 2>& edge) {
-        if (corner.u == 0) return at(0, edge[0]);
-        if (corner.u == 1) return at(1, edge[1]);
-        const Vec3 p = at(0, edge[0]), q = at(1, edge[1]);
-        return Vec3{p[0] + corner.u * (q[0] - p[0]), p[1] + corner.u * (q[1] - p[1]), p[2] + corner.u * (q[2] - p[2])};
-    };
-    const Vec3 p = on(corner.first);
-    if (corner.first == corner.second) return p;
-    const Vec3 q = on(corner.second);
-    return {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2};
+    if (corner.u == 0) return at(0, corner.first[0]);
+    if (corner.u == 1) return at(1, corner.first[1]);
+    const double depth = corner.first[0] + corner.u * (corner.first[1] - corner.first[0]);
+    const Vec3 p = at(0, depth), q = at(1, depth);
+    return {p[0] + corner.u * (q[0] - p[0]), p[1] + corner.u * (q[1] - p[1]), depth};
 }
 
 }  // namespace geomend::grid
