@@ -22,7 +22,8 @@ struct FirstWrong {
     std::atomic<std::uint64_t> at{nowhere};
     void tell(std::uint64_t offset) {
         std::uint64_t known = at.load(std::memory_order_relaxed);
-        while (offset < known && !at.compare_exchange_weak(known, offset, std::memory_order_relaxed)) {}
+        while (offset < known && !at.compare_exchange_weak(known, offset, std::memory_order_relaxed)) {
+        }
     }
     bool any() const { return at.load(std::memory_order_relaxed) != nowhere; }
 };
@@ -150,8 +151,8 @@ Result<void> read_text(const ArrayFile& file, const Array& array, T* out, const 
     FirstWrong wrong;
     parallel_for_each_index(cuts.size() - 1, [&](std::size_t i) {
         std::uint64_t n = first[i];
-        const std::uint64_t bad = for_each_token(
-            text, cuts[i], cuts[i + 1], [&](std::string_view token) { return n >= array.count || parse(token, out[n++]); });
+        const std::uint64_t bad =
+            for_each_token(text, cuts[i], cuts[i + 1], [&](std::string_view token) { return n >= array.count || parse(token, out[n++]); });
         if (bad != nowhere) wrong.tell(bad);
     });
     if (wrong.any()) {
@@ -163,9 +164,9 @@ Result<void> read_text(const ArrayFile& file, const Array& array, T* out, const 
     }
     if (first.back() != array.count) {
         const bool short_of = first.back() < array.count && array.end == text.size();
-        return unreadable(short_of ? "F004" : "F008", place_of(file, array),
-                          "expected " + std::to_string(array.count) + " values of '" + array.name + "', found " +
-                              std::to_string(first.back()));
+        return unreadable(
+            short_of ? "F004" : "F008", place_of(file, array),
+            "expected " + std::to_string(array.count) + " values of '" + array.name + "', found " + std::to_string(first.back()));
     }
     return {};
 }
@@ -246,8 +247,8 @@ Result<std::vector<double>> reals(const ArrayFile& file, const Array& array) {
     if (array.type != ArrayType::real && array.type != ArrayType::real_double) return wrong_type(file, array, "reals");
     std::vector<double> values;
     make_big(values, array.count);
-    const auto done = array.type == ArrayType::real ? read_into<AsFloat>(file, array, values.data())
-                                                    : read_into<AsDouble>(file, array, values.data());
+    const auto done =
+        array.type == ArrayType::real ? read_into<AsFloat>(file, array, values.data()) : read_into<AsDouble>(file, array, values.data());
     if (!done) return done.why();
     if (auto finite = all_finite(file, array, values); !finite) return finite.why();
     return values;

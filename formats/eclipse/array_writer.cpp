@@ -129,8 +129,9 @@ void ArrayWriter::numbers(std::string_view name, std::uint64_t count, const Get&
 }
 
 void ArrayWriter::integers(std::string_view name, std::span<const std::int32_t> values) {
-    numbers<std::int32_t>(name, values.size(),
-                          [&](std::uint64_t first, std::span<std::int32_t> to) { std::copy_n(values.data() + first, to.size(), to.data()); });
+    numbers<std::int32_t>(name, values.size(), [&](std::uint64_t first, std::span<std::int32_t> to) {
+        std::copy_n(values.data() + first, to.size(), to.data());
+    });
 }
 void ArrayWriter::floats(std::string_view name, std::span<const float> values) {
     numbers<float>(name, values.size(),
@@ -155,7 +156,8 @@ Rounding ArrayWriter::rounded(std::string_view name, std::uint64_t count, const 
         Rounding own;
         for (std::size_t i = 0; i != to.size(); ++i) {
             to[i] = static_cast<float>(block[i]);
-            const double shift = block[i] > static_cast<double>(to[i]) ? block[i] - static_cast<double>(to[i]) : static_cast<double>(to[i]) - block[i];
+            const double shift =
+                block[i] > static_cast<double>(to[i]) ? block[i] - static_cast<double>(to[i]) : static_cast<double>(to[i]) - block[i];
             own.changed += shift != 0;
             own.largest = std::max(own.largest, shift);
         }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "formats/eclipse/findings.h"
+
 namespace geomend::eclipse {
 
 namespace {
@@ -51,12 +53,9 @@ void add_attribute(const Target& to, std::string name, std::vector<T> values, bo
     const std::string_view keyword = to.array.name;
     if (const std::uint64_t count = drop_not_finite(values); count != 0) {
         has_missing = true;
-        Finding finding{.code = "F120", .severity = Severity::warning};
-        finding.message = "values of '" + name + "' that are not finite are taken as missing";
-        finding.where = place_of(to.file, to.array);
-        finding.entities = {{"attribute", name}};
-        finding.count = count;
-        to.findings.push_back(std::move(finding));
+        to.findings.push_back(finding("F120", Severity::warning, "values of '" + name + "' that are not finite are taken as missing",
+                                      place_of(to.file, to.array), count));
+        to.findings.back().entities = {{"attribute", name}};
     }
     a.name = std::move(name);
     a.location = AttributeLocation::cell;
@@ -129,12 +128,18 @@ Result<void> take_cell_array(const ArrayFile& file, const Array& array, const Ce
                              CornerPointGrid& grid, std::vector<Finding>& findings) {
     const Target to{file, array, order, grid, findings};
     switch (array.type) {
-        case ArrayType::integer: return take(to, name, integers(file, array));
-        case ArrayType::real: return take(to, name, floats(file, array));
-        case ArrayType::real_double: return take(to, name, doubles(file, array));
-        case ArrayType::logical: return take(to, name, logicals(file, array));
-        case ArrayType::text: return take(to, name, texts(file, array));
-        case ArrayType::message: break;
+        case ArrayType::integer:
+            return take(to, name, integers(file, array));
+        case ArrayType::real:
+            return take(to, name, floats(file, array));
+        case ArrayType::real_double:
+            return take(to, name, doubles(file, array));
+        case ArrayType::logical:
+            return take(to, name, logicals(file, array));
+        case ArrayType::text:
+            return take(to, name, texts(file, array));
+        case ArrayType::message:
+            break;
     }
     return {};
 }

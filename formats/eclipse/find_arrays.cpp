@@ -138,9 +138,9 @@ private:
         const std::uint32_t first = left >= 4 ? word_at(bytes_.data() + at) : 0;
         array.block = first / array.element_size;
         if (array.block == 0 || first % array.element_size != 0 || array.block > array.count) {
-            return fail("F012", at,
-                        "expected the length of a record of '" + array.name + "', found " +
-                            std::to_string(static_cast<std::int32_t>(first)));
+            return fail(
+                "F012", at,
+                "expected the length of a record of '" + array.name + "', found " + std::to_string(static_cast<std::int32_t>(first)));
         }
         const std::uint64_t blocks = (array.count - 1) / array.block + 1;
         const std::uint64_t size = array.count * array.element_size + 8 * blocks;
@@ -223,7 +223,8 @@ private:
             more = -first.count;
         }
         if (!take_type(header->type, array))
-            return fail("F012", array.header, "expected a type of values (INTE, REAL, DOUB, LOGI, CHAR, C0nn, MESS), found " + shown(*header));
+            return fail("F012", array.header,
+                        "expected a type of values (INTE, REAL, DOUB, LOGI, CHAR, C0nn, MESS), found " + shown(*header));
         if (header->count < 0 || header->count > static_cast<std::int64_t>(largest_count / 2))
             return fail("F014", array.header, "expected a count of values, found " + shown(*header));
         array.name = header->name;
@@ -247,8 +248,7 @@ private:
         for (std::uint64_t i = 0; i < array.count; ++i) {
             at = past_blanks(at);
             const std::uint64_t close = at + array.element_size + 1;
-            if (close >= text_.size())
-                return fail("F004", array.header, "the file ends within the values of '" + array.name + "'");
+            if (close >= text_.size()) return fail("F004", array.header, "the file ends within the values of '" + array.name + "'");
             if (text_[at] != '\'' || text_[close] != '\'') {
                 return fail("F012", at,
                             "expected " + std::to_string(array.element_size) + " characters of '" + array.name + "' between quotes");
@@ -300,12 +300,18 @@ Result<ArrayFile> find_arrays(const Input& input, const Monitor* monitor) {
 
 std::string type_word(const Array& array) {
     switch (array.type) {
-        case ArrayType::integer: return "INTE";
-        case ArrayType::real: return "REAL";
-        case ArrayType::real_double: return "DOUB";
-        case ArrayType::logical: return "LOGI";
-        case ArrayType::message: return "MESS";
-        case ArrayType::text: break;
+        case ArrayType::integer:
+            return "INTE";
+        case ArrayType::real:
+            return "REAL";
+        case ArrayType::real_double:
+            return "DOUB";
+        case ArrayType::logical:
+            return "LOGI";
+        case ArrayType::message:
+            return "MESS";
+        case ArrayType::text:
+            break;
     }
     if (array.element_size == 8) return "CHAR";
     const std::string digits = std::to_string(array.element_size);

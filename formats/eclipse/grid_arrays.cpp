@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "formats/eclipse/findings.h"
 
 namespace geomend::eclipse {
 
@@ -191,12 +192,10 @@ void turn_elevations(CornerPointGrid& grid, const Location& where, std::vector<F
     });
     for (std::size_t i = 2; i < grid.pillars.size(); i += 3) turn(grid.pillars[i]);
     grid.info.crs.z_positive = ZPositive::elevation;
-    Finding finding{.code = "F132", .severity = Severity::warning};
-    finding.message = "the corner depths are negative and decrease downwards: they are elevations, and were turned into depths";
-    finding.where = where;
-    finding.entities = {{"corner-point-grid", grid.info.name}};
-    finding.count = 1;
-    findings.push_back(std::move(finding));
+    findings.push_back(finding("F132", Severity::warning,
+                               "the corner depths are negative and decrease downwards: they are elevations, and were turned into depths",
+                               where));
+    findings.back().entities = {{"corner-point-grid", grid.info.name}};
 }
 
 }  // namespace geomend::eclipse

@@ -66,7 +66,8 @@ std::optional<Head> take_head(Words& words) {
     head.type = words.next();
     const std::string_view count = words.next();
     const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), head.count);
-    if (error != std::errc{} || stop != count.data() + count.size() || head.count > most_values || head.type.size() != 4) return std::nullopt;
+    if (error != std::errc{} || stop != count.data() + count.size() || head.count > most_values || head.type.size() != 4)
+        return std::nullopt;
     return head;
 }
 
@@ -104,11 +105,11 @@ std::string padded(std::string text, std::size_t size) {
 
 }  // namespace
 
-Result<Annotation> kept_array(const ArrayFile& file, const Array& array) {
+Result<Annotation> kept_array(const ArrayFile& file, const Array& array, std::string_view key) {
     std::string text = "'" + padded(array.name, 8) + "' " + type_word(array) + ' ' + std::to_string(array.count);
     const auto equal = [](auto a, auto b) { return a == b; };
     const auto put_number = [&](auto value) { append_number(text, value); };
-    if (array.count == 0) return Annotation{std::string(array_key), std::move(text)};
+    if (array.count == 0) return Annotation{std::string(key), std::move(text)};
     switch (array.type) {
         case ArrayType::integer: {
             const auto values = integers(file, array);
@@ -119,13 +120,17 @@ Result<Annotation> kept_array(const ArrayFile& file, const Array& array) {
         case ArrayType::real: {
             const auto values = floats(file, array);
             if (!values) return values.why();
-            add_runs(text, *values, [](float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }, put_number);
+            add_runs(
+                text, *values, [](float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); },
+                put_number);
             break;
         }
         case ArrayType::real_double: {
             const auto values = doubles(file, array);
             if (!values) return values.why();
-            add_runs(text, *values, [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }, put_number);
+            add_runs(
+                text, *values, [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); },
+                put_number);
             break;
         }
         case ArrayType::logical: {
@@ -137,13 +142,15 @@ Result<Annotation> kept_array(const ArrayFile& file, const Array& array) {
         case ArrayType::text: {
             const auto values = texts(file, array);
             if (!values) return values.why();
-            add_runs(text, *values, [](const std::string& a, const std::string& b) { return a == b; },
-                     [&](const std::string& v) { text += "'" + padded(v, array.element_size) + "'"; });
+            add_runs(
+                text, *values, [](const std::string& a, const std::string& b) { return a == b; },
+                [&](const std::string& v) { text += "'" + padded(v, array.element_size) + "'"; });
             break;
         }
-        case ArrayType::message: break;
+        case ArrayType::message:
+            break;
     }
-    return Annotation{std::string(array_key), std::move(text)};
+    return Annotation{std::string(key), std::move(text)};
 }
 
 std::string_view kept_name(std::string_view text) {
@@ -153,9 +160,9 @@ std::string_view kept_name(std::string_view text) {
     return name;
 }
 
-const std::string* find_kept(const std::vector<Annotation>& annotations, std::string_view name) {
+const std::string* find_kept(const std::vector<Annotation>& annotations, std::string_view key, std::string_view name) {
     for (const Annotation& a : annotations) {
-        if (a.key == array_key && kept_name(a.value) == name) return &a.value;
+        if (a.key == key && kept_name(a.value) == name) return &a.value;
     }
     return nullptr;
 }
@@ -180,7 +187,8 @@ bool write_kept(ArrayWriter& writer, std::string_view text) {
         return head->count == 0;
     }
     if (head->type == "INTE")
-        return put(take_values<std::int32_t>(words, head->count, parse_number<std::int32_t>), [&](const auto& v) { writer.integers(head->name, v); });
+        return put(take_values<std::int32_t>(words, head->count, parse_number<std::int32_t>),
+                   [&](const auto& v) { writer.integers(head->name, v); });
     if (head->type == "REAL")
         return put(take_values<float>(words, head->count, parse_number<float>), [&](const auto& v) { writer.floats(head->name, v); });
     if (head->type == "DOUB")

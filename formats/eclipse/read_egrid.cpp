@@ -69,7 +69,7 @@ private:
     }
 
     Result<void> keep(const Array& array) {
-        auto kept = kept_array(file_, array);
+        auto kept = kept_array(file_, array, array_key);
         if (!kept) return kept.why();
         parts_.grid.info.annotations.push_back(*std::move(kept));
         return {};
@@ -125,8 +125,9 @@ private:
         if (!hosts) return hosts.why();
         if (parts_.dims == nullptr) return fail("F012", array, "expected GRIDHEAD before HOSTNUM");
         if (hosts->size() != parts_.grid.cell_count()) {
-            return fail("F008", array,
-                        "expected " + std::to_string(parts_.grid.cell_count()) + " values of HOSTNUM, found " + std::to_string(hosts->size()));
+            return fail(
+                "F008", array,
+                "expected " + std::to_string(parts_.grid.cell_count()) + " values of HOSTNUM, found " + std::to_string(hosts->size()));
         }
         if (!parts_.grid.host) parts_.grid.host.emplace();
         parts_.grid.host->cells.reserve(hosts->size());
@@ -138,11 +139,12 @@ private:
     }
 
     Result<void> end_grid(const Array& array) {
-        if (!open_) return fail("F118", array, "expected a grid before ENDGRID");
+        if (!open_) return fail("F012", array, "expected a grid before ENDGRID");
         const std::int32_t number = parts_.number;
         auto grid = finish_grid(file_, std::move(parts_), data_.findings);
         if (!grid) return grid.why();
-        if (grid->host && !host_fits(*grid)) return fail("F007", array, "a cell of '" + grid->info.name + "' has a host cell that does not exist");
+        if (grid->host && !host_fits(*grid))
+            return fail("F007", array, "a cell of '" + grid->info.name + "' has a host cell that does not exist");
         if (grid->host && !grids_.empty()) take_after(*grid);
         if (!by_number_.emplace(number, grids_.size()).second)
             return fail("F009", array, "two grids have the number " + std::to_string(number));
@@ -182,8 +184,8 @@ private:
     struct Group {
         std::int32_t grid = 0, other = 0;
         bool between_refinements = false;
-        const Array *first = nullptr, *second = nullptr;        // NNC1 NNC2, or NNA1 NNA2
-        const Array *own = nullptr, *global = nullptr;          // NNCL NNCG
+        const Array *first = nullptr, *second = nullptr;  // NNC1 NNC2, or NNA1 NNA2
+        const Array *own = nullptr, *global = nullptr;    // NNCL NNCG
     };
 
     Result<void> take_connection_head(const Array& array) {
@@ -214,16 +216,15 @@ private:
         return found->second;
     }
 
-    static std::uint64_t cell_limit(const CornerPointGrid& grid) {
-        return grid.cell_count() * (grid.porosity == Porosity::single ? 1 : 2);
-    }
+    static std::uint64_t cell_limit(const CornerPointGrid& grid) { return grid.cell_count() * (grid.porosity == Porosity::single ? 1 : 2); }
 
     Result<void> pairs(const Array* a, const Array* b, const CornerPointGrid& of_a, const CornerPointGrid& of_b,
                        std::vector<CornerPointGrid::Connection>& out) const {
         if (a == nullptr && b == nullptr) return {};
         if (a == nullptr || b == nullptr) return fail("F008", a != nullptr ? *a : *b, "expected both arrays of cells, found one");
         if (a->count != b->count) {
-            return fail("F008", *b, "expected " + std::to_string(a->count) + " values of '" + b->name + "', found " + std::to_string(b->count));
+            return fail("F008", *b,
+                        "expected " + std::to_string(a->count) + " values of '" + b->name + "', found " + std::to_string(b->count));
         }
         const auto first = integers(file_, *a);
         if (!first) return first.why();
