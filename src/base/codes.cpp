@@ -66,6 +66,8 @@ constexpr std::array catalogue = {
     CodeInfo{"F134", info, "cells of a grid are not in the file: taken as inactive", ""},
     CodeInfo{"F141", info, "the numbers of cells are not stated: taken from the faults", "give them with --option dims=NX,NY,NZ"},
     CodeInfo{"F142", warning, "an operation names an array that is not there: kept, not applied", "read the whole deck"},
+    CodeInfo{"F151", info, "connections of negligible transmissibility are not listed", ""},
+    CodeInfo{"F152", info, "volumes of polyhedra beside those of trilinear cells", ""},
     // Corner-point grids, numbered as in the rules that they come from.
     CodeInfo{"C01", error, "the length of an array does not fit the dimensions", "correct SPECGRID or the array"},
     CodeInfo{"C02", error, "a coordinate is not finite or as large as 1e20", "export the grid again, or make the cells inactive"},

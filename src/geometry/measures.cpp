@@ -159,8 +159,9 @@ std::optional<std::array<Vec3, 2>> bounds_of(const StructuredGrid& grid) {
 
 /// Of the active cells, or of all where none is active; elevation-up like every other box.
 std::optional<std::array<Vec3, 2>> bounds_of(const CornerPointGrid& grid) {
-    const bool all = active_count(grid) == 0;
     Box box;
+    if (!misfit(grid).empty()) return box.result();  // properties without geometry
+    const bool all = active_count(grid) == 0;
     for (std::uint32_t k = 0; k < grid.dims[2]; ++k) {
         for (std::uint32_t j = 0; j < grid.dims[1]; ++j) {
             for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {

@@ -6,6 +6,7 @@
 
 #include "base/output.h"
 #include "formats/registry.h"
+#include "pipeline/grids.h"
 #include "pipeline/merge.h"
 #include "pipeline/shape.h"
 
@@ -84,6 +85,9 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request) {
     if (!dataset) return std::move(dataset).why();
     const Monitor* monitor = request.load.monitor;
     if (monitor != nullptr && monitor->stopped()) return stopped();
+    if (auto joined = join_properties(*dataset); !joined) return std::move(joined).why();
+    if (auto done = apply_grid_options(*dataset, request.load.options); !done) return std::move(done).why();
+    if (auto shaped = shape_grids(*dataset, **format, request.load.options); !shaped) return std::move(shaped).why();
     shape_for(*dataset, **format);
 
     ConvertReport report;

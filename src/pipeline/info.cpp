@@ -6,6 +6,7 @@
 
 #include "geometry/measures.h"
 #include "grid/cell_geometry.h"
+#include "grid/connections.h"
 #include "topology/brep_from_dataset.h"
 
 namespace geomend {
@@ -106,6 +107,7 @@ void count_object(const CornerPointGrid& o, ObjectSummary& s) {
     s.counts["active_cells"] = active_count(o);
     if (!o.faults.empty()) s.counts["faults"] = o.faults.size();
     if (!o.connections.empty()) s.counts["stated_connections"] = o.connections.size();
+    if (o.pillars.empty()) return;  // properties without geometry
     s.volume = grid::volume(o);
 }
 
@@ -194,6 +196,14 @@ FileSummary summarise(const std::string& path, const Dataset& dataset) {
     summary.format = dataset.format;
     summary.variant = dataset.variant;
     for (std::size_t i = 0; i < dataset.objects.size(); ++i) summary.objects.push_back(summarise_object(dataset, i));
+    for (const Object& object : dataset.objects) {
+        const auto* grid = std::get_if<CornerPointGrid>(&object);
+        if (grid == nullptr || grid->pillars.empty()) continue;
+        const grid::Connections found = grid::connections(*grid);
+        auto& counts = summary.connections ? *summary.connections : summary.connections.emplace();
+        counts.internal += found.internal;
+        counts.nnc += found.others.size();
+    }
     for (const Brep& brep : dataset.breps) summary.breps.push_back(summarise_brep(*brep));
     const auto take = [&](const CoordinateSystem& crs) {
         if (!summary.crs.stated && crs.stated) summary.crs = crs;

@@ -60,6 +60,11 @@ struct FileSummary {
     std::string file, format, variant;
     std::vector<ObjectSummary> objects;
     std::vector<BrepSummary> breps;
+    /// Pairs of touching cells of all corner-point grids, and how many of them are no neighbours by (i,j,k).
+    struct ConnectionCounts {
+        std::uint64_t internal = 0, nnc = 0;
+    };
+    std::optional<ConnectionCounts> connections;
     CoordinateSystem crs;
     std::vector<Finding> findings;
     std::vector<Loss> losses;
