@@ -79,7 +79,11 @@ void add_attribute(CornerPointGrid& grid, std::string name, std::vector<T>&& val
         values.resize(cells);
         values.shrink_to_fit();
     }
+    const bool dual = !fracture.empty();
     const auto add = [&](std::string called, std::vector<T>&& part) {
+        if constexpr (!std::is_same_v<T, std::string>) {  // written for the other porosity only
+            if (dual && std::ranges::all_of(part, [](T v) { return v == unset_value<T>(); })) return;
+        }
         Attribute a;
         a.unit = unit_of(name, grid);
         a.name = std::move(called);
@@ -91,17 +95,18 @@ void add_attribute(CornerPointGrid& grid, std::string name, std::vector<T>&& val
         grid.info.attributes.push_back(std::move(a));
     };
     add(name, std::move(values));
-    if (!fracture.empty()) add(name + ":fracture", std::move(fracture));
+    if (dual) add(name + ":fracture", std::move(fracture));
 }
 
-/// Values of the first layer hold for the layers below that have none, as simulators take them.
+/// A layer without any value is like the one above, as simulators take it.
 void fill_from_above(CellArray& array, const Dims& d) {
     if (array.name != "PORO" && !array.name.starts_with("PERM")) return;
     auto* values = std::get_if<std::vector<double>>(&array.values);
     if (values == nullptr) return;
-    const std::size_t layer = std::size_t{d[0]} * d[1];
-    for (std::size_t cell = layer; cell < values->size(); ++cell) {
-        if ((*values)[cell] == unset_real) (*values)[cell] = (*values)[cell - layer];
+    const auto layer = static_cast<std::ptrdiff_t>(std::size_t{d[0]} * d[1]);
+    const auto is_unset = [](double v) { return v == unset_real; };
+    for (auto begin = values->begin() + layer; begin != values->end(); begin += layer) {
+        if (is_unset(*begin) && std::all_of(begin, begin + layer, is_unset)) std::copy(begin - layer, begin, begin);
     }
 }
 

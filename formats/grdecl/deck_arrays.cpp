@@ -100,7 +100,7 @@ Trouble DeckReader::numbers(std::string_view name, std::uint64_t expected, bool 
                               std::to_string(scan.count) + " values");
     }
     const std::string_view text = text_between(begin, slash);
-    in().jump(slash + 1);
+    in().after_slash(slash);
     if (text.size() / 2 + 1 < expected) {  // only repeats can make so many: count before memory is taken
         const ArrayScan scan = read_numbers(text, 0, values, options_->monitor);
         const bool fits = scan.count == expected || (may_be_short && scan.count < expected);
@@ -247,7 +247,7 @@ bool DeckReader::unknown_numbers(const char*, const std::string& name) {
     const std::string_view text = text_between(start, slash);
     if (probing_) {  // only to get behind it, fast where it is large
         if (text.size() < 1000) return false;
-        in().jump(slash + 1);
+        in().after_slash(slash);
         return true;
     }
     if (!grid().dims && !find_dims_ahead()) return false;
@@ -257,7 +257,7 @@ bool DeckReader::unknown_numbers(const char*, const std::string& name) {
     if (count.status != ArrayStatus::ok || count.count != cells || cells > room_) return false;
     room_ -= cells;
     // One value a cell, but more records after it: a table then, and not a property.
-    in().jump(slash + 1);
+    in().after_slash(slash);
     if (cells < 100 && in().data_follows(false, is_known)) {
         in().jump(start);
         return false;

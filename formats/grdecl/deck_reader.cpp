@@ -76,12 +76,34 @@ Trouble DeckReader::set_options() {
 Result<Dataset> DeckReader::read() {
     if (input_->bytes().empty()) return unreadable("F002", {input_->name()}, "the file is empty");
     if (auto failed = set_options()) return std::move(*failed);
+    take_remark();
     if (auto failed = run()) {
         failed->also = std::move(findings_);
         return std::move(*failed);
     }
     if (auto failed = companion_properties()) return std::move(*failed);
     return finish();
+}
+
+/// The comment at the start of an include that this program wrote: what no keyword of an include can say.
+void DeckReader::take_remark() {
+    std::string_view line = input_->bytes().substr(0, 4096);
+    line = line.substr(0, line.find_first_of("\r\n"));
+    constexpr std::string_view mark = "--geomend ";
+    if (!line.starts_with(mark)) return;
+    line.remove_prefix(mark.size());
+    while (!line.empty()) {
+        const std::size_t end = std::min(line.find(' '), line.size());
+        const std::string_view word = line.substr(0, end);
+        line.remove_prefix(std::min(end + 1, line.size()));
+        if (word == "NAME") {
+            grids_.front().grid.info.name = std::string(line);
+            return;
+        }
+        if (word == "DUALPORO") porosity_ = CornerPointGrid::Porosity::dual_porosity;
+        else if (word == "DUALPERM") porosity_ = CornerPointGrid::Porosity::dual_permeability;
+        else if (word == "METRIC" || word == "FIELD" || word == "LAB" || word == "PVT-M") unit_system_ = std::string(word);
+    }
 }
 
 Trouble DeckReader::run() {
@@ -116,7 +138,7 @@ Trouble DeckReader::keyword(const Item& word) {
                               (word_.empty() ? "" : "; is a '/' missing, or one too many, after " + word_ + "?"));
     }
     if (text.empty()) return unreadable("F012", where(word.at), "expected a keyword, found an empty name");
-    word_ = known_name(text);
+    word_ = word.quoted ? std::string(text) : known_name(text);
     word_at_ = word.at;
     if (word_ == "END") {
         ended_ = true;

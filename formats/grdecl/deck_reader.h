@@ -31,6 +31,7 @@ private:
 
     // deck_reader.cpp
     Trouble set_options();
+    void take_remark();
     Trouble run();
     Trouble keyword(const Item& word);
     Trouble section_text();

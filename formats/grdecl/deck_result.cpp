@@ -34,7 +34,7 @@ Result<Dataset> DeckReader::finish() {
     current_ = 0;
     Dataset dataset;
     dataset.format = "grdecl";
-    const bool deck = std::ranges::any_of(texts_, [](const auto& t) { return t.first == Section::runspec; }) || !unit_system_.empty();
+    const bool deck = std::ranges::any_of(texts_, [](const auto& t) { return t.first == Section::runspec; });
     dataset.variant = deck ? "DATA deck" : "GRDECL";
     if (!grid().dims) {
         const CornerPointGrid& g = grid().grid;

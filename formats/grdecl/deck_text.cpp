@@ -101,7 +101,7 @@ Item Scanner::item() {
     if (!skip()) return {};
     const char* begin = at_;
     if (*at_ == '/') {
-        ++at_;
+        at_ = line_end(at_, end_);  // the rest of the line is a remark
         return {{begin, 1}, begin};
     }
     if (is_quote(*at_)) {
@@ -150,9 +150,11 @@ Result<Record> Scanner::record(std::string_view keyword) {
 
 bool Scanner::take_slash() {
     if (!skip() || *at_ != '/') return false;
-    ++at_;
+    at_ = line_end(at_, end_);
     return true;
 }
+
+void Scanner::after_slash(const char* slash) { at_ = line_end(slash, end_); }
 
 void Scanner::skip_line() {
     at_ = line_end(at_, end_);

@@ -61,6 +61,8 @@ public:
     Item item();
     /// The items up to the next '/', which is taken. F004 at the end of the file, F012 for a bad repeat count.
     Result<Record> record(std::string_view keyword);
+    /// Goes behind a '/': what follows it in its line is a remark.
+    void after_slash(const char* slash);
     /// Takes a lone '/' where it is next.
     bool take_slash();
     /// Goes to the start of the next line.

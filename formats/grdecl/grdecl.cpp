@@ -6,6 +6,7 @@
 
 #include "base/text_cursor.h"
 #include "formats/grdecl/deck_reader.h"
+#include "formats/grdecl/writing.h"
 
 namespace geomend::grdecl {
 
@@ -63,9 +64,9 @@ constexpr std::string_view note = "substance: all but one grid, local grids, lin
 constexpr std::string_view tried = "real files";
 
 constexpr std::array rows = {
-    Format{"grdecl", "grdecl", "GRDECL, grid section of a deck", include_extensions, sniff_include, read_deck, nullptr,
+    Format{"grdecl", "grdecl", "GRDECL, grid section of a deck", include_extensions, sniff_include, read_deck, write_include,
            WriterWants::corner_point, grid_keeps(), note, tried},
-    Format{"data", "grdecl", "whole simulator deck", deck_extensions, sniff_deck, read_deck, nullptr, WriterWants::corner_point,
+    Format{"data", "grdecl", "whole simulator deck", deck_extensions, sniff_deck, read_deck, write_whole_deck, WriterWants::corner_point,
            grid_keeps(), note, tried},
 };
 

@@ -215,7 +215,7 @@ bool is_known(std::string_view name) {
 
 std::string known_name(std::string_view word) {
     std::string name = upper_case(trimmed(word));
-    if (name.size() > 8 && !is_known(name) && is_known(std::string_view(name).substr(0, 8))) name.resize(8);
+    if (name.size() > 8 && !name.starts_with("FIP") && !is_known(name) && is_known(std::string_view(name).substr(0, 8))) name.resize(8);
     return name;
 }
 

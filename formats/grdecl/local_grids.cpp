@@ -94,6 +94,7 @@ Trouble refine_host(CornerPointGrid& grid, const std::array<std::vector<std::uin
     for (std::size_t a = 0; a < 3; ++a) {
         const std::uint32_t hosts = box.last[a] - box.first[a] + 1;
         if (fine_cells[a].empty() && grid.dims[a] % hosts != 0) {
+            if (!grid.depths.empty()) return {};  // it has corners of its own; which hosts its cells have is not said
             return unreadable("F008", {input.name()},
                               "the local grid " + shown(grid.info.name) + " has " + std::to_string(grid.dims[a]) + " cells along axis " +
                                   std::to_string(a + 1) + " for " + std::to_string(hosts) +
