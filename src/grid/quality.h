@@ -11,12 +11,12 @@ namespace geomend::grid {
 /// where one of the two edges is collapsed have none. Where a cell has no such corner the least angle is 180 and the
 /// greatest 0.
 struct CellQuality {
-    double least_top_base = 180, greatest_top_base = 0;  ///< of the top and the base
+    double least_top_base = 180, greatest_top_base = 0;    ///< of the top and the base
     double least_projected = 180, greatest_projected = 0;  ///< of both as seen from above
     double least_side = 180, greatest_side = 0;            ///< of the four sides
-    double aspect = 1;           ///< longest over shortest of the mean edges along I, J, K; infinite where one is 0
-    double least_jacobian = 0;   ///< least over corners of the determinant over the product of its edges, -1 to 1; corners
-                                 ///< on a collapsed edge are left out. Its sign is that of (x, y, depth)
+    double aspect = 1;          ///< longest over shortest of the mean edges along I, J, K; infinite where one is 0
+    double least_jacobian = 0;  ///< least over corners of the determinant over the product of its edges, -1 to 1; corners
+                                ///< on a collapsed edge are left out. Its sign is that of (x, y, depth)
 };
 
 /// \param zero_length edges up to this length are collapsed

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
 #include "grid/cell_geometry.h"
+#include "grid/map_axes.h"
 #include "grid/multipliers.h"
 
 namespace geomend::grid {
@@ -96,6 +97,14 @@ void side_values(const Worker& worker, std::uint32_t j, PairSides& sides, Transm
     });
 }
 
+// A deck may state its grid in another unit than its own; without a deck the unit of the grid tells the system.
+double factor_of(const CornerPointGrid& grid) {
+    const double own = metres(grid.info.crs.axis_units[0]);
+    if (grid.unit_system.empty()) return transmissibility_factor(own == 0.3048 ? "FIELD" : own == 0.01 ? "LAB" : "METRIC");
+    const double deck = grid.unit_system == "FIELD" ? 0.3048 : grid.unit_system == "LAB" ? 0.01 : 1.0;
+    return transmissibility_factor(grid.unit_system) * (own == 0 ? 1.0 : own / deck);
+}
+
 }  // namespace
 
 double transmissibility_factor(std::string_view unit_system) {
@@ -125,12 +134,8 @@ Result<Transmissibilities> transmissibilities(const CornerPointGrid& grid, const
     for (std::size_t d = 1; d < 3; ++d) {
         if (permeability[d].empty()) permeability[d] = permeability[0];
     }
-    const Worker worker{grid,
-                        connections.present,
-                        std::move(permeability),
-                        cell_values(grid, "NTG", 1.0),
-                        Multipliers(grid),
-                        transmissibility_factor(grid.unit_system)};
+    const Worker worker{grid,           connections.present, std::move(permeability), cell_values(grid, "NTG", 1.0), Multipliers(grid),
+                        factor_of(grid)};
     Transmissibilities result;
     for (auto* values : {&result.x, &result.y, &result.z}) values->assign(grid.cell_count(), 0.0);
     std::vector<std::vector<double>> along_i(grid.dims[1]), along_j(grid.dims[1]);

@@ -25,6 +25,8 @@ double transmissibility_factor(std::string_view unit_system);
 /// (and PERMY, PERMZ, NTG, MULT*, MULTNUM, FLUXNUM, OPERNUM where they are there) of cells are used; PERMY and PERMZ are
 /// PERMX where they are missing. The rules are those of opm-simulators, so that its INIT has the same values.
 /// \pre connections = connections(grid)
+/// The unit is that of grid.unit_system (lengths in another unit of the grid are converted); where no system is stated,
+/// that which goes with the grid's unit of length.
 /// Errors: F007 where PERMX is missing.
 Result<Transmissibilities> transmissibilities(const CornerPointGrid& grid, const Connections& connections);
 

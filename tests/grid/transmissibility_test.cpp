@@ -33,6 +33,14 @@ TEST(Transmissibility, in_field_units_has_the_usual_constant) {
     EXPECT_NEAR(transmissibility_factor("LAB"), 3.6, 0.05);
 }
 
+TEST(Transmissibility, of_a_grid_in_feet_within_a_metric_deck_is_converted) {
+    CornerPointGrid grid = with_rock();
+    grid.unit_system = "METRIC";
+    grid.info.crs.axis_units = {"FEET", "FEET", "FEET"};
+    const auto t = transmissibilities(grid, connections(grid));
+    EXPECT_NEAR(t->x[0], metric * 0.3048 * 2000, 1e-9);
+}
+
 TEST(Transmissibility, net_to_gross_acts_on_sides_only) {
     CornerPointGrid grid = with_rock();
     testing::add_constant(grid, "NTG", 0.5);
