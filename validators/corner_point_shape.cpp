@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/corner_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/cell_volume.h"
+#include "grid/quality.h"
+
+// What the shape of one cell says: C07, C08, C09 and C22.
+
+namespace geomend::validators {
+
+namespace {
+
+using grid::Corners;
+
+double edge_length(const Corners& p, unsigned a, unsigned b) { return std::hypot(p[a][0] - p[b][0], p[a][1] - p[b][1], p[a][2] - p[b][2]); }
+
+// By how much a determinant may be off when corners are off by the tolerance.
+double slack(const std::array<double, 3>& edges, double tolerance) {
+    return tolerance * (edges[0] * edges[1] + edges[1] * edges[2] + edges[2] * edges[0]);
+}
+
+std::array<double, 3> mean_edges(const Corners& p) {
+    std::array<double, 3> mean{};
+    for (unsigned c = 0; c < 8; ++c) {
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            if ((c >> axis & 1u) == 0) mean[axis] += edge_length(p, c, c + (1u << axis)) / 4;
+        }
+    }
+    return mean;
+}
+
+// Least determinant where it is to be positive, as a part of what the edges there would span; 0 where it is not
+// negative beyond what the tolerance explains.
+double most_negative(const Corners& p, double sign, double tolerance) {
+    double worst = 0;
+    const auto take = [&](double determinant, const std::array<double, 3>& edges) {
+        if (determinant >= -slack(edges, tolerance)) return;
+        worst = std::min(worst, determinant / (edges[0] * edges[1] * edges[2]));
+    };
+    const std::array<double, 8> corner = grid::corner_jacobians(p);
+    for (unsigned c = 0; c < 8; ++c) {
+        const std::array<double, 3> edges{edge_length(p, c, c ^ 1u), edge_length(p, c, c ^ 2u), edge_length(p, c, c ^ 4u)};
+        if (std::ranges::any_of(edges, [&](double e) { return e <= tolerance; })) continue;
+        take(sign * corner[c], edges);
+    }
+    const std::array<double, 3> mean = mean_edges(p);
+    if (std::ranges::any_of(mean, [&](double e) { return e <= tolerance; })) return worst;
+    const double low = 0.5 - std::sqrt(3.0) / 6, high = 0.5 + std::sqrt(3.0) / 6;
+    for (unsigned g = 0; g < 8; ++g) {
+        take(sign * grid::jacobian(p, (g & 1u) != 0 ? high : low, (g & 2u) != 0 ? high : low, (g & 4u) != 0 ? high : low), mean);
+    }
+    return worst;
+}
+
+using Point = std::array<double, 2>;
+
+double area2(const Point& a, const Point& b, const Point& c) { return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]); }
+
+// How deep a point lies inside a triangle: its least distance from a side, negative outside, 0 for flat triangles.
+double depth_inside(const Point& p, const std::array<Point, 3>& t) {
+    const double turn = area2(t[0], t[1], t[2]);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < 3; ++n) {
+        const Point &a = t[n], &b = t[(n + 1) % 3];
+        const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+        if (length == 0 || turn == 0) return 0;
+        least = std::min(least, (turn > 0 ? 1 : -1) * area2(a, b, p) / length);
+    }
+    return least;
+}
+
+// How far the worst corner of the top or the base lies inside the triangle of the other three, seen from above.
+double concavity(const Corners& corners) {
+    double worst = 0;
+    for (unsigned from = 0; from < 8; from += 4) {
+        std::array<Point, 4> q;
+        for (unsigned c = 0; c < 4; ++c) q[c] = {corners[from + c][0], corners[from + c][1]};
+        for (unsigned c = 0; c < 4; ++c) worst = std::max(worst, depth_inside(q[c], {q[(c + 1) % 4], q[(c + 2) % 4], q[(c + 3) % 4]}));
+    }
+    return worst;
+}
+
+}  // namespace
+
+void check_inside_out(const GridScope& scope, std::vector<Finding>& findings) {
+    const double sign = scope.right_handed() ? 1 : -1;
+    // Edges on pillars are compared by depth; the finer tolerance serves for all where the two differ.
+    const double tolerance = std::min(scope.tolerance(), scope.depth_tolerance());
+    const auto found = find_cells(scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+        const double worst = most_negative(scope.corners(i, j, k), sign, tolerance);
+        return Judgement{worst < 0, -worst};
+    });
+    if (found.count == 0) return;
+    Finding f = cells_finding(scope, "C07",
+                              counted(found.count, "cell is", "cells are") +
+                                  " turned inside out at a corner or within: det J is negative, at worst " + rounded(-found.worst) +
+                                  " of the product of the edges in " + cell_text(scope.grid(), found.worst_cell),
+                              found);
+    f.measures = {{"least_scaled_jacobian", -found.worst}};
+    findings.push_back(std::move(f));
+}
+
+void check_concave(const GridScope& scope, std::vector<Finding>& findings) {
+    if (scope.grid().cylindrical) return;
+    const auto found = find_cells(scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+        const double inside = concavity(scope.corners(i, j, k));
+        return Judgement{inside > scope.tolerance(), inside};
+    });
+    if (found.count == 0) return;
+    Finding f = cells_finding(scope, "C08",
+                              counted(found.count, "cell is", "cells are") +
+                                  " concave seen from above: a corner of top or base lies within the triangle of the others, at most by " +
+                                  rounded(found.worst) + " in " + cell_text(scope.grid(), found.worst_cell),
+                              found);
+    f.measures = {{"depth_of_corner", found.worst}};
+    findings.push_back(std::move(f));
+}
+
+void check_angles(const GridScope& scope, std::vector<Finding>& findings) {
+    if (scope.grid().cylindrical) return;
+    const auto found = find_cells(scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+        const grid::CellQuality q = grid::cell_quality(scope.corners(i, j, k), scope.depth_tolerance());
+        const double least = std::min({q.least_top_base, q.least_projected, q.least_side});
+        const double greatest = std::max({q.greatest_top_base, q.greatest_projected, q.greatest_side});
+        Judgement of;
+        of.measure = std::max(least_angle - least, greatest - greatest_angle);
+        of.found = of.measure > 0;
+        of.kind = std::min(q.least_side, 180 - q.greatest_side) < std::min(least_angle, 180 - greatest_angle) ? 1 : 0;
+        return of;
+    });
+    if (found.count == 0) return;
+    Finding f = cells_finding(scope, "C09",
+                              counted(found.count, "cell has", "cells have") + " angles below " + rounded(least_angle) + " or above " +
+                                  rounded(greatest_angle) + " degrees (" + std::to_string(found.by_kind[1]) +
+                                  " of them at a side), the worst beyond by " + rounded(found.worst) + " in " +
+                                  cell_text(scope.grid(), found.worst_cell),
+                              found);
+    f.measures = {{"beyond_by", found.worst}, {"at_sides", static_cast<double>(found.by_kind[1])}};
+    findings.push_back(std::move(f));
+}
+
+void check_flat_cells(const GridScope& scope, std::vector<Finding>& findings) {
+    if (scope.grid().cylindrical) return;
+    const auto found = find_cells(scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+        const std::array<double, 3> edges = mean_edges(scope.corners(i, j, k));
+        const double low = std::min({edges[0], edges[1], edges[2]}), high = std::max({edges[0], edges[1], edges[2]});
+        return Judgement{low > scope.depth_tolerance() && high > largest_aspect * low, high / low};
+    });
+    if (found.count == 0) return;
+    Finding f = cells_finding(scope, "C22",
+                              counted(found.count, "cell is", "cells are") + " more than " + rounded(largest_aspect) +
+                                  " times as long as thick, the worst " + rounded(found.worst) +
+                                  " times: " + cell_text(scope.grid(), found.worst_cell),
+                              found);
+    f.measures = {{"aspect", found.worst}};
+    findings.push_back(std::move(f));
+}
+
+}  // namespace geomend::validators
