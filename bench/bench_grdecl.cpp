@@ -48,7 +48,8 @@ Dataset make_grid() {
         for (std::uint32_t j = 0; j < side; ++j) {
             for (std::uint32_t i = 0; i < side; ++i) {
                 for (unsigned c = 0; c < 8; ++c)
-                    g.depths[corner_index(g.dims, i, j, k, c)] = depth_of(i, 25.0 * (i + (c & 1u)), 25.0 * (j + ((c >> 1) & 1u)), k + (c >> 2), side);
+                    g.depths[corner_index(g.dims, i, j, k, c)] =
+                        depth_of(i, 25.0 * (i + (c & 1u)), 25.0 * (j + ((c >> 1) & 1u)), k + (c >> 2), side);
             }
         }
     }
@@ -58,7 +59,8 @@ Dataset make_grid() {
     porosity.name = "PORO";
     porosity.location = AttributeLocation::cell;
     std::vector<double> values(g.cell_count());
-    for (std::size_t cell = 0; cell < values.size(); ++cell) values[cell] = std::round(1e6 * (0.2 + 0.1 * std::sin(static_cast<double>(cell)))) / 1e6;
+    for (std::size_t cell = 0; cell < values.size(); ++cell)
+        values[cell] = std::round(1e6 * (0.2 + 0.1 * std::sin(static_cast<double>(cell)))) / 1e6;
     porosity.values = std::move(values);
     g.info.attributes.push_back(std::move(porosity));
     Dataset dataset;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/mapped_pages.h"
 #include "base/number_text.h"
 
 namespace geomend::grdecl {
@@ -75,10 +76,16 @@ std::string shown(std::string_view token) {
 }
 
 const char* find_slash(const char* at, const char* end) {
+    constexpr std::ptrdiff_t window = std::ptrdiff_t{1} << 24;
     const char* begin = at;
-    for (;;) {
-        const void* found = std::memchr(at, '/', static_cast<std::size_t>(end - at));
-        if (found == nullptr) return end;
+    while (at != end) {
+        const auto size = static_cast<std::size_t>(std::min(end - at, window));
+        const void* found = std::memchr(at, '/', size);
+        if (found == nullptr) {
+            if (size == static_cast<std::size_t>(window)) release_mapped_pages({at, size});  // they are read again piece by piece
+            at += size;
+            continue;
+        }
         const char* slash = static_cast<const char*>(found);
         const char* line = slash;
         while (line != begin && line[-1] != '\n') --line;
@@ -86,6 +93,7 @@ const char* find_slash(const char* at, const char* end) {
         if (before.find("--") == std::string_view::npos) return slash;
         at = line_end(slash, end);
     }
+    return end;
 }
 
 bool Scanner::skip() {

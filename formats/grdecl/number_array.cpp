@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "base/big_array.h"
+#include "base/mapped_pages.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "formats/grdecl/deck_text.h"
@@ -300,6 +301,7 @@ ArrayScan read_numbers(std::string_view text, std::uint64_t room, std::vector<T>
     std::vector<Piece<T>> pieces(std::min(pieces_at_once, text.size() / piece_size + 1));
     while (!text.empty()) {
         if (monitor != nullptr && monitor->stopped()) return {ArrayStatus::cancelled, scan.count, text.data(), false, false};
+        const char* begin = text.data();
         std::size_t n = 0;
         for (; n < pieces.size() && !text.empty(); ++n) pieces[n].start(cut(text), store && scan.status == ArrayStatus::ok);
         const bool keep = store && scan.status == ArrayStatus::ok;
@@ -323,6 +325,8 @@ ArrayScan read_numbers(std::string_view text, std::uint64_t room, std::vector<T>
         if (!keep || scan.status != ArrayStatus::ok) continue;
         if (values.empty() && scan.count > 0) make_big(values, static_cast<std::size_t>(room));
         parallel_for_each_index(n, [&](std::size_t i) { copy_out(pieces[i], values.data() + pieces[i].first); });
+        if (text.data() - begin > static_cast<std::ptrdiff_t>(piece_size))
+            release_mapped_pages({begin, static_cast<std::size_t>(text.data() - begin)});
     }
     values.resize(static_cast<std::size_t>(std::min<std::uint64_t>(scan.count, scan.status == ArrayStatus::ok ? room : 0)));
     return scan;
