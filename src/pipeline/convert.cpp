@@ -57,6 +57,15 @@ Result<Dataset> load_all(const ConvertRequest& request) {
     return all;
 }
 
+Result<void> make_like(Dataset& dataset, const Format& format, const ConvertRequest& request) {
+    if (request.like.empty()) return make_grids(dataset, format, nullptr);
+    LoadOptions options = request.load;
+    options.from.clear();
+    auto like = load(request.like, options);
+    if (!like) return std::move(like).why();
+    return make_grids(dataset, format, &*like);
+}
+
 Failure cannot_hold(const std::string& output, const Format& format, const std::vector<Loss>& losses) {
     Failure why = failure(FailureKind::cannot_hold, "F021", {output},
                           std::string(format.title) + " cannot hold all of this model: nothing was written (--lossy writes what fits)");
@@ -86,6 +95,7 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request) {
     const Monitor* monitor = request.load.monitor;
     if (monitor != nullptr && monitor->stopped()) return stopped();
     if (auto joined = join_properties(*dataset); !joined) return std::move(joined).why();
+    if (auto made = make_like(*dataset, **format, request); !made) return std::move(made).why();
     if (auto done = apply_grid_options(*dataset, request.load.options); !done) return std::move(done).why();
     if (auto shaped = shape_grids(*dataset, **format, request.load.options); !shaped) return std::move(shaped).why();
     shape_for(*dataset, **format);

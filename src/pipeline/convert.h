@@ -15,6 +15,7 @@ struct ConvertRequest {
     std::vector<std::string> inputs;   ///< at least one; "-" is standard input
     std::string output;                ///< "-" is standard output
     std::string to;                    ///< format name; empty: by the output's extension
+    std::string like;                  ///< a file whose corner-point grid takes the values of the inputs' cells; may be empty
     bool lossy = false;                ///< substance may be lost
     bool accept_unterminated = false;  ///< a last object without END is taken as it is
     LoadOptions load;

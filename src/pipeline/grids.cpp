@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "base/number_text.h"
 #include "geometry/measures.h"
 #include "grid/cell_geometry.h"
 #include "grid/cell_mesh.h"
+#include "grid/from_cells.h"
 #include "grid/map_axes.h"
 #include "grid/transmissibility.h"
 
@@ -178,6 +180,45 @@ void tell_volumes(const CornerPointGrid& grid, const grid::Cells& cells, std::st
     }
 }
 
+// What stands on points and lines of a mesh has no place in a grid of cells.
+void list_left(const Object& object, std::vector<Loss>& losses) {
+    const ObjectInfo& info = info_of(object);
+    for (const Attribute& a : info.attributes) {
+        if (a.location != AttributeLocation::cell && a.location != AttributeLocation::object)
+            add_loss(losses, {LossClass::substance, info.name, "attribute '" + a.name + "'",
+                              std::string("a corner-point grid holds values of cells, not of ") + to_string(a.location) + "s", 1});
+    }
+    for (const NamedSet& set : info.sets)
+        add_loss(losses, {LossClass::identity, info.name, "set '" + set.name + "'", "a corner-point grid has no sets", 1});
+}
+
+const CornerPointGrid* first_grid(const Dataset& dataset) {
+    for (const Object& object : dataset.objects) {
+        if (const auto* grid = std::get_if<CornerPointGrid>(&object); grid != nullptr && !is_bare(*grid)) return grid;
+    }
+    return nullptr;
+}
+
+Result<void> put_on_like(Dataset& dataset, const Dataset& like) {
+    const CornerPointGrid* model = first_grid(like);
+    if (model == nullptr) return usage("--like: the file holds no corner-point grid");
+    CornerPointGrid grid = *model;
+    grid.info.attributes.clear();
+    bool any = false;
+    for (const Object& object : dataset.objects) {
+        const auto* mesh = std::get_if<CellMesh>(&object);
+        if (mesh == nullptr) continue;
+        if (auto put = grid::put_attributes(*mesh, grid); !put) return put;
+        list_left(object, dataset.losses);
+        any = true;
+    }
+    if (!any) return usage("--like: the inputs hold no mesh of cells whose values could go onto a grid");
+    std::erase_if(dataset.objects, [](const Object& o) { return std::holds_alternative<CellMesh>(o); });
+    dataset.objects.insert(dataset.objects.begin(), std::move(grid));
+    dataset.models.clear();
+    return {};
+}
+
 }  // namespace
 
 Result<void> join_properties(Dataset& dataset) {
@@ -214,6 +255,22 @@ Result<void> apply_grid_options(Dataset& dataset, const FormatOptions& options) 
         if (connections == "compute") {
             if (auto computed = compute_connections(*grid, dataset.findings); !computed) return computed;
         }
+    }
+    return {};
+}
+
+Result<void> make_grids(Dataset& dataset, const Format& target, const Dataset* like) {
+    if (like != nullptr) return put_on_like(dataset, *like);
+    if (target.wants != WriterWants::corner_point) return {};
+    for (Object& object : dataset.objects) {
+        std::optional<Result<CornerPointGrid>> made;
+        if (const auto* lattice = std::get_if<StructuredGrid>(&object)) made = grid::from_structured(*lattice);
+        if (const auto* mesh = std::get_if<CellMesh>(&object); mesh != nullptr && grid::has_places(*mesh))
+            made = grid::from_tagged_cells(*mesh);
+        if (!made) continue;
+        if (!*made) return std::move(*made).why();
+        list_left(object, dataset.losses);
+        object = std::move(**made);
     }
     return {};
 }

@@ -18,6 +18,11 @@ Result<void> join_properties(Dataset& dataset);
 /// transmissibilities; pairs below 1e-6 are left out then, as simulators do, and told. Failure (usage) for other values.
 Result<void> apply_grid_options(Dataset& dataset, const FormatOptions& options);
 
+/// For targets that hold corner-point grids: structured grids and cells with attributes I, J, K become such grids where
+/// columns allow it. With `like`, the attributes of every mesh go onto its first grid instead, which takes the place of
+/// the meshes. Failure (cannot_hold) names the first cell that does not fit.
+Result<void> make_grids(Dataset& dataset, const Format& target, const Dataset* like);
+
 /// Turns corner-point grids into meshes of cells where the target cannot hold them: plain cells, or with
 /// faces=conformal polyhedra that fit face to face; with regions=NAME cells are grouped by an attribute. What a mesh
 /// cannot say of a grid is added to dataset.losses.
