@@ -102,7 +102,8 @@ Trouble DeckReader::numbers(std::string_view name, std::uint64_t expected, bool 
     const std::string_view text = text_between(begin, slash);
     in().after_slash(slash);
     if (text.size() / 2 + 1 < expected) {  // only repeats can make so many: count before memory is taken
-        const ArrayScan scan = read_numbers(text, 0, values, options_->monitor);
+        ArrayScan scan = read_numbers(text, 0, values, options_->monitor);
+        if (scan.status == ArrayStatus::ok && scan.count > expected) scan.at = item_beyond(text, expected);
         const bool fits = scan.count == expected || (may_be_short && scan.count < expected);
         if (scan.status != ArrayStatus::ok || !fits) return array_failure(scan, name, text, expected, slash);
         expected = scan.count;
@@ -188,7 +189,10 @@ Trouble DeckReader::cell_array(std::string_view name, bool whole) {
     }
     std::vector<double> values;
     if (auto failed = numbers(name, box.count(), true, values, is_block_size(name))) return failed;
-    if (is_block_size(name)) values.resize(static_cast<std::size_t>(box.count()), unset_real);
+    if (is_block_size(name)) {
+        if (auto failed = afford(box.count() - values.size(), word_at_, name)) return failed;
+        values.resize(static_cast<std::size_t>(box.count()), unset_real);
+    }
     return store(name, std::move(values), row);
 }
 

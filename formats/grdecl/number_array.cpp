@@ -251,10 +251,22 @@ void copy_out(const Piece<T>& piece, T* to) {
     std::copy(piece.values.get() + from, piece.values.get() + piece.used, to);
 }
 
-/// The item at which a piece passes `left` values.
-template <class T>
-const char* item_after(std::string_view text, std::uint64_t left) {
-    Piece<T> piece;
+/// The next piece of the text: up to a line end, so that no comment is cut.
+std::string_view cut(std::string_view& text) {
+    std::size_t size = text.size();
+    if (size > piece_size) {
+        const std::size_t newline = text.find('\n', piece_size);
+        if (newline != std::string_view::npos) size = newline + 1;
+    }
+    const std::string_view piece = text.substr(0, size);
+    text.remove_prefix(size);
+    return piece;
+}
+
+}  // namespace
+
+const char* item_beyond(std::string_view text, std::uint64_t room) {
+    Piece<double> piece;
     const char* p = text.data();
     const char* end = p + text.size();
     std::uint64_t count = 0;
@@ -270,28 +282,14 @@ const char* item_after(std::string_view text, std::uint64_t left) {
             continue;
         }
         std::uint64_t n = 0;
-        T value{};
+        double value{};
         static_cast<void>(repeated(std::string_view(p, static_cast<std::size_t>(stop - p)), n, value, piece));
         count = std::min(many, count + std::min(many, std::max<std::uint64_t>(n, 1)));
-        if (count > left) return p;
+        if (count > room) return p;
         p = stop;
     }
     return end;
 }
-
-/// The next piece of the text: up to a line end, so that no comment is cut.
-std::string_view cut(std::string_view& text) {
-    std::size_t size = text.size();
-    if (size > piece_size) {
-        const std::size_t newline = text.find('\n', piece_size);
-        if (newline != std::string_view::npos) size = newline + 1;
-    }
-    const std::string_view piece = text.substr(0, size);
-    text.remove_prefix(size);
-    return piece;
-}
-
-}  // namespace
 
 template <class T>
 ArrayScan read_numbers(std::string_view text, std::uint64_t room, std::vector<T>& values, const Monitor* monitor) {
@@ -313,7 +311,7 @@ ArrayScan read_numbers(std::string_view text, std::uint64_t room, std::vector<T>
             scan.defaults |= piece.scan.defaults;
             if (store && scan.status == ArrayStatus::ok && piece.scan.count > room - scan.count) {
                 scan.status = ArrayStatus::too_many;
-                scan.at = item_after<T>(piece.text, room - scan.count);
+                scan.at = item_beyond(piece.text, room - scan.count);
             }
             scan.count = std::min(many, scan.count + piece.scan.count);
             if (piece.scan.status != ArrayStatus::ok) {

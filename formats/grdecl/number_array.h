@@ -39,6 +39,9 @@ struct ArrayScan {
 template <class T>
 ArrayScan read_numbers(std::string_view text, std::uint64_t room, std::vector<T>& values, const Monitor* monitor);
 
+/// The item of a text of numbers with which it passes `room` values, or the end of the text.
+const char* item_beyond(std::string_view text, std::uint64_t room);
+
 extern template ArrayScan read_numbers(std::string_view, std::uint64_t, std::vector<double>&, const Monitor*);
 extern template ArrayScan read_numbers(std::string_view, std::uint64_t, std::vector<std::int32_t>&, const Monitor*);
 
