@@ -26,7 +26,9 @@ Decimal decimal(T value, int count) {
     for (const char c : all.substr(0, e)) {
         if (c != '.') d.digits += c;
     }
-    d.exponent = std::atoi(text + e + 1) + 1;
+    const std::size_t digits = e + (all[e + 1] == '+' ? 2 : 1);
+    std::from_chars(text + digits, end, d.exponent);
+    ++d.exponent;
     return d;
 }
 
