@@ -2,6 +2,7 @@
 #include "pipeline/grids.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -9,11 +10,13 @@
 
 #include "base/number_text.h"
 #include "geometry/measures.h"
+#include "grid/boundary_model.h"
 #include "grid/cell_geometry.h"
 #include "grid/cell_mesh.h"
 #include "grid/from_cells.h"
 #include "grid/map_axes.h"
 #include "grid/transmissibility.h"
+#include "pipeline/merge.h"
 
 namespace geomend {
 
@@ -219,6 +222,44 @@ Result<void> put_on_like(Dataset& dataset, const Dataset& like) {
     return {};
 }
 
+Result<std::vector<std::uint32_t>> layers(std::string_view text) {
+    std::vector<std::uint32_t> numbers;
+    while (!text.empty()) {
+        const std::size_t comma = std::min(text.find(','), text.size());
+        std::uint32_t n = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + comma, n);
+        if (error != std::errc() || end != text.data() + comma)
+            return usage("--option horizons=" + std::string(text) + ": expected layers such as 3,7");
+        numbers.push_back(n);
+        text.remove_prefix(std::min(comma + 1, text.size()));
+    }
+    std::ranges::sort(numbers);
+    return numbers;
+}
+
+Result<void> to_boundary_models(Dataset& dataset, const FormatOptions& options) {
+    auto horizons = layers(option_value(options, "horizons"));
+    if (!horizons) return std::move(horizons).why();
+    const grid::ModelRequest request{std::string(option_value(options, "regions")), *horizons};
+    std::vector<CornerPointGrid> grids;
+    for (Object& object : dataset.objects) {
+        if (auto* grid = std::get_if<CornerPointGrid>(&object)) grids.push_back(std::move(*grid));
+    }
+    if (grids.empty()) return {};
+    std::erase_if(dataset.objects, [](const Object& o) { return std::holds_alternative<CornerPointGrid>(o); });
+    for (const CornerPointGrid& grid : grids) {
+        auto model = grid::boundary_model(grid, request);
+        if (!model) return std::move(model).why();
+        lose(dataset.losses, LossClass::substance, grid, "cells", "a boundary representation holds surfaces and regions",
+             active_count(grid));
+        if (!grid.info.attributes.empty())
+            lose(dataset.losses, LossClass::substance, grid, "attributes of cells", "a boundary representation holds no cells",
+                 grid.info.attributes.size());
+        merge(dataset, std::move(*model));
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> join_properties(Dataset& dataset) {
@@ -277,6 +318,9 @@ Result<void> make_grids(Dataset& dataset, const Format& target, const Dataset* l
 
 Result<void> shape_grids(Dataset& dataset, const Format& target, const FormatOptions& options) {
     if (target.wants == WriterWants::corner_point) return {};
+    const std::string_view as = option_value(options, "as");
+    if (!as.empty() && as != "brep" && as != "cells") return usage("--option as=" + std::string(as) + ": expected brep or cells");
+    if (as == "brep" || (as.empty() && target.wants == WriterWants::faced_model)) return to_boundary_models(dataset, options);
     const std::string_view faces = option_value(options, "faces"), regions = option_value(options, "regions");
     if (!faces.empty() && faces != "conformal" && faces != "plain")
         return usage("--option faces=" + std::string(faces) + ": expected plain or conformal");

@@ -24,8 +24,10 @@ Result<void> apply_grid_options(Dataset& dataset, const FormatOptions& options);
 Result<void> make_grids(Dataset& dataset, const Format& target, const Dataset* like);
 
 /// Turns corner-point grids into meshes of cells where the target cannot hold them: plain cells, or with
-/// faces=conformal polyhedra that fit face to face; with regions=NAME cells are grouped by an attribute. What a mesh
-/// cannot say of a grid is added to dataset.losses.
+/// faces=conformal polyhedra that fit face to face; with regions=NAME cells are grouped by an attribute. With as=brep, and
+/// for targets that hold surfaces of a model only, they become a boundary representation (grid::boundary_model) with the
+/// regions of regions=NAME and horizons below the layers of horizons=N,M,... What the target cannot say of a grid is
+/// added to dataset.losses.
 Result<void> shape_grids(Dataset& dataset, const Format& target, const FormatOptions& options);
 
 }  // namespace geomend
