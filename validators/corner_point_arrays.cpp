@@ -17,7 +17,7 @@ void check_array_lengths(const CornerPointGrid& grid, std::vector<Finding>& find
         f.entities = {{"corner-point-grid", grid.info.name}};
         findings.push_back(std::move(f));
     };
-    if (std::string what = misfit(grid); !what.empty()) return wrong(std::move(what));
+    if (std::string what = has_geometry(grid) ? misfit(grid) : std::string(); !what.empty()) return wrong(std::move(what));
     std::string unfit;
     for (const Attribute& a : grid.info.attributes) {
         const std::size_t expected = a.components * grid.cell_count();

@@ -79,13 +79,13 @@ void check_pore_volumes(const GridScope& scope, std::vector<Finding>& findings) 
         return Judgement{grid.is_active(cell) && volumes[cell] < bound, bound - volumes[cell]};
     });
     if (found.count == 0) return;
-    Finding f = cells_finding(
-        scope, "C16",
-        "the pore volume of " + counted(found.count, "active cell", "active cells") + " is below " +
-            (own_least.empty() ? (grid.least_pore_volume ? "MINPV, " : "1e-6, which MINPV is where it is not stated, ") + rounded(least)
-                               : "MINPVV") +
-            ": simulators make them inactive, the first is " + cell_text(grid, found.first.front()),
-        found);
+    const std::string bound = !own_least.empty()       ? "its MINPVV"
+                              : grid.least_pore_volume ? "MINPV, " + rounded(least)
+                                                       : "1e-6, the usual MINPV";
+    Finding f = cells_finding(scope, "C16",
+                              "the pore volume of " + counted(found.count, "active cell", "active cells") + " is below " + bound +
+                                  ": simulators make such cells inactive",
+                              found);
     if (own_least.empty()) f.measures = {{"least_pore_volume", least}};
     findings.push_back(std::move(f));
 }

@@ -42,6 +42,10 @@ void each_block(std::size_t cells, const Body& body) {
 
 GridScope::GridScope(const CornerPointGrid& grid, const CheckOptions& options)
     : grid_(grid), monitor_(options.monitor), all_cells_(options.all_cells) {
+    if (!has_geometry(grid)) {
+        judged_.assign(grid.cell_count(), 0);
+        return;
+    }
     choose_cells();
     measure(options);
 }

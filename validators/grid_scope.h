@@ -30,11 +30,15 @@ struct Lengths {
     double near = 0;       ///< 1e-3 diameter, or as given
 };
 
+/// False for grids of which only records were given: neither pillars nor depths.
+inline bool has_geometry(const CornerPointGrid& grid) { return !grid.pillars.empty() || !grid.depths.empty(); }
+
 /// A corner-point grid with what all its checks need: which cells are judged and by what lengths. Cells with a corner
 /// that is not finite, or as large as 1e20, are found by C02 and judged by no other check.
 class GridScope {
 public:
-    /// \pre misfit(grid) is empty; the grid outlives the scope. Cost: linear, in parallel.
+    /// \pre misfit(grid) is empty, or the grid has no geometry (no cell is judged then); the grid outlives the scope.
+    /// Cost: linear, in parallel.
     GridScope(const CornerPointGrid& grid, const CheckOptions& options);
 
     const CornerPointGrid& grid() const { return grid_; }

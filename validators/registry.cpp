@@ -31,15 +31,16 @@ constexpr std::array table = {
           check_crossing_pillars},
     Check{"C12", "outlines seen from above turn both ways (error), or all are left-handed in (x, y, depth) or on the map (info)",
           check_handedness},
-    Check{"C13", "MAPAXES has no two axes, or MAPUNITS is missing beside it", check_map_axes},
+    Check{"C13", "MAPAXES has no two axes, or MAPUNITS is missing beside it", check_map_axes, true},
     Check{"C14", "SPECGRID and DIMENS differ; told by the reader of decks"},
-    Check{"C15", "ACTNUM is above 1 (above 3 in a grid of two porosities)", check_activity},
+    Check{"C15", "ACTNUM is above 1 (above 3 in a grid of two porosities)", check_activity, true},
     Check{"C16", "PORV, or volume times PORO, NTG and MULTPV, is below MINPV or MINPVV (1e-6 where it is not stated)", check_pore_volumes},
     Check{"C17", "active cells are not all connected: across faults, past pinched cells and by stated connections", check_parts},
     Check{"C18", "a stated fault without throw, or throw without a stated fault, beyond the tolerance, between neighbours of one layer",
           check_fault_throws},
     Check{"C19", "rounding to single precision moves a corner by more than the tolerance", check_single_precision},
-    Check{"C20", "the cells of a fault record are outside the grid, run backwards or are more than one layer thick", check_fault_boxes},
+    Check{"C20", "the cells of a fault record are outside the grid, run backwards or are more than one layer thick", check_fault_boxes,
+          true},
     Check{"C21", "an active cell touches no other; a column of them touches no other column", check_isolated},
     Check{"C22", "the longest mean edge is more than 1000 times the shortest", check_flat_cells},
 };
@@ -68,17 +69,22 @@ bool wanted(const CheckOptions& options, std::string_view code) {
 Result<Checked> check(const CornerPointGrid& grid, const CheckOptions& options) {
     Checked result;
     check_array_lengths(grid, result.findings);
-    if (!misfit(grid).empty()) return result;  // told even where C01 is skipped: nothing can be judged
+    result.geometry = has_geometry(grid);
+    if (result.geometry && !misfit(grid).empty()) return result;  // told even where C01 is skipped: nothing can be judged
     if (!wanted(options, "C01")) result.findings.clear();
     const GridScope scope(grid, options);
     result.lengths = scope.lengths();
     for (const Check& row : table) {
         if (scope.stopped()) return stopped();
-        if (row.run != nullptr && wanted(options, row.code)) row.run(scope, result.findings);
+        if (row.run != nullptr && (result.geometry || row.of_records) && wanted(options, row.code)) row.run(scope, result.findings);
         if (options.monitor != nullptr)
             options.monitor->progress("checking", static_cast<double>(&row - table.data() + 1) / static_cast<double>(table.size()));
     }
     if (scope.stopped()) return stopped();
+    if (!result.geometry) {
+        result.findings.push_back(grid_finding(
+            scope, "F161", "there is no geometry here: only the lengths of arrays, MAPAXES, ACTNUM and fault records were checked"));
+    }
     return result;
 }
 

@@ -17,6 +17,7 @@ struct Check {
     std::string_view code;
     std::string_view condition;                                      ///< when it finds something, with its thresholds; one line
     void (*run)(const GridScope&, std::vector<Finding>&) = nullptr;  ///< nullptr: told by the reader, or before the others
+    bool of_records = false;                                         ///< needs no geometry
 };
 
 /// All checks, in the order of their codes.
@@ -28,10 +29,11 @@ Result<void> known_codes(const CheckOptions& options);
 /// Whether the options ask for a check.
 bool wanted(const CheckOptions& options, std::string_view code);
 
-/// Findings of one object, and the lengths that it was judged by.
+/// Findings of one grid, and the lengths that it was judged by.
 struct Checked {
     std::vector<Finding> findings;
     Lengths lengths;
+    bool geometry = true;  ///< false: there is none, only records were checked (F161 tells)
 };
 
 /// Runs all wanted checks of a corner-point grid. Never changes it. Cost: linear in cells but for columns whose cells
