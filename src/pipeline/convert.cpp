@@ -87,7 +87,9 @@ bool loses_substance(const std::vector<Loss>& losses) {
 
 Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "stopped; nothing was written"); }
 
-Result<ConvertReport> convert_unguarded(const ConvertRequest& request) {
+using Change = std::function<Result<void>(Dataset&)>;
+
+Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Change& change) {
     const auto format = target_format(request);
     if (!format) return format.why();
     auto dataset = load_all(request);
@@ -95,6 +97,9 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request) {
     const Monitor* monitor = request.load.monitor;
     if (monitor != nullptr && monitor->stopped()) return stopped();
     if (auto joined = join_properties(*dataset); !joined) return std::move(joined).why();
+    if (change) {
+        if (auto changed = change(*dataset); !changed) return std::move(changed).why();
+    }
     if (auto made = make_like(*dataset, **format, request); !made) return std::move(made).why();
     if (auto done = apply_grid_options(*dataset, request.load.options); !done) return std::move(done).why();
     if (auto shaped = shape_grids(*dataset, **format, request.load.options); !shaped) return std::move(shaped).why();
@@ -117,9 +122,11 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request) {
 
 }  // namespace
 
-Result<ConvertReport> convert(const ConvertRequest& request) {
+Result<ConvertReport> convert(const ConvertRequest& request) { return convert(request, nullptr); }
+
+Result<ConvertReport> convert(const ConvertRequest& request, const Change& change) {
     try {
-        return convert_unguarded(request);
+        return convert_unguarded(request, change);
     } catch (const std::bad_alloc&) {
         return failure(FailureKind::limit, "F023", {request.output}, "there is not enough memory for this conversion; nothing was written");
     }

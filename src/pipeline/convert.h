@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,5 +34,8 @@ struct ConvertReport {
 /// failure (cannot_hold) then lists each loss in `also`. Inputs that disagree in units, vertical sign or coordinate
 /// system are refused (F016) unless option crs=ignore.
 Result<ConvertReport> convert(const ConvertRequest& request);
+
+/// The same with a change between reading and writing; its failure ends the conversion.
+Result<ConvertReport> convert(const ConvertRequest& request, const std::function<Result<void>(Dataset&)>& change);
 
 }  // namespace geomend
