@@ -34,6 +34,9 @@ void check_fault_boxes(const GridScope&, std::vector<Finding>&);          // C20
 void check_isolated(const GridScope&, std::vector<Finding>&);             // C21
 void check_flat_cells(const GridScope&, std::vector<Finding>&);           // C22
 
+/// Active cells that touch no other, where there is more than one active cell; ascending. What C21 tells of cells.
+std::vector<std::size_t> isolated_cells(const GridScope&);
+
 /// C01: what the lengths of the arrays say. The other checks need it to find nothing.
 void check_array_lengths(const CornerPointGrid&, std::vector<Finding>&);
 

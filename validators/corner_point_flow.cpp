@@ -118,31 +118,38 @@ void check_parts(const GridScope& scope, std::vector<Finding>& findings) {
     findings.push_back(std::move(f));
 }
 
+std::vector<std::size_t> isolated_cells(const GridScope& scope) {
+    const auto& grid = scope.grid();
+    std::vector<std::size_t> cells;
+    if (!fits_in_32_bits(grid)) return cells;
+    std::vector<std::uint8_t> touched(grid.cell_count(), 0);
+    each_touch(scope, [&](std::size_t a, std::size_t b, bool) { touched[a] = touched[b] = 1; });
+    const auto& present = scope.connections().present;
+    if (std::ranges::count_if(present, [](std::uint8_t p) { return p != 0; }) < 2) return cells;
+    for (std::size_t cell = 0; cell < touched.size(); ++cell) {
+        if (present[cell] != 0 && touched[cell] == 0) cells.push_back(cell);
+    }
+    return cells;
+}
+
 void check_isolated(const GridScope& scope, std::vector<Finding>& findings) {
     const auto& grid = scope.grid();
     if (!fits_in_32_bits(grid)) return;
+    FoundCells found;
+    for (const std::size_t cell : isolated_cells(scope)) found.add(cell, 0);
+    if (found.count > 0) {
+        findings.push_back(
+            cells_finding(scope, "C21", counted(found.count, "active cell has", "active cells have") + " no active neighbour", found));
+    }
     const std::size_t columns = std::size_t{grid.dims[0]} * grid.dims[1];
-    std::vector<std::uint8_t> touched(grid.cell_count(), 0), joined(columns, 0);
+    std::vector<std::uint8_t> joined(columns, 0);
     each_touch(scope, [&](std::size_t a, std::size_t b, bool lateral) {
-        touched[a] = touched[b] = 1;
         if (lateral) joined[a % columns] = joined[b % columns] = 1;
     });
-    const auto& present = scope.connections().present;
     std::vector<std::uint32_t> height(columns, 0);
-    FoundCells cells;
-    std::uint64_t all = 0, filled = 0;
-    for (std::size_t cell = 0; cell < touched.size(); ++cell) {
-        if (present[cell] == 0) continue;
-        ++all;
-        ++height[cell % columns];
-        if (touched[cell] == 0) cells.add(cell, 0);
-    }
-    for (const std::uint32_t h : height) filled += h > 0 ? 1 : 0;
-    if (cells.count > 0 && all > 1) {
-        findings.push_back(
-            cells_finding(scope, "C21", counted(cells.count, "active cell has", "active cells have") + " no active neighbour", cells));
-    }
-    if (filled < 2) return;  // one column has no others to touch
+    const auto& present = scope.connections().present;
+    for (std::size_t cell = 0; cell < present.size(); ++cell) height[cell % columns] += present[cell] != 0 ? 1 : 0;
+    if (std::ranges::count_if(height, [](std::uint32_t h) { return h > 0; }) < 2) return;  // one column has no others to touch
     Finding f = grid_finding(scope, "C21", {});
     f.element_kind = "column-ij";
     for (std::size_t c = 0; c < columns; ++c) {
