@@ -86,8 +86,8 @@ Failure DeckReader::array_failure(const ArrayScan& scan, std::string_view name, 
 
 /// The numbers of one record, with its '/'. \pre the scanner stands behind the keyword
 template <class T>
-Trouble DeckReader::numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values,
-                            bool may_be_short) {
+Trouble DeckReader::numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short,
+                            std::uint64_t or_else) {
     const char* begin = in().at();
     const char* slash = find_slash(begin, in().end());
     if (slash == in().end()) {
@@ -104,21 +104,21 @@ Trouble DeckReader::numbers(std::string_view name, std::uint64_t expected, bool 
     if (text.size() / 2 + 1 < expected) {  // only repeats can make so many: count before memory is taken
         ArrayScan scan = read_numbers(text, 0, values, options_->monitor);
         if (scan.status == ArrayStatus::ok && scan.count > expected) scan.at = item_beyond(text, expected);
-        const bool fits = scan.count == expected || (may_be_short && scan.count < expected);
+        const bool fits = scan.count == expected || (may_be_short && scan.count < expected) || (or_else > 0 && scan.count == or_else);
         if (scan.status != ArrayStatus::ok || !fits) return array_failure(scan, name, text, expected, slash);
         expected = scan.count;
     }
     if (auto failed = afford(expected, begin, name)) return failed;
     const ArrayScan scan = read_numbers(text, expected, values, options_->monitor);
-    if (scan.status != ArrayStatus::ok || (scan.count != expected && !may_be_short))
+    if (scan.status != ArrayStatus::ok || (scan.count != expected && !may_be_short && (or_else == 0 || scan.count != or_else)))
         return array_failure(scan, name, text, expected, slash);
     if (scan.defaults && !defaults_allowed)
         return unreadable("F012", where(begin), "expected a value for every element of " + std::string(name) + ", found defaults (N*)");
     return {};
 }
 
-template Trouble DeckReader::numbers(std::string_view, std::uint64_t, bool, std::vector<double>&, bool);
-template Trouble DeckReader::numbers(std::string_view, std::uint64_t, bool, std::vector<std::int32_t>&, bool);
+template Trouble DeckReader::numbers(std::string_view, std::uint64_t, bool, std::vector<double>&, bool, std::uint64_t);
+template Trouble DeckReader::numbers(std::string_view, std::uint64_t, bool, std::vector<std::int32_t>&, bool, std::uint64_t);
 
 Trouble DeckReader::coord() {
     if (probing_) return unknown(word_at_, word_);
@@ -130,15 +130,9 @@ Trouble DeckReader::coord() {
 Trouble DeckReader::zcorn() {
     if (probing_) return unknown(word_at_, word_);
     if (auto failed = need_dims(word_at_, word_)) return failed;
-    std::uint64_t expected = 8 * cells_of(*grid().dims);
-    if (porosity_ == CornerPointGrid::Porosity::single) return numbers(word_, expected, false, grid().depths);
+    const std::uint64_t expected = 8 * cells_of(*grid().dims);
     // With two porosities the depths of the matrix suffice.
-    const char* at = in().at();
-    const char* slash = find_slash(at, in().end());
-    std::vector<double> none;
-    const ArrayScan scan = read_numbers(text_between(at, slash), 0, none, options_->monitor);
-    if (scan.count == expected / 2) expected = scan.count;
-    return numbers(word_, expected, false, grid().depths);
+    return numbers(word_, expected, false, grid().depths, false, has_two_porosities() ? expected / 2 : 0);
 }
 
 Trouble DeckReader::vector_of_widths() {
@@ -182,14 +176,21 @@ Trouble DeckReader::cell_array(std::string_view name, bool whole) {
     if (auto failed = need_dims(word_at_, name)) return failed;
     const CellBox box = box_.value_or(whole_grid());
     const auto row = cell_keyword(name);
+    // With two porosities those of the matrix suffice; its cells say which of the fracture are active, too.
+    const std::uint64_t half = has_two_porosities() && !box_ ? box.count() / 2 : 0;
     if (whole) {
         std::vector<std::int32_t> values;
-        if (auto failed = numbers(name, box.count(), true, values)) return failed;
+        if (auto failed = numbers(name, box.count(), true, values, false, half)) return failed;
+        if (values.size() < box.count()) {
+            if (auto failed = afford(half, word_at_, name)) return failed;
+            values.resize(static_cast<std::size_t>(box.count()), unset_whole);
+            if (name == "ACTNUM") std::copy_n(values.begin(), half, values.begin() + static_cast<std::ptrdiff_t>(half));
+        }
         return store(name, std::move(values), row);
     }
     std::vector<double> values;
-    if (auto failed = numbers(name, box.count(), true, values, is_block_size(name))) return failed;
-    if (is_block_size(name)) {
+    if (auto failed = numbers(name, box.count(), true, values, is_block_size(name), half)) return failed;
+    if (values.size() < box.count()) {
         if (auto failed = afford(box.count() - values.size(), word_at_, name)) return failed;
         values.resize(static_cast<std::size_t>(box.count()), unset_real);
     }

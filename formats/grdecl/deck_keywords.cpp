@@ -76,7 +76,9 @@ DeckReader::Handler DeckReader::handler_of(std::string_view name) {
                                         Row{"PVT-M", &DeckReader::unit_system},
                                         Row{"DUALPORO", &DeckReader::porosity},
                                         Row{"DUALPERM", &DeckReader::porosity},
-                                        Row{"RADIAL", &DeckReader::radial}};
+                                        Row{"RADIAL", &DeckReader::radial},
+                                        Row{"RADFIN", &DeckReader::radial_refinement},
+                                        Row{"RADFIN4", &DeckReader::radial_refinement}};
     if (is_edit(name)) return &DeckReader::edits;
     const auto row = std::ranges::find(rows, name, &Row::name);
     return row == rows.end() ? nullptr : row->handler;
@@ -238,7 +240,7 @@ Trouble DeckReader::import_file() {
     losses_.push_back({LossClass::substance,
                        {},
                        "what IMPORT takes from " + shown(record->text(0)),
-                       "binary records are read as a file of their own: give it with --from bgrdecl",
+                       "binary records are read as a file of their own: convert it by itself",
                        1});
     return {};
 }
@@ -308,6 +310,20 @@ Trouble DeckReader::carfin() {
     grid().dims_stated = true;
     box_.reset();
     return {};
+}
+
+/// Local grids of rings around a well are kept as text, up to their ENDFIN.
+Trouble DeckReader::radial_refinement() {
+    const char* begin = word_at_;
+    while (in().skip()) {
+        const Item next = in().item();
+        if (next.quoted || next.text != "ENDFIN") continue;
+        if (probing_) return {};
+        keep_text(begin, in().at());
+        losses_.push_back({LossClass::substance, grid().grid.info.name, "a radial local grid", "it is kept as text only", 1});
+        return {};
+    }
+    return unreadable("F004", where(begin), "expected ENDFIN after " + word_ + ", found the end of the file");
 }
 
 Trouble DeckReader::refine() {

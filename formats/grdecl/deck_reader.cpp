@@ -127,8 +127,7 @@ Trouble DeckReader::run() {
 
 Trouble DeckReader::keyword(const Item& word) {
     if (!word.quoted && word.text == "/") {
-        findings_.push_back(finding("F118", where(word.at), "a '/' that ends nothing"));
-        if (findings_.size() > 1000) return unreadable("F012", where(word.at), "expected a keyword, found one '/' after the other");
+        if (stray_slashes_++ == 0) first_stray_slash_ = where(word.at);
         return {};
     }
     const std::string_view text = trimmed(word.text);

@@ -72,6 +72,7 @@ private:
     Trouble unit_system();
     Trouble porosity();
     Trouble radial();
+    Trouble radial_refinement();
     Trouble set_dims(const Dims& dims, std::string_view keyword, Location where);
 
     // deck_arrays.cpp
@@ -82,8 +83,8 @@ private:
     bool unknown_numbers(const char* begin, const std::string& name);
     bool unknown_words(const char* begin, const std::string& name);
     template <class T>
-    Trouble numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values,
-                    bool may_be_short = false);
+    Trouble numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short = false,
+                    std::uint64_t or_else = 0);
     template <class T>
     Trouble store(std::string_view name, std::vector<T>&& values, const std::optional<CellKeyword>& row);
     Trouble afford(std::uint64_t values, const char* at, std::string_view name);
@@ -99,6 +100,7 @@ private:
     GridText& grid() { return grids_[current_]; }
     Location where(const char* at) const { return in().location(at); }
     CellBox whole_grid() const;
+    bool has_two_porosities() const { return porosity_ != CornerPointGrid::Porosity::single && current_ == 0; }
     bool stopped() const { return options_->monitor != nullptr && options_->monitor->stopped(); }
 
     const Input* input_;
@@ -126,6 +128,8 @@ private:
     std::vector<std::string> unknown_;                    ///< keywords that were kept, for F102
     Location first_unknown_;
     std::uint64_t unknown_count_ = 0;
+    std::uint64_t stray_slashes_ = 0;
+    Location first_stray_slash_;
     std::uint64_t not_applied_ = 0;
     Location first_not_applied_;
     std::string missing_array_;

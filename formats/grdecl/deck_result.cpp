@@ -84,6 +84,7 @@ Result<Dataset> DeckReader::finish() {
         findings_.push_back(
             finding("F102", first_unknown_, "keywords that are not known are kept as they stand: " + names, unknown_count_));
     }
+    if (stray_slashes_ > 0) findings_.push_back(finding("F118", first_stray_slash_, "a '/' ends nothing", stray_slashes_));
     if (not_applied_ > 0) {
         findings_.push_back(finding("F142", first_not_applied_,
                                     "operations on arrays that are not there (" + missing_array_ + ") are kept as they stand, not applied",

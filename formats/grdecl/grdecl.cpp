@@ -50,8 +50,8 @@ constexpr Keeps grid_keeps() {
     keeps.corner_point_grids = Keeping::yes;
     keeps.fault_faces = Keeping::yes;
     keeps.connections = Keeping::yes;
-    keeps.several_objects = Keeping::no;
-    keeps.names = Keeping::no;
+    keeps.several_objects = Keeping::partly;
+    keeps.names = Keeping::yes;
     keeps.attributes = Keeping::yes;
     keeps.units = Keeping::partly;
     keeps.no_data = Keeping::yes;
@@ -60,7 +60,9 @@ constexpr Keeps grid_keeps() {
     return keeps;
 }
 
-constexpr std::string_view note = "substance: all but one grid, local grids, links between grids; identity: names, units of properties";
+constexpr std::string_view note =
+    "substance: other objects, a second grid, connections between grids, values that are not of cells; identity: units of properties, "
+    "names of codes, coordinate system, in includes the other sections of a deck";
 constexpr std::string_view tried = "real files";
 
 constexpr std::array rows = {

@@ -85,6 +85,15 @@ void put_run(Lines& lines, std::size_t count, const Element<T>& element, bool wi
     lines.put(text);
 }
 
+/// A name in quotes; line ends in it become blanks.
+inline std::string in_quotes(std::string_view name) {
+    const char quote = name.find('\'') == std::string_view::npos ? '\'' : '"';
+    std::string text = quote + std::string(name) + quote;
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
 /// Writes a keyword and its array: element(i) for i < count. Several parts are made at the same time; the text does
 /// not depend on how many.
 template <class ElementAt>

@@ -100,7 +100,7 @@ void write_grids(const std::vector<const CornerPointGrid*>& grids, bool properti
             write_geometry(*grid, to);
             write_faults_and_connections(*grid, to);
         }
-        write_properties(*grid, section, to);
+        write_properties(*grid, local ? Section::none : section, to);  // other sections have no place for local grids
         if (!properties_only) write_records(*grid, "", to);
         if (local) to.main << "ENDFIN\n\n";
         add_info_losses(*grid, to.losses);
@@ -173,6 +173,17 @@ void write_other_sections_losses(DeckOutput& to) {
     }
 }
 
+/// What the section EDIT did to the grid means something else in GRID: it stands beside, under its own section.
+void write_edit_records(const CornerPointGrid& grid, DeckOutput& to) {
+    const bool any = std::ranges::any_of(grid.info.annotations, [](const Annotation& a) { return a.key == "grdecl.record.edit"; });
+    OutputFile* out = any ? to.companion(grid, "records of section EDIT") : nullptr;
+    if (out == nullptr) return;
+    *out << "EDIT\n\n";
+    for (const Annotation& a : grid.info.annotations) {
+        if (a.key == "grdecl.record.edit") *out << a.value << "\n\n";
+    }
+}
+
 bool was_stopped(const WriteOptions& options) { return options.monitor != nullptr && options.monitor->stopped(); }
 
 }  // namespace
@@ -188,9 +199,8 @@ Result<std::vector<Loss>> write_include(const Dataset& dataset, OutputSet& outpu
     to.all_inside = choices->all_inside;
     write_remark(*grids[0], to, true);
     write_grids(grids, choices->properties_only, Section::none, to);
-    for (const char* suffix : {".edit", ".regions"}) {
-        for (const CornerPointGrid* grid : grids) write_records(*grid, suffix, to);
-    }
+    for (const CornerPointGrid* grid : grids) write_records(*grid, ".regions", to);
+    write_edit_records(*grids[0], to);
     if (to.further != nullptr) to.main << "-- Further properties, which simulators do not take: " << to.further_name << '\n';
     write_other_sections_losses(to);
     if (was_stopped(options)) return failure(FailureKind::cancelled, "F022", {outputs.main_path().string()}, "writing was stopped");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 
 #include "base/text_cursor.h"
 #include "formats/grdecl/value_text.h"
@@ -40,7 +41,7 @@ void write_faults(const CornerPointGrid& grid, OutputFile& out) {
         out << "FAULTS\n";
         for (const auto& fault : grid.faults) {
             for (const auto& box : fault.boxes) {
-                out << " '" << fault.name << "'";
+                out << ' ' << in_quotes(fault.name);
                 put_box(out, box.first, box.last);
                 out << " '" << face_word(box.face) << "' /\n";
             }
@@ -51,7 +52,7 @@ void write_faults(const CornerPointGrid& grid, OutputFile& out) {
     out << "MULTFLT\n";
     for (const auto& fault : grid.faults) {
         if (!fault.multiplier) continue;
-        out << " '" << fault.name << "' ";
+        out << ' ' << in_quotes(fault.name) << ' ';
         out.number(*fault.multiplier);
         out << " /\n";
     }
@@ -173,9 +174,14 @@ void write_head(const CornerPointGrid& grid, DeckOutput& to) {
 void write_geometry(const CornerPointGrid& grid, DeckOutput& to) {
     if (grid.depths.empty()) return;
     const std::size_t n = grid.depths.size();
-    write_array(to.main, "COORD", grid.pillars.size(), [&](std::size_t i) { return Element<double>{grid.pillars[i]}; });
-    write_array(to.main, "ZCORN", is_dual(grid) ? 2 * n : n,
-                [&](std::size_t i) { return Element<double>{grid.depths[i < n ? i : i - n]}; });
+    const auto bad = [](double v) { return !std::isfinite(v); };
+    if (const auto count = std::ranges::count_if(grid.depths, bad) + std::ranges::count_if(grid.pillars, bad); count > 0) {
+        to.losses.push_back({LossClass::substance, grid.info.name, "coordinates that are not finite",
+                             "they become 1e20, which stands for none", static_cast<std::uint64_t>(count)});
+    }
+    const auto at = [](double v) { return Element<double>{std::isfinite(v) ? v : 1e20}; };
+    write_array(to.main, "COORD", grid.pillars.size(), [&](std::size_t i) { return at(grid.pillars[i]); });
+    write_array(to.main, "ZCORN", is_dual(grid) ? 2 * n : n, [&](std::size_t i) { return at(grid.depths[i < n ? i : i - n]); });
 }
 
 void write_faults_and_connections(const CornerPointGrid& grid, DeckOutput& to) {
@@ -201,13 +207,13 @@ void write_faults_and_connections(const CornerPointGrid& grid, DeckOutput& to) {
 
 void write_local_grid_begin(const CornerPointGrid& grid, DeckOutput& to) {
     OutputFile& out = to.main;
-    out << "CARFIN\n '" << grid.info.name << "'";
+    out << "CARFIN\n " << in_quotes(grid.info.name);
     put_box(out, grid.host->first, grid.host->last);
     for (const std::uint32_t n : grid.dims) {
         out << ' ';
         out.number(n);
     }
-    if (!grid.host->grid.empty()) out << " 1* '" << grid.host->grid << "'";
+    if (!grid.host->grid.empty()) out << " 1* " << in_quotes(grid.host->grid);
     out << " /\n\n";
     for (std::size_t a = 0; a < 3; ++a) {
         const auto counts = fine_counts(grid, a);

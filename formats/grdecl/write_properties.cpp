@@ -114,11 +114,19 @@ std::string companion_name(const OutputSet& files) {
     return path.stem().string() + ".properties.grdecl";
 }
 
-OutputFile* DeckOutput::companion(const std::string& object, const std::string& what) {
+OutputFile* DeckOutput::companion(const CornerPointGrid& grid, const std::string& what) {
     if (all_inside) return &main;
-    if (further != nullptr) return further;
+    const auto at_grid = [&] {
+        const CornerPointGrid* wanted = grid.host ? &grid : nullptr;
+        if (wanted == further_grid) return further;
+        if (further_grid != nullptr) *further << "ENDFIN\n\n";
+        if (wanted != nullptr) *further << "REFINE\n " << in_quotes(grid.info.name) << " /\n\n";
+        further_grid = wanted;
+        return further;
+    };
+    if (further != nullptr) return at_grid();
     if (files.is_standard_output()) {
-        losses.push_back({LossClass::substance, object, what,
+        losses.push_back({LossClass::substance, grid.info.name, what,
                           "it belongs into a file beside the main one, and standard output has none: --option properties=inside", 1});
         return nullptr;
     }
@@ -126,7 +134,7 @@ OutputFile* DeckOutput::companion(const std::string& object, const std::string& 
     further = &files.companion(further_name);
     *further << "-- Properties of " << files.main_path().filename().string()
              << " that simulators do not take: not to be included in a deck.\n\n";
-    return further;
+    return at_grid();
 }
 
 void write_properties(const CornerPointGrid& grid, Section section, DeckOutput& to) {
@@ -173,7 +181,7 @@ void write_properties(const CornerPointGrid& grid, Section section, DeckOutput& 
             lost(LossClass::substance, a, "attribute", "its name is taken, or a keyword that means something else");
             continue;
         }
-        OutputFile* out = place == Place::here ? &to.main : to.companion(grid.info.name, "attribute '" + a.name + "'");
+        OutputFile* out = place == Place::here ? &to.main : to.companion(grid, "attribute '" + a.name + "'");
         if (out == nullptr) continue;
         for (std::size_t c = 0; c < a.components; ++c) {
             const std::string keyword = keyword_text(
@@ -202,7 +210,7 @@ void write_records(const CornerPointGrid& grid, std::string_view suffix, DeckOut
         if (a.key != key) continue;
         const std::string_view word = std::string_view(a.value).substr(0, a.value.find_first_of(" \t\r\n/"));
         if (word == "GDFILE" && !grid.depths.empty()) continue;  // the geometry stands here now
-        OutputFile* out = is_known(known_name(word)) ? &to.main : to.companion(grid.info.name, "record " + std::string(word));
+        OutputFile* out = is_known(known_name(word)) ? &to.main : to.companion(grid, "record " + std::string(word));
         if (out != nullptr) *out << a.value << "\n\n";
     }
 }

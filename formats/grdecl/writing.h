@@ -22,8 +22,9 @@ struct DeckOutput {
     std::string further_name = {};
     std::vector<Loss> losses = {};
 
-    /// The companion file; nullptr (and told as a loss) where there is no place for one.
-    OutputFile* companion(const std::string& object, const std::string& what);
+    /// The companion file, at the place of a grid; nullptr (and `what` told as a loss) where there is none.
+    OutputFile* companion(const CornerPointGrid& grid, const std::string& what);
+    const CornerPointGrid* further_grid = nullptr;  ///< the local grid that the companion file is at
 };
 
 /// Name that stands in the file of properties beside the main one.
