@@ -340,9 +340,10 @@ Trouble DeckReader::keep(const char* begin, std::string_view name, bool known) {
 Trouble DeckReader::companion_properties() {
     const std::string base = input_->base_name();
     if (base.empty() || base.ends_with(".properties.grdecl")) return {};
-    const std::string beside = fs::path(base).stem().string() + ".properties.grdecl";
-    for (const std::string& name : {beside, beside + ".gz"}) {
-        if (!input_->has_companion(name)) continue;
+    const std::string name = fs::path(base).stem().string() + ".properties.grdecl";
+    const std::string_view bytes = input_->bytes();
+    const bool named = bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096)).find(name) != std::string_view::npos;
+    if (named && input_->has_companion(name)) {
         auto opened = input_->companion(name);
         if (!opened) return std::move(opened).why();
         text_size_ += opened->bytes().size();

@@ -184,6 +184,11 @@ void write_edit_records(const CornerPointGrid& grid, DeckOutput& to) {
     }
 }
 
+/// The last lines name the companion, so that none of an earlier file is taken for it.
+void name_companion(DeckOutput& to) {
+    if (to.further != nullptr) to.main << "-- Further properties, which simulators do not take: " << to.further_name << '\n';
+}
+
 bool was_stopped(const WriteOptions& options) { return options.monitor != nullptr && options.monitor->stopped(); }
 
 }  // namespace
@@ -201,7 +206,7 @@ Result<std::vector<Loss>> write_include(const Dataset& dataset, OutputSet& outpu
     write_grids(grids, choices->properties_only, Section::none, to);
     for (const CornerPointGrid* grid : grids) write_records(*grid, ".regions", to);
     write_edit_records(*grids[0], to);
-    if (to.further != nullptr) to.main << "-- Further properties, which simulators do not take: " << to.further_name << '\n';
+    name_companion(to);
     write_other_sections_losses(to);
     if (was_stopped(options)) return failure(FailureKind::cancelled, "F022", {outputs.main_path().string()}, "writing was stopped");
     return std::move(to.losses);
@@ -221,7 +226,6 @@ Result<std::vector<Loss>> write_whole_deck(const Dataset& dataset, OutputSet& ou
     write_runspec(*grids[0], to);
     to.main << "GRID\n\n";
     write_grids(grids, choices->properties_only, Section::grid, to);
-    if (to.further != nullptr) to.main << "-- Further properties, which simulators do not take: " << to.further_name << "\n\n";
     to.main << "EDIT\n\n";
     write_properties(*grids[0], Section::edit, to);
     write_records(*grids[0], ".edit", to);
@@ -230,6 +234,7 @@ Result<std::vector<Loss>> write_whole_deck(const Dataset& dataset, OutputSet& ou
     write_properties(*grids[0], Section::regions, to);
     write_records(*grids[0], ".regions", to);
     for (const Section section : {Section::solution, Section::summary, Section::schedule}) write_section(section, to);
+    name_companion(to);
     to.main << "END\n";
     for (const Annotation& a : dataset.annotations) {
         if (a.key != "grdecl.section")

@@ -156,6 +156,23 @@ TEST(TwoPorosities, LayersOfTheDeckAreHalved) {
     EXPECT_TRUE(same(full.depths, g.depths));
 }
 
+TEST(TwoPorosities, ArraysOfTheMatrixAloneSuffice) {
+    const auto g =
+        good("RUNSPEC\nDIMENS\n 2 1 4 /\nDUALPERM\nGRID\n" + small.substr(small.find("COORD")) + "ACTNUM\n 1 1 0 1 /\nPORO\n 4*0.1 /\n");
+    EXPECT_EQ(g.porosity, CornerPointGrid::Porosity::dual_permeability);
+    EXPECT_EQ(g.activity, (std::vector<std::uint8_t>{3, 3, 0, 3}));
+    EXPECT_EQ(values(g, "PORO"), std::vector<double>(4, 0.1));
+}
+
+TEST(LocalGrids, OfRingsAreKeptAsText) {
+    const auto d = read_text(small + "RADFIN\n 'W' 1 1 1 1 1 2 3 4 2 /\nINRAD\n 0.1 /\nPORO\n 24*0.1 /\nENDFIN\nPORO\n 4*0.2 /\n");
+    ASSERT_TRUE(d) << why(d);
+    EXPECT_TRUE(loses_substance(d->losses));
+    EXPECT_EQ(values(grid_of(*d), "PORO"), std::vector<double>(4, 0.2));
+    ASSERT_EQ(grid_of(*d).info.annotations.size(), 1U);
+    EXPECT_TRUE(grid_of(*d).info.annotations[0].value.ends_with("ENDFIN"));
+}
+
 TEST(Reservoirs, HaveTheirOwnLines) {
     const auto g =
         good("SPECGRID\n 1 1 2 2 F /\nCOORDSYS\n 1 1 INCOMP SEPARATE /\n 2 2 COMP JOIN /\nCOORD\n 24*0 24*1 /\nZCORN\n 4*0 8*1 4*2 /\n");

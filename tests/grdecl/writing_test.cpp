@@ -164,7 +164,9 @@ TEST(Writing, LocalGridsAndSetsOfLinesComeBack) {
     CornerPointGrid fine = made({3, 1, 2});
     fine.info.name = "LGR 1";
     fine.host = CornerPointGrid::Host{"", {0, 0, 0}, {1, 0, 0}, {0, 0, 1, 0, 0, 1}};
-    fine.info.attributes = {cell_attribute<double>("PORO", {1, 2, 3, 4, 5, 6})};
+    fine.info.attributes = {cell_attribute<double>("PORO", {1, 2, 3, 4, 5, 6}), cell_attribute<std::int32_t>("SATNUM", {1, 2, 3, 4, 5, 6}),
+                            cell_attribute<std::int32_t>("FACIES", {6, 5, 4, 3, 2, 1})};
+    g.info.attributes = {cell_attribute<std::int32_t>("FACIES", {4, 3, 2, 1})};
     Dataset d = dataset_of(g);
     d.objects.emplace_back(fine);
     for (const char* name : {"back.grdecl", "back.DATA"}) {
@@ -177,6 +179,32 @@ TEST(Writing, LocalGridsAndSetsOfLinesComeBack) {
         expect_same(fine, grid_of(*again, 1));
         EXPECT_EQ(grid_of(*again, 1).host->cells, fine.host->cells);
         EXPECT_EQ(grid_of(*again).reservoirs[1].joined, true);
+    }
+}
+
+TEST(Writing, CoordinatesThatAreNoneAreReadableAndListed) {
+    const TemporaryFolder folder;
+    CornerPointGrid g = made();
+    g.depths[3] = std::numeric_limits<double>::quiet_NaN();
+    const auto written = write(dataset_of(g), folder / "back.grdecl");
+    EXPECT_TRUE(loses_substance(written.losses));
+    const auto again = read_path(written.path);
+    ASSERT_TRUE(again) << why(again);
+    EXPECT_EQ(grid_of(*again).depths[3], 1e20);
+}
+
+TEST(Writing, RecordsOfEditStayUnderTheirSection) {
+    const auto d = read_text(
+        "GRID\nSPECGRID\n 1 1 1 /\nCOORD\n 24*0 /\nZCORN\n 4*0 4*1 /\nFAULTS\n A 1 1 1 1 1 1 X /\n/\nEDIT\nMULTFLT\n A 0.5 /\n/\n");
+    ASSERT_TRUE(d) << why(d);
+    EXPECT_FALSE(grid_of(*d).faults[0].multiplier);
+    const TemporaryFolder folder;
+    for (const char* name : {"back.grdecl", "back.DATA"}) {
+        const auto again = read_path(write(*d, folder / name).path);
+        ASSERT_TRUE(again) << why(again);
+        EXPECT_FALSE(grid_of(*again).faults[0].multiplier);
+        ASSERT_EQ(grid_of(*again).info.annotations.size(), 1U) << name;
+        EXPECT_EQ(grid_of(*again).info.annotations[0].key, "grdecl.record.edit");
     }
 }
 
