@@ -25,6 +25,8 @@ std::string_view text_between(const char* begin, const char* end) { return {begi
 
 /// SPECGRID may stand after what needs it: a second walk, from here on, finds it.
 bool DeckReader::find_dims_ahead() {
+    if (looked_ahead_) return false;
+    looked_ahead_ = true;
     DeckReader ahead(*input_, *options_);
     ahead.probing_ = true;
     ahead.frames_.clear();
@@ -202,6 +204,7 @@ template <class T>
 Trouble DeckReader::store(std::string_view name, std::vector<T>&& values, const std::optional<CellKeyword>& row) {
     GridText& g = grid();
     CellArray* array = g.find(name);
+    if (array == nullptr && g.arrays.size() >= 5000) return unreadable("F014", where(word_at_), "more than 5000 properties of cells");
     const T unset = unset_value<T>();
     const T initial = row && row->initial ? static_cast<T>(*row->initial) : unset;
     const CellBox box = box_.value_or(whole_grid());
@@ -236,16 +239,17 @@ Trouble DeckReader::unknown(const char* begin, const std::string& name) {
     if (in().skip() && section_ != Section::runspec) {
         const char c = *in().at();
         if ((c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == '*') {
-            if (unknown_numbers(begin, name)) return {};
+            Trouble failed;
+            if (unknown_numbers(name, failed)) return failed;
         } else if ((c == '\'' || c == '"') && !probing_) {
-            if (unknown_words(begin, name)) return {};
+            if (unknown_words(name)) return {};
         }
     }
     in().skip();
     return keep(begin, name, false);
 }
 
-bool DeckReader::unknown_numbers(const char*, const std::string& name) {
+bool DeckReader::unknown_numbers(const std::string& name, Trouble& failed) {
     const char* start = in().at();
     const char* slash = find_slash(start, in().end());
     if (slash == in().end()) return false;
@@ -270,15 +274,15 @@ bool DeckReader::unknown_numbers(const char*, const std::string& name) {
     if (count.whole) {
         std::vector<std::int32_t> wholes;
         static_cast<void>(read_numbers(text, cells, wholes, options_->monitor));
-        static_cast<void>(store(name, std::move(wholes), {}));
+        failed = store(name, std::move(wholes), {});
     } else {
         static_cast<void>(read_numbers(text, cells, values, options_->monitor));
-        static_cast<void>(store(name, std::move(values), {}));
+        failed = store(name, std::move(values), {});
     }
     return true;
 }
 
-bool DeckReader::unknown_words(const char*, const std::string& name) {
+bool DeckReader::unknown_words(const std::string& name) {
     if (!grid().dims || box_) return false;
     const char* start = in().at();
     const std::uint64_t cells = cells_of(*grid().dims);

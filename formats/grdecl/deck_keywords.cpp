@@ -84,25 +84,22 @@ DeckReader::Handler DeckReader::handler_of(std::string_view name) {
     return row == rows.end() ? nullptr : row->handler;
 }
 
-Trouble DeckReader::set_dims(const Dims& dims, std::string_view keyword, Location at) {
+Trouble DeckReader::set_dims(const Dims& dims, std::string_view keyword, const char* at) {
     GridText& g = grid();
-    if (!g.dims || !g.dims_stated) {
-        if (g.dims && *g.dims != dims && !probing_) {
-            findings_.push_back(finding(
-                "C14", std::move(at),
-                std::string(keyword) + " states " + text_of(dims) + " cells, option dims " + text_of(*g.dims) + ": taken as stated"));
-        }
-        g.dims = dims;
-        g.dims_stated = true;
-        return {};
-    }
-    if (*g.dims == dims || probing_) return {};
+    const bool first = !g.dims_stated;
+    const bool differs = g.dims && *g.dims != dims;
     Dims doubled = dims;
     doubled[2] *= 2;
-    if (porosity_ != CornerPointGrid::Porosity::single && doubled == *g.dims) return {};  // SPECGRID of the matrix alone
-    findings_.push_back(finding("C14", std::move(at),
-                                std::string(keyword) + " states " + text_of(dims) + " cells, but " + text_of(*g.dims) +
-                                    " were stated before: those are taken, as simulators do"));
+    const bool matrix_alone = has_two_porosities() && g.dims && doubled == *g.dims;  // SPECGRID may count the layers of the matrix
+    if (differs && !matrix_alone && !probing_ && !dims_differ_) {
+        dims_differ_ = true;
+        const std::string message = std::string(keyword) + " states " + text_of(dims) + " cells, " +
+                                    (first ? "the option dims " + text_of(*g.dims) + ": taken as stated"
+                                           : "but " + text_of(*g.dims) + " were stated before: those are taken, as simulators do");
+        findings_.push_back(finding("C14", where(at), message));
+    }
+    if (first) g.dims = dims;
+    g.dims_stated = true;
     return {};
 }
 
@@ -121,7 +118,7 @@ Trouble DeckReader::specgrid() {
         return unreadable("F012", where(record->items[4].at), "expected F or T, found " + shown(record->text(4)));
     grid().coordinate_sets = static_cast<std::uint32_t>(sets);
     grid().grid.cylindrical = !type.empty() && type[0] == 'T';
-    return set_dims(dims, word_, where(at));
+    return set_dims(dims, word_, at);
 }
 
 Trouble DeckReader::dimens() {
@@ -130,7 +127,7 @@ Trouble DeckReader::dimens() {
     if (!record) return std::move(record).why();
     Dims dims{1, 1, 1};
     if (auto failed = take_dims(in(), *record, dims)) return failed;
-    return set_dims(dims, word_, where(at));
+    return set_dims(dims, word_, at);
 }
 
 CellBox DeckReader::whole_grid() const {

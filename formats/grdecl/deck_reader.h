@@ -73,15 +73,15 @@ private:
     Trouble porosity();
     Trouble radial();
     Trouble radial_refinement();
-    Trouble set_dims(const Dims& dims, std::string_view keyword, Location where);
+    Trouble set_dims(const Dims& dims, std::string_view keyword, const char* at);
 
     // deck_arrays.cpp
     Trouble need_dims(const char* at, std::string_view name);
     bool find_dims_ahead();
     Trouble cell_array(std::string_view name, bool whole);
     Trouble unknown(const char* begin, const std::string& name);
-    bool unknown_numbers(const char* begin, const std::string& name);
-    bool unknown_words(const char* begin, const std::string& name);
+    bool unknown_numbers(const std::string& name, Trouble& failed);
+    bool unknown_words(const std::string& name);
     template <class T>
     Trouble numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short = false,
                     std::uint64_t or_else = 0);
@@ -117,7 +117,9 @@ private:
     const char* word_at_ = nullptr;
     std::optional<Dims> dims_option_;
     bool skip_missing_ = false;
-    std::uint64_t room_ = 0;  ///< values that may still be made
+    bool looked_ahead_ = false;
+    bool dims_differ_ = false;  ///< told already
+    std::uint64_t room_ = 0;    ///< values that may still be made
     std::uint64_t text_size_ = 0;
     std::uint64_t includes_ = 0;
     std::map<std::string, std::string, std::less<>> aliases_;
