@@ -205,20 +205,53 @@ Location place_of_value(const ArrayFile& file, const Array& array, std::uint64_t
     return place_at(file, array.data + 4 + index * array.element_size + 8 * (index / array.block));
 }
 
-Result<void> all_finite(const ArrayFile& file, const Array& array, const std::vector<double>& values) {
+Failure not_finite(const ArrayFile& file, const Array& array, std::uint64_t index, double value) {
+    return unreadable(
+        "F006", place_of_value(file, array, index),
+        "expected a finite number, found " + number_text(value) + " as value " + std::to_string(index + 1) + " of '" + array.name + "'");
+}
+
+/// Bits of the exponent, all of which are set where a real is not finite.
+template <class Stored>
+struct Exponent;
+template <>
+struct Exponent<AsFloat> {
+    static constexpr std::uint32_t mask = 0x7f800000u;
+    static std::uint32_t word(const char* p) { return word_at(p); }
+};
+template <>
+struct Exponent<AsDouble> {
+    static constexpr std::uint64_t mask = 0x7ff0000000000000u;
+    static std::uint64_t word(const char* p) { return long_word_at(p); }
+};
+
+/// Values as doubles; the first that is not finite is a failure.
+template <class Stored>
+Result<void> read_finite(const ArrayFile& file, const Array& array, std::vector<double>& values) {
     FirstWrong wrong;
-    parallel_blocks(values.size(), std::size_t{1} << 16, [&](std::size_t from, std::size_t to) {
-        double sum = 0;  // x - x is 0 or not a number
-        for (std::size_t i = from; i != to; ++i) sum += values[i] - values[i];
-        if (sum == 0) return;
-        for (std::size_t i = from; i != to; ++i) {
-            if (!std::isfinite(values[i])) return wrong.tell(i);
+    if (file.formatted) {
+        if (auto done = read_into<Stored>(file, array, values.data()); !done) return done;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (!std::isfinite(values[i])) return not_finite(file, array, i, values[i]);
+        }
+        return {};
+    }
+    const auto done = for_each_record(file, array, [&](std::uint64_t first, std::uint64_t count, const char* p) {
+        constexpr auto mask = Exponent<Stored>::mask;
+        double* to = values.data() + first;
+        bool special = false;
+        for (std::uint64_t i = 0; i != count; ++i) {
+            const auto word = Exponent<Stored>::word(p + i * Stored::size);
+            special |= (word & mask) == mask;
+            to[i] = static_cast<double>(std::bit_cast<typename Stored::type>(word));
+        }
+        for (std::uint64_t i = 0; special && i != count; ++i) {
+            if (!std::isfinite(to[i])) return wrong.tell(first + i);
         }
     });
-    if (!wrong.any()) return {};
-    return unreadable("F006", place_of_value(file, array, wrong.at),
-                      "expected a finite number, found " + number_text(values[wrong.at]) + " as value " + std::to_string(wrong.at + 1) +
-                          " of '" + array.name + "'");
+    if (!done) return done;
+    if (wrong.any()) return not_finite(file, array, wrong.at, values[wrong.at]);
+    return {};
 }
 
 }  // namespace
@@ -248,9 +281,8 @@ Result<std::vector<double>> reals(const ArrayFile& file, const Array& array) {
     std::vector<double> values;
     make_big(values, array.count);
     const auto done =
-        array.type == ArrayType::real ? read_into<AsFloat>(file, array, values.data()) : read_into<AsDouble>(file, array, values.data());
+        array.type == ArrayType::real ? read_finite<AsFloat>(file, array, values) : read_finite<AsDouble>(file, array, values);
     if (!done) return done.why();
-    if (auto finite = all_finite(file, array, values); !finite) return finite.why();
     return values;
 }
 

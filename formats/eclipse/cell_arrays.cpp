@@ -75,7 +75,7 @@ Result<void> take(const Target& to, const std::string& name, Result<std::vector<
     const std::string fracture = name + std::string(fracture_suffix);
     if (read->size() == order.total()) {
         if (!order.dual) {
-            add_attribute(to, name, *std::move(read), false);
+            add_attribute(to, name, std::move(*read), false);
             return {};
         }
         const auto half = read->begin() + static_cast<std::ptrdiff_t>(order.cells);

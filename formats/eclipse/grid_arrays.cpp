@@ -109,7 +109,7 @@ Result<bool> take_grid_array(const ArrayFile& file, const Array& array, GridPart
             return unreadable("F009", place_of(file, array), "'" + array.name + "' stands twice in one grid");
         auto values = reals(file, array);
         if (!values) return values.why();
-        (depths ? parts.grid.depths : parts.grid.pillars) = *std::move(values);
+        (depths ? parts.grid.depths : parts.grid.pillars) = std::move(*values);
         (depths ? parts.depths : parts.pillars) = &array;
         parts.grid.single_precision = array.type == ArrayType::real;
         return true;

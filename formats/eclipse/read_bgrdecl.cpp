@@ -79,11 +79,11 @@ Result<Dataset> read_bgrdecl(const Input& input, const ReadOptions& options) {
         }
         auto kept = kept_array(*file, *array, deck_key);
         if (!kept) return kept.why();
-        grid->info.annotations.push_back(*std::move(kept));
+        grid->info.annotations.push_back(std::move(*kept));
         unknown.push_back(array);
     }
     tell_unknown(*file, unknown, data.findings);
-    data.objects.emplace_back(*std::move(grid));
+    data.objects.emplace_back(std::move(*grid));
     return data;
 }
 

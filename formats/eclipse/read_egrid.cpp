@@ -71,7 +71,7 @@ private:
     Result<void> keep(const Array& array) {
         auto kept = kept_array(file_, array, array_key);
         if (!kept) return kept.why();
-        parts_.grid.info.annotations.push_back(*std::move(kept));
+        parts_.grid.info.annotations.push_back(std::move(*kept));
         return {};
     }
 
@@ -148,7 +148,7 @@ private:
         if (grid->host && !grids_.empty()) take_after(*grid);
         if (!by_number_.emplace(number, grids_.size()).second)
             return fail("F009", array, "two grids have the number " + std::to_string(number));
-        grids_.push_back(*std::move(grid));
+        grids_.push_back(std::move(*grid));
         parts_ = {};
         open_ = false;
         return {};

@@ -41,7 +41,7 @@ Result<void> take_part(const ArrayFile& file, const PropertyPart& part, const Re
         if (*taken) continue;
         auto kept = kept_array(file, array, init_key);
         if (!kept) return kept.why();
-        grid.info.annotations.push_back(*std::move(kept));
+        grid.info.annotations.push_back(std::move(*kept));
     }
     return {};
 }

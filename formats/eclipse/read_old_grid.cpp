@@ -78,7 +78,7 @@ private:
     Result<void> keep(const Array& array) {
         auto kept = kept_array(file_, array, array_key);
         if (!kept) return kept.why();
-        parts_.grid.info.annotations.push_back(*std::move(kept));
+        parts_.grid.info.annotations.push_back(std::move(*kept));
         return {};
     }
 

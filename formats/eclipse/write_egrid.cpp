@@ -21,7 +21,7 @@ std::int32_t number(std::uint32_t value) { return static_cast<std::int32_t>(valu
 std::vector<std::int32_t> kept_head(const CornerPointGrid& grid, std::string_view name, std::size_t least) {
     std::vector<std::int32_t> head;
     if (const std::string* text = find_kept(grid.info.annotations, array_key, name)) {
-        if (auto values = kept_integers(*text, 100000)) head = *std::move(values);
+        if (auto values = kept_integers(*text, 100000)) head = std::move(*values);
     }
     if (head.size() < least) head.assign(head_size, 0);
     return head;

@@ -43,7 +43,7 @@ private:
     void write_heads() {
         std::vector<std::int32_t> head;
         if (const std::string* text = find_kept(grid_.info.annotations, init_key, "INTEHEAD")) {
-            if (auto values = kept_integers(*text, 100000)) head = *std::move(values);
+            if (auto values = kept_integers(*text, 100000)) head = std::move(*values);
         }
         if (head.size() < 95) {
             head.assign(411, 0);

@@ -184,7 +184,7 @@ private:
             if ((*entry)->count != slabs * per_slab) return wrong_count(**entry, slabs * per_slab);
             auto read = bytes(doc_, **entry);
             if (!read) return read.why();
-            splits = *std::move(read);
+            splits = std::move(*read);
         }
         for (std::size_t i = 0; i < slabs; ++i) {
             first[i + 1] = first[i] + (splits.empty() ? per_slab : 0);
@@ -262,7 +262,7 @@ private:
         if (tag.name == "parameter") return take_parameter(tag);
         auto text = tag_text(doc_, tag);
         if (!text) return text.why();
-        grid_.info.annotations.push_back({std::string(tag_key), *std::move(text)});
+        grid_.info.annotations.push_back({std::string(tag_key), std::move(*text)});
         return {};
     }
 
@@ -281,7 +281,7 @@ private:
             if (&entry == name_entry || &entry == data || entry.name == "codeNames" || entry.name == "codeValues") continue;
             auto text = entry_text(doc_, entry);
             if (!text) return text.why();
-            a.annotations.emplace_back("roff.entry", *std::move(text));
+            a.annotations.emplace_back("roff.entry", std::move(*text));
         }
         grid_.info.attributes.push_back(std::move(a));
         return {};

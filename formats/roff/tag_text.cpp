@@ -63,7 +63,7 @@ Result<std::string> tag_text(const Document& document, const Tag& tag) {
 std::optional<Document> tag_from_text(const std::string& text) {
     auto document = find_tags(Input::from_memory("roff-asc\n" + text + "\ntag eof\nendtag\n", "kept tag"), nullptr);
     if (!document || document->tags.size() != 2) return std::nullopt;
-    return *std::move(document);
+    return std::move(*document);
 }
 
 void write_entry(TokenWriter& writer, const Document& document, const Entry& entry) {
