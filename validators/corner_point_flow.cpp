@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "grid/transmissibility.h"
 #include "validators/corner_point.h"
 #include "validators/pore_volume.h"
 
@@ -72,7 +71,7 @@ void check_pore_volumes(const GridScope& scope, std::vector<Finding>& findings) 
     const auto& grid = scope.grid();
     if (!knows_pore_volumes(grid)) return;
     const std::vector<double> volumes = pore_volumes(grid);
-    const std::vector<double> own_least = grid::cell_values(grid, "MINPVV", 0);
+    const std::vector<double> own_least = fitting_values(grid, "MINPVV", 0);
     const double least = least_pore_volume(grid);
     const auto found = find_cells(scope, [&](std::size_t cell, std::uint32_t, std::uint32_t, std::uint32_t) {
         const double bound = own_least.empty() ? least : own_least[cell];

@@ -31,26 +31,31 @@ double volume_factor(const CornerPointGrid& grid) {
 
 }  // namespace
 
+std::vector<double> fitting_values(const CornerPointGrid& grid, std::string_view name, double fallback) {
+    const Attribute* a = find_attribute(grid.info.attributes, std::string(name), AttributeLocation::cell);
+    if (a == nullptr || a->components != 1 || value_count(*a) != grid.cell_count()) return {};
+    return grid::cell_values(grid, name, fallback);
+}
+
 bool knows_pore_volumes(const CornerPointGrid& grid) {
-    return find_attribute(grid.info.attributes, "PORV", AttributeLocation::cell) != nullptr ||
-           find_attribute(grid.info.attributes, "PORO", AttributeLocation::cell) != nullptr;
+    return !fitting_values(grid, "PORV", 0).empty() || !fitting_values(grid, "PORO", 0).empty();
 }
 
 double least_pore_volume(const CornerPointGrid& grid) { return grid.least_pore_volume.value_or(1e-6); }
 
 std::vector<double> pore_volumes(const CornerPointGrid& grid) {
     std::vector<double> volumes;
-    const std::vector<double> porosity = grid::cell_values(grid, "PORO", 0);
+    const std::vector<double> porosity = fitting_values(grid, "PORO", 0);
     if (!porosity.empty()) {
         volumes = grid::cell_volumes(grid);
         const double factor = volume_factor(grid);
         for (std::size_t c = 0; c < volumes.size(); ++c) volumes[c] = std::abs(volumes[c]) * factor * porosity[c];
         for (const char* name : {"NTG", "MULTPV"}) {
-            const std::vector<double> by = grid::cell_values(grid, name, 1);
+            const std::vector<double> by = fitting_values(grid, name, 1);
             for (std::size_t c = 0; c < by.size(); ++c) volumes[c] *= by[c];
         }
     }
-    const std::vector<double> stated = grid::cell_values(grid, "PORV", NAN);
+    const std::vector<double> stated = fitting_values(grid, "PORV", NAN);
     if (volumes.empty()) volumes.assign(grid.cell_count(), 0);
     for (std::size_t c = 0; c < stated.size(); ++c) {
         if (!std::isnan(stated[c])) volumes[c] = stated[c];

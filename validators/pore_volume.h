@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "model/corner_point.h"
 
 namespace geomend::validators {
+
+/// Values of a cell attribute as grid::cell_values gives them; empty also where their number is wrong (C01 tells that).
+std::vector<double> fitting_values(const CornerPointGrid& grid, std::string_view name, double fallback);
 
 /// Whether the grid has porosities or pore volumes.
 bool knows_pore_volumes(const CornerPointGrid& grid);

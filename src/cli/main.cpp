@@ -22,6 +22,7 @@ ExitStatus run(int argc, char** argv) {
     geomend::cli::add_info(program, status);
     geomend::cli::add_convert(program, status);
     geomend::cli::add_validate(program, status);
+    geomend::cli::add_repair(program, status);
     geomend::cli::add_formats(program, status);
     geomend::cli::add_checks(program, status);
     try {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/transmissibility.h"
 #include "repair/grid_steps.h"
 #include "validators/corner_point.h"
 #include "validators/pore_volume.h"
@@ -76,7 +75,7 @@ StepReport minpv(CornerPointGrid& grid, const GridScope& scope, const StepOption
         report.message = "pore volumes are not known: neither PORO nor PORV is there";
         return report;
     }
-    const std::vector<double> volumes = validators::pore_volumes(grid), own = grid::cell_values(grid, "MINPVV", 0);
+    const std::vector<double> volumes = validators::pore_volumes(grid), own = validators::fitting_values(grid, "MINPVV", 0);
     const double least = validators::least_pore_volume(grid);
     return drop(grid, active_cells(scope, [&](std::size_t cell) { return volumes[cell] < (own.empty() ? least : own[cell]); }),
                 "below MINPV in pore volume");
