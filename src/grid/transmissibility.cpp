@@ -147,8 +147,10 @@ Result<Transmissibilities> transmissibilities(const CornerPointGrid& grid, const
     parallel_blocks(grid.cell_count(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t cell = first; cell < last; ++cell) {
             if ((connections.neighbours[cell] & Connections::below) == 0) continue;
-            result.z[cell] =
-                worker.connection(cell, next_below(grid, connections.present, cell), CellFace::k_plus, worker.bottom_area(cell), true);
+            const std::size_t below = next_below(grid, connections.present, cell);
+            // Layers between that are no cells block the flow, unless PINCH bridges them.
+            if (below != cell + std::size_t{grid.dims[0]} * grid.dims[1] && !grid.pinch) continue;
+            result.z[cell] = worker.connection(cell, below, CellFace::k_plus, worker.bottom_area(cell), true);
         }
     });
     for (const auto* parts : {&along_i, &along_j}) {

@@ -21,7 +21,7 @@ double transmissibility_factor(std::string_view unit_system);
 
 /// Half-cell transmissibilities (NEWTRAN): of each cell the permeability of its direction times area vector dot d over
 /// d squared, with d from the mean of the corners to the mean of the face's own four corners; net to gross on sides;
-/// both halves in series. Then MULTX, MULTX-, ..., fault multipliers and multipliers between regions. Attributes PERMX
+/// both halves in series; nothing flows down past cells without thickness unless the grid has PINCH. Then MULTX, MULTX-, ..., fault multipliers and multipliers between regions. Attributes PERMX
 /// (and PERMY, PERMZ, NTG, MULT*, MULTNUM, FLUXNUM, OPERNUM where they are there) of cells are used; PERMY and PERMZ are
 /// PERMX where they are missing. The rules are those of opm-simulators, so that its INIT has the same values.
 /// \pre connections = connections(grid)

@@ -7,6 +7,7 @@
 
 #include "clients/flow_case.h"
 #include "grid/cell_geometry.h"
+#include "grid/map_axes.h"
 #include "grid/transmissibility.h"
 #include "support/corner_point_grids.h"
 #include "support/program.h"
@@ -35,12 +36,13 @@ void expect_same_as_simulator(const FlowCase& c) {
     const std::vector<double> porv = values(theirs, "PORV"), poro = values(ours, "PORO");
     const std::vector<double> ntg = c.constant_rock ? std::vector<double>(poro.size(), 1.0) : values(ours, "NTG");
     const std::vector<double> volumes = grid::cell_volumes(ours);
+    const double metres = grid::metres(ours.info.crs.axis_units[0]), unit = metres == 0 ? 1 : metres * metres * metres;
     const std::array<std::vector<double>, 3> tran{values(theirs, "TRANX"), values(theirs, "TRANY"), values(theirs, "TRANZ")};
     const std::array<const std::vector<double>*, 3> own{&t->x, &t->y, &t->z};
     for (std::size_t cell = 0; cell < ours.cell_count(); ++cell) {
         ASSERT_EQ(found.present[cell] != 0, theirs.is_active(cell)) << "cell " << cell;
         if (found.present[cell] == 0) continue;
-        expect_close(std::abs(volumes[cell]) * poro[cell] * ntg[cell], porv[cell], "PORV of cell " + std::to_string(cell));
+        expect_close(unit * std::abs(volumes[cell]) * poro[cell] * ntg[cell], porv[cell], "PORV of cell " + std::to_string(cell));
         for (std::size_t d = 0; d < 3; ++d)
             expect_close((*own[d])[cell], tran[d][cell], std::string("TRAN") + "XYZ"[d] + " of cell " + std::to_string(cell));
         if (::testing::Test::HasFailure()) return;
@@ -102,12 +104,14 @@ protected:
 };
 
 TEST_F(Flow, joins_the_cells_of_a_faulted_and_pinched_grid_as_we_do) {
-    const FlowCase c{folder_.path(), {6, 4, 3}, "", false};
-    write_include(faulted(), folder_ / "GRID.GRDECL");
-    write_deck(c);
-    ASSERT_TRUE(dry_run(c));
-    expect_same_as_simulator(c);
-    EXPECT_EQ(simulated(c).connections.size(), 16u) << "12 across the fault, 4 past the pinched step";
+    for (const char* pinch : {"", "PINCH\n/\n"}) {
+        const FlowCase c{folder_.path(), {6, 4, 3}, pinch, false};
+        write_include(faulted(), folder_ / "GRID.GRDECL");
+        write_deck(c);
+        ASSERT_TRUE(dry_run(c));
+        expect_same_as_simulator(c);
+        EXPECT_EQ(simulated(c).connections.size(), 16u) << "12 across the fault, 4 past the pinched step";
+    }
 }
 
 TEST_F(Flow, multiplies_faults_and_regions_as_we_do) {
