@@ -13,8 +13,9 @@
 
 namespace geomend {
 
-/// Gives a large array its length, with zeros. The same as resize(), but the pages are asked for as large ones and
-/// fetched by several threads, since for arrays of hundreds of megabytes that costs more than filling them.
+/// Gives a large array its length, with zeros. The same as resize(), but its pages are fetched by several threads,
+/// since for arrays of hundreds of megabytes that costs more than filling them. Large pages are not asked for: where
+/// memory is in pieces, making them costs several times what they save.
 /// \pre array.empty()
 template <class T>
 void make_big(std::vector<T>& array, std::size_t count) {
@@ -25,8 +26,7 @@ void make_big(std::vector<T>& array, std::size_t count) {
     if (bytes >= 8 * page) {
         const auto begin = reinterpret_cast<std::uintptr_t>(array.data());
         const std::uintptr_t first = (begin + page - 1) & ~(page - 1), last = (begin + bytes) & ~(page - 1);
-        // Both calls are advice: where the kernel does not take it, resize() below fetches the pages.
-        static_cast<void>(::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
+        // Only advice: where the kernel does not take it, resize() below fetches the pages.
         parallel_blocks((last - first) / page, 4, [&](std::size_t from, std::size_t to) {
             static_cast<void>(::madvise(reinterpret_cast<void*>(first + from * page), (to - from) * page, MADV_POPULATE_WRITE));
         });
