@@ -21,6 +21,9 @@ Trouble set_activity(CornerPointGrid& grid, const std::vector<std::int32_t>& act
             return unreadable("F012", {input.name()},
                               "expected 0 or 1 in ACTNUM, found " + std::to_string(actnum[i]) + " for cell " + cell_text(grid.dims, i));
     }
+    if (actnum.size() != cells && actnum.size() != 2 * cells)
+        return unreadable("F008", {input.name()},
+                          "expected " + std::to_string(cells) + " values of ACTNUM, found " + std::to_string(actnum.size()));
     grid.activity.resize(cells);
     if (actnum.size() == cells) {
         std::ranges::transform(actnum, grid.activity.begin(), [](std::int32_t v) { return static_cast<std::uint8_t>(v); });
@@ -161,6 +164,8 @@ Result<CornerPointGrid> build_grid(GridText&& text, const Input& input, bool dua
         if (values == nullptr) return unreadable("F012", {input.name()}, "expected whole numbers in ACTNUM");
         if (auto failed = set_activity(grid, *values, input)) return std::move(*failed);
     }
+    if (const std::string wrong = grid.depths.empty() ? std::string() : misfit(grid); !wrong.empty())
+        return unreadable("F008", {input.name()}, wrong);
     if (!grid.depths.empty() && counts_upwards(grid)) {
         turn_down(grid);
         findings.push_back(finding("F132", {input.name()},

@@ -43,6 +43,7 @@ struct GridText {
     CornerPointGrid grid;  ///< header, faults, connections, multipliers and annotations; geometry comes at the end
     std::optional<Dims> dims;
     bool dims_stated = false;  ///< by DIMENS, SPECGRID or CARFIN
+    bool dims_used = false;    ///< arrays of that size were read: they stay
     std::uint32_t coordinate_sets = 1;
     std::vector<double> pillars, depths;               ///< COORD, ZCORN
     std::vector<CellArray> arrays;                     ///< in the order in which they appear

@@ -38,11 +38,15 @@ bool DeckReader::find_dims_ahead() {
     ahead.in().jump(word_at_);
     if (ahead.run() || !ahead.grids_.front().dims) return false;
     grids_.front().dims = ahead.grids_.front().dims;
+    grids_.front().coordinate_sets = ahead.grids_.front().coordinate_sets;
     return true;
 }
 
 Trouble DeckReader::need_dims(const char* at, std::string_view name) {
-    if (grid().dims || (!probing_ && find_dims_ahead())) return {};
+    if (grid().dims || (!probing_ && find_dims_ahead())) {
+        grid().dims_used = true;
+        return {};
+    }
     return unreadable("F024", where(at),
                       std::string(name) +
                           " needs the numbers of cells, but neither SPECGRID nor DIMENS stands in the text: give them with "
@@ -260,6 +264,7 @@ bool DeckReader::unknown_numbers(const std::string& name, Trouble& failed) {
         return true;
     }
     if (!grid().dims && !find_dims_ahead()) return false;
+    grid().dims_used = true;
     const std::uint64_t cells = box_.value_or(whole_grid()).count();
     std::vector<double> values;
     const ArrayScan count = read_numbers(text, 0, values, options_->monitor);
@@ -284,6 +289,7 @@ bool DeckReader::unknown_numbers(const std::string& name, Trouble& failed) {
 
 bool DeckReader::unknown_words(const std::string& name) {
     if (!grid().dims || box_) return false;
+    grid().dims_used = true;
     const char* start = in().at();
     const std::uint64_t cells = cells_of(*grid().dims);
     std::vector<std::string> words;

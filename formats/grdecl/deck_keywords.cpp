@@ -94,11 +94,11 @@ Trouble DeckReader::set_dims(const Dims& dims, std::string_view keyword, const c
     if (differs && !matrix_alone && !probing_ && !dims_differ_) {
         dims_differ_ = true;
         const std::string message = std::string(keyword) + " states " + text_of(dims) + " cells, " +
-                                    (first ? "the option dims " + text_of(*g.dims) + ": taken as stated"
+                                    (first ? "the option dims " + text_of(*g.dims) + ""
                                            : "but " + text_of(*g.dims) + " were stated before: those are taken, as simulators do");
         findings_.push_back(finding("C14", where(at), message));
     }
-    if (first) g.dims = dims;
+    if (first && !g.dims_used) g.dims = dims;
     g.dims_stated = true;
     return {};
 }
@@ -116,6 +116,9 @@ Trouble DeckReader::specgrid() {
     const std::string type = upper_case(trimmed(record->text(4)));
     if (!type.empty() && type[0] != 'F' && type[0] != 'T')
         return unreadable("F012", where(record->items[4].at), "expected F or T, found " + shown(record->text(4)));
+    if (grid().dims_used && sets != grid().coordinate_sets)
+        return unreadable("F008", where(at),
+                          "expected as many sets of coordinate lines as before: " + std::to_string(grid().coordinate_sets));
     grid().coordinate_sets = static_cast<std::uint32_t>(sets);
     grid().grid.cylindrical = !type.empty() && type[0] == 'T';
     return set_dims(dims, word_, at);

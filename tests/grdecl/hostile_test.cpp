@@ -115,6 +115,14 @@ std::string expect_answer(const std::string& text) {
     return d.why().error.code;
 }
 
+TEST(WrongDecks, DimsThatChangeAfterArraysWereRead) {
+    const auto d = read_text("PORO\n 4*0.25 /\nDIMENS\n 3 1 1 /\n", {{"dims", "2,1,2"}});
+    ASSERT_TRUE(d) << why(d);
+    EXPECT_TRUE(has_finding(*d, "C14"));
+    EXPECT_EQ(grid_of(*d).cell_count(), 4U);
+    EXPECT_EQ(bad(small + "SPECGRID\n 2 1 2 2 F /\nCOORDSYS\n 1 1 /\n 2 2 /\n").substr(0, 4), "F008");
+}
+
 TEST(BrokenDecks, EveryCutGivesAnAnswer) {
     const std::string whole = rich();
     EXPECT_EQ(expect_answer(whole), "");
