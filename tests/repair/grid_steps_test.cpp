@@ -168,7 +168,9 @@ TEST(RepairSteps, HandednessReversesRowsAndCarriesAllAlong) {
                 EXPECT_EQ(grid::cell_volume(new_corners), -grid::cell_volume(old_corners));
                 EXPECT_EQ(grid.is_active(grid.cell(i, 3 - j, k)), before.is_active(before.cell(i, j, k)));
                 EXPECT_EQ(poro[grid.cell(i, 3 - j, k)], static_cast<double>(before.cell(i, j, k) + 1));
-                if (j < 3) EXPECT_EQ(trany[grid.cell(i, 2 - j, k)], static_cast<double>(before.cell(i, j, k) + 1));
+                if (j < 3) {
+                    EXPECT_EQ(trany[grid.cell(i, 2 - j, k)], static_cast<double>(before.cell(i, j, k) + 1));
+                }
             }
         }
     }
