@@ -35,31 +35,33 @@ double through_float(double v) { return static_cast<double>(static_cast<float>(v
 
 void check_handedness(const GridScope& scope, std::vector<Finding>& findings) {
     const auto& grid = scope.grid();
-    const auto judge = [&](double sign) {
-        return find_cells(scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-            return Judgement{sign * outline(scope.corners(i, j, k), scope.tolerance()) > 0};
-        });
-    };
-    const FoundCells left = judge(-1), right = judge(1);
-    if (left.count > 0 && right.count > 0) {
-        const FoundCells& fewer = left.count <= right.count ? left : right;
+    const auto area = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) { return outline(scope.corners(i, j, k), scope.tolerance()); };
+    const FoundCells all = find_cells(scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+        const double a = area(i, j, k);
+        return Judgement{a != 0, 0, a > 0 ? 1u : 0u};
+    });
+    const std::uint64_t left = all.by_kind[0], right = all.by_kind[1];
+    if (left > 0 && right > 0) {
+        const double sign = left <= right ? -1 : 1;
+        const FoundCells fewer = find_cells(
+            scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) { return Judgement{sign * area(i, j, k) > 0}; });
         Finding f = cells_finding(scope, "C12",
-                                  std::to_string(right.count) + " cells are right-handed in (x, y, depth) and " +
-                                      std::to_string(left.count) + " left-handed: the fewer ones are listed",
+                                  std::to_string(right) + " cells are right-handed in (x, y, depth) and " + std::to_string(left) +
+                                      " left-handed: the fewer ones are listed",
                                   fewer);
-        f.measures = {{"right_handed", static_cast<double>(right.count)}, {"left_handed", static_cast<double>(left.count)}};
+        f.measures = {{"right_handed", static_cast<double>(right)}, {"left_handed", static_cast<double>(left)}};
         findings.push_back(std::move(f));
         return;
     }
     const bool mirrored = grid.map_axes && !grid.map_relative && map_turn(*grid.map_axes) < 0;
-    if (left.count == 0 && !(mirrored && right.count > 0)) return;
-    std::string message = left.count > 0 ? "all cells are left-handed in (x, y, depth)"
-                                         : "the cells are right-handed in the axes of the file, but left-handed on the map";
-    if (mirrored) message += left.count > 0 ? ", but right-handed on the map, because MAPAXES mirrors" : ", because MAPAXES mirrors";
+    if (left == 0 && !(mirrored && right > 0)) return;
+    std::string message = left > 0 ? "all cells are left-handed in (x, y, depth)"
+                                   : "the cells are right-handed in the axes of the file, but left-handed on the map";
+    if (mirrored) message += left > 0 ? ", but right-handed on the map, because MAPAXES mirrors" : ", because MAPAXES mirrors";
     Finding f = grid_finding(scope, "C12", std::move(message));
     f.severity = Severity::info;
-    f.count = std::max(left.count, right.count);
-    f.measures = {{"right_handed", static_cast<double>(right.count)}, {"left_handed", static_cast<double>(left.count)}};
+    f.count = std::max(left, right);
+    f.measures = {{"right_handed", static_cast<double>(right)}, {"left_handed", static_cast<double>(left)}};
     findings.push_back(std::move(f));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "geometry/cell_volume.h"
 #include "grid/quality.h"
@@ -16,7 +17,10 @@ namespace {
 
 using grid::Corners;
 
-double edge_length(const Corners& p, unsigned a, unsigned b) { return std::hypot(p[a][0] - p[b][0], p[a][1] - p[b][1], p[a][2] - p[b][2]); }
+double edge_length(const Corners& p, unsigned a, unsigned b) {
+    const Vec3 edge = minus(p[a], p[b]);
+    return std::sqrt(dot(edge, edge));
+}
 
 // By how much a determinant may be off when corners are off by the tolerance.
 double slack(const std::array<double, 3>& edges, double tolerance) {
@@ -36,12 +40,19 @@ std::array<double, 3> mean_edges(const Corners& p) {
 // Least determinant where it is to be positive, as a part of what the edges there would span; 0 where it is not
 // negative beyond what the tolerance explains.
 double most_negative(const Corners& p, double sign, double tolerance) {
+    const std::array<double, 8> corner = grid::corner_jacobians(p);
+    const double low = 0.5 - std::sqrt(3.0) / 6, high = 0.5 + std::sqrt(3.0) / 6;
+    std::array<double, 8> gauss;
+    for (unsigned g = 0; g < 8; ++g)
+        gauss[g] = grid::jacobian(p, (g & 1u) != 0 ? high : low, (g & 2u) != 0 ? high : low, (g & 4u) != 0 ? high : low);
+    const auto sound = [&](double determinant) { return sign * determinant >= 0; };
+    if (std::ranges::all_of(corner, sound) && std::ranges::all_of(gauss, sound)) return 0;
+
     double worst = 0;
     const auto take = [&](double determinant, const std::array<double, 3>& edges) {
         if (determinant >= -slack(edges, tolerance)) return;
         worst = std::min(worst, determinant / (edges[0] * edges[1] * edges[2]));
     };
-    const std::array<double, 8> corner = grid::corner_jacobians(p);
     for (unsigned c = 0; c < 8; ++c) {
         const std::array<double, 3> edges{edge_length(p, c, c ^ 1u), edge_length(p, c, c ^ 2u), edge_length(p, c, c ^ 4u)};
         if (std::ranges::any_of(edges, [&](double e) { return e <= tolerance; })) continue;
@@ -49,10 +60,7 @@ double most_negative(const Corners& p, double sign, double tolerance) {
     }
     const std::array<double, 3> mean = mean_edges(p);
     if (std::ranges::any_of(mean, [&](double e) { return e <= tolerance; })) return worst;
-    const double low = 0.5 - std::sqrt(3.0) / 6, high = 0.5 + std::sqrt(3.0) / 6;
-    for (unsigned g = 0; g < 8; ++g) {
-        take(sign * grid::jacobian(p, (g & 1u) != 0 ? high : low, (g & 2u) != 0 ? high : low, (g & 4u) != 0 ? high : low), mean);
-    }
+    for (const double determinant : gauss) take(sign * determinant, mean);
     return worst;
 }
 
@@ -79,9 +87,31 @@ double concavity(const Corners& corners) {
     for (unsigned from = 0; from < 8; from += 4) {
         std::array<Point, 4> q;
         for (unsigned c = 0; c < 4; ++c) q[c] = {corners[from + c][0], corners[from + c][1]};
+        // Convex outlines turn the same way at all corners.
+        const std::array<double, 4> turns{area2(q[2], q[0], q[1]), area2(q[0], q[1], q[3]), area2(q[1], q[3], q[2]),
+                                          area2(q[3], q[2], q[0])};
+        if (std::ranges::all_of(turns, [](double t) { return t > 0; }) || std::ranges::all_of(turns, [](double t) { return t < 0; }))
+            continue;
         for (unsigned c = 0; c < 4; ++c) worst = std::max(worst, depth_inside(q[c], {q[(c + 1) % 4], q[(c + 2) % 4], q[(c + 3) % 4]}));
     }
     return worst;
+}
+
+// Whether some angle between edges that meet at a corner of a face may be beyond the bounds: their cosine is then near 1
+// or -1. Quick, because hardly any cell has one.
+bool may_be_sharp(const Corners& p) {
+    static const double cosine = std::cos(std::max(least_angle, 180 - greatest_angle) * std::numbers::pi / 180);
+    const double least = cosine * cosine * (1 - 1e-12);
+    for (unsigned c = 0; c < 8; ++c) {
+        const std::array<Vec3, 3> edge{minus(p[c ^ 1u], p[c]), minus(p[c ^ 2u], p[c]), minus(p[c ^ 4u], p[c])};
+        const auto sharp = [&](const Vec3& a, const Vec3& b) {
+            const double d = dot(a, b);
+            return d * d >= least * dot(a, a) * dot(b, b);
+        };
+        if (sharp(edge[0], edge[1]) || sharp(edge[0], edge[2]) || sharp(edge[1], edge[2])) return true;
+        if (sharp({edge[0][0], edge[0][1], 0}, {edge[1][0], edge[1][1], 0})) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -123,7 +153,9 @@ void check_concave(const GridScope& scope, std::vector<Finding>& findings) {
 void check_angles(const GridScope& scope, std::vector<Finding>& findings) {
     if (scope.grid().cylindrical) return;
     const auto found = find_cells(scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-        const grid::CellQuality q = grid::cell_quality(scope.corners(i, j, k), scope.depth_tolerance());
+        const Corners corners = scope.corners(i, j, k);
+        if (!may_be_sharp(corners)) return Judgement{};
+        const grid::CellQuality q = grid::cell_quality(corners, scope.depth_tolerance());
         const double least = std::min({q.least_top_base, q.least_projected, q.least_side});
         const double greatest = std::max({q.greatest_top_base, q.greatest_projected, q.greatest_side});
         Judgement of;
