@@ -29,7 +29,10 @@ public:
 
     void run() {
         for (const Pair& pair : pairs()) {
-            if (active_only_ && pair.name == "PORV") continue;  // of all cells; the caller writes it
+            if (active_only_ && pair.name == "PORV") {  // of all cells; the caller writes it
+                taken_.insert("PORV");
+                continue;
+            }
             for (std::uint32_t c = 0; c < pair.any().components; ++c) write(pair, c);
         }
     }
@@ -165,7 +168,7 @@ private:
     bool active_only_;
     std::string_view title_;
     std::vector<Loss>& losses_;
-    std::set<std::string> taken_ = {"ACTNUM", "PORV"};
+    std::set<std::string> taken_ = {"ACTNUM"};
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ bool is_whole(const Attribute& a) {
     const bool real = a.values.index() < 2;
     for (std::size_t i = 0; i < value_count(a); ++i) {
         const double v = value_as_double(a, i);
-        if (real && (!std::isfinite(v) || (a.no_data && is_no_data(a, v)))) continue;
+        if ((real && !std::isfinite(v)) || (a.no_data && is_no_data(a, v))) continue;
         if (std::abs(v) > 2147483646 || v != std::round(v)) return false;
     }
     return true;

@@ -340,5 +340,13 @@ TEST(FortranReals, AreReadBackToTheSameValue) {
     }
 }
 
+TEST(BgrdeclThereAndBack, PoreVolumesKeepTheirName) {
+    const TemporaryFolder folder;
+    CornerPointGrid grid = faulted_grid(2, 2, 1);
+    add_attribute(grid, "PORV", std::vector<float>(4, 12.5F));
+    write_eclipse(dataset_of(grid), "bgrdecl", folder / "a.bgrdecl");
+    EXPECT_NE(find_attribute(grid_of(read_eclipse(folder / "a.bgrdecl")).info.attributes, "PORV", AttributeLocation::cell), nullptr);
+}
+
 }  // namespace
 }  // namespace geomend::test

@@ -242,6 +242,18 @@ TEST(Writing, RealsThatAreWholeBecomeRegions) {
     EXPECT_EQ(values(grid_of(*again), "PERMX")[0], 0.1);
 }
 
+TEST(Writing, RegionsMayMissCells) {
+    const TemporaryFolder folder;
+    CornerPointGrid g = made();
+    g.info.attributes = {cell_attribute<std::int32_t>("SATNUM", {1, -2147483647, 3, 4})};
+    g.info.attributes[0].no_data = -2147483647.0;
+    const auto written = write(dataset_of(g), folder / "back.grdecl");
+    for (const Loss& loss : written.losses) EXPECT_NE(loss.loss_class, LossClass::substance) << loss.what;
+    const auto again = read_path(written.path);
+    ASSERT_TRUE(again) << why(again);
+    EXPECT_EQ(values(grid_of(*again), "SATNUM")[2], 3);
+}
+
 TEST(Writing, OnlyPropertiesWhereThatIsAsked) {
     const TemporaryFolder folder;
     const auto written = write(dataset_of(full()), folder / "back.grdecl", {{"content", "properties"}});
