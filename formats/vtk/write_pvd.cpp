@@ -28,8 +28,16 @@ bool moment_of(const Attribute& a, Moment& moment) {
     return !text.empty() && parse_real(text, moment.time) == NumberStatus::ok;
 }
 
-/// The name without the suffix that tells the moment.
-std::string plain_name(const std::string& name) { return name.substr(0, name.find('_')); }
+/// The name without the date or the number of the step that readers put behind it.
+std::string plain_name(const Attribute& a) {
+    std::string suffix = "_";
+    for (const char c : annotated(a, "time.date")) {
+        if (c != '-') suffix += c;
+    }
+    if (suffix.size() == 1) suffix += annotated(a, "time.step");
+    const std::size_t at = a.name.rfind(suffix);
+    return suffix.size() == 1 || at == 0 || at == std::string::npos ? a.name : a.name.substr(0, at);
+}
 
 /// An object with what holds always and what holds at one moment.
 Object at_moment(const Object& object, const Moment& moment) {
@@ -41,7 +49,7 @@ Object at_moment(const Object& object, const Moment& moment) {
         if (!moment_of(a, own)) {
             kept.push_back(std::move(a));
         } else if (own == moment) {
-            a.name = plain_name(a.name);
+            a.name = plain_name(a);
             kept.push_back(std::move(a));
         }
     }

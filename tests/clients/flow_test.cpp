@@ -168,6 +168,16 @@ TEST_F(Flow, runs_spe9_to_its_end_on_a_grid_that_went_through_us_with_the_same_p
     double sum = 0;
     for (const double v : values(simulated(c), "PORV")) sum += v;
     EXPECT_EQ(sum, 452912321.484375);
+    // Its restart file becomes a series in time.
+    ASSERT_EQ(
+        run_geomend({"convert", (folder_ / "out").string() + "/CASE.UNRST", "-o", (folder_ / "series.pvd").string(), "--lossy"}).status, 0);
+    const std::string series = read_file(folder_ / "series.pvd");
+    EXPECT_NE(series.find("timestep=\"900\""), std::string::npos) << series;
+    const auto last = info(folder_ / "series" / "series_0_0.vtu");
+    ASSERT_TRUE(last.is_object());
+    bool pressure = false;
+    for (const auto& a : last["objects"][0]["attributes"]) pressure = pressure || a["name"] == "PRESSURE";
+    EXPECT_TRUE(pressure);
 }
 
 // Real grids with their known answers: active cells, pore volume, pairs.
