@@ -7,13 +7,14 @@
 
 #include "formats/horizon/common.h"
 #include "formats/horizon/lattice.h"
-#include "formats/horizon/losses.h"
 
 namespace geomend::horizon {
 
 namespace {
 
-constexpr GridRules rules{"CPS-3 grids", false, false, 1e30, true};
+bool is_name(std::string_view name) { return name.find_first_of("\n\r") == std::string_view::npos && trimmed(name) == name; }
+
+constexpr GridRules rules{"CPS-3 grids", false, false, 1e30, true, is_name};
 constexpr int numbers_per_line = 5;
 
 struct Cps3Header {
@@ -128,8 +129,6 @@ Result<GridFrame> frame_of(const Cps3Header& header, const Input& input, std::ve
     return frame;
 }
 
-bool is_name(std::string_view name) { return name.find_first_of("\n\r") == std::string_view::npos && trimmed(name) == name; }
-
 void write_header(OutputFile& file, const FileGrid& grid) {
     const GridFrame& f = grid.frame;
     for (const Annotation& a : grid.raster->info.annotations) {
@@ -204,12 +203,8 @@ Result<Dataset> read_cps3_grid(const Input& input, const ReadOptions& options) {
 
 Result<std::vector<Loss>> write_cps3_grid(const Dataset& dataset, OutputSet& out, const WriteOptions& options) {
     std::vector<Loss> losses;
-    const auto grid = grid_for_writing(dataset, rules, options, losses);
+    const auto grid = grid_for_writing(dataset, rules, out, options, losses);
     if (!grid) return grid.why();
-    add_other_losses(dataset, grid->object_index, rules.title, losses);
-    InfoKept kept{.title = rules.title, .names = is_name(grid->name)};
-    kept.height_attribute = grid->height_index;
-    add_info_losses(grid->raster->info, kept, out, losses);
 
     OutputFile& file = out.main_file();
     write_header(file, *grid);

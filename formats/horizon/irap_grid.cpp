@@ -3,7 +3,6 @@
 
 #include "formats/horizon/common.h"
 #include "formats/horizon/irap_header.h"
-#include "formats/horizon/losses.h"
 
 namespace geomend::horizon {
 
@@ -57,12 +56,8 @@ Result<Dataset> read_irap_grid(const Input& input, const ReadOptions& options) {
 
 Result<std::vector<Loss>> write_irap_grid(const Dataset& dataset, OutputSet& out, const WriteOptions& options) {
     std::vector<Loss> losses;
-    const auto grid = grid_for_writing(dataset, rules, options, losses);
+    const auto grid = grid_for_writing(dataset, rules, out, options, losses);
     if (!grid) return grid.why();
-    add_other_losses(dataset, grid->object_index, rules.title, losses);
-    InfoKept kept{.title = rules.title};
-    kept.height_attribute = grid->height_index;
-    add_info_losses(grid->raster->info, kept, out, losses);
 
     OutputFile& file = out.main_file();
     const IrapHeader header = irap_header(*grid);

@@ -38,6 +38,8 @@ struct GridRules {
     bool single_precision = false;  ///< header and heights are float32
     double no_data = 9999900.0;     ///< value for missing heights
     bool any_no_data = false;       ///< the format states its no-data value, so that any will do
+    /// Whether a name can go into the header; nullptr where the format has no place for names.
+    bool (*holds_name)(std::string_view) = nullptr;
 };
 
 /// A horizon grid in the terms of its target: what remains is to print it.
@@ -51,10 +53,12 @@ struct FileGrid {
     std::size_t height_index = 0;    ///< of the attribute that is the height
 };
 
-/// Finds the one raster of a dataset that the target holds and turns it into the target's terms; everything that
-/// does not go in is added to `losses`. Failure (cannot_hold) when there is no horizon grid that can be held,
-/// (usage) when an option is wrong. Options: z=depth|elevation, height=ATTRIBUTE.
-Result<FileGrid> grid_for_writing(const Dataset& dataset, const GridRules& rules, const WriteOptions& options, std::vector<Loss>& losses);
+/// Finds the one raster of a dataset that the target holds and turns it into the target's terms; everything that does
+/// not go in, of the raster and of the dataset, is added to `losses`. Failure (cannot_hold) when there is no horizon grid
+/// that can be held, (usage) when an option is wrong. Options: z=depth|elevation, height=ATTRIBUTE.
+/// \param out  gives the name that a reader of the file will see
+Result<FileGrid> grid_for_writing(const Dataset& dataset, const GridRules& rules, const OutputSet& out, const WriteOptions& options,
+                                  std::vector<Loss>& losses);
 
 /// Smallest and largest height that is not missing; zeros where all are.
 std::array<double, 2> height_range(const FileGrid& grid);

@@ -5,6 +5,7 @@
 #include "formats/horizon/common.h"
 #include "formats/horizon/lattice.h"
 #include "formats/horizon/lattice_fit.h"
+#include "formats/horizon/losses.h"
 
 namespace geomend::horizon {
 
@@ -110,9 +111,18 @@ void round_to_single(FileGrid& grid, const GridRules& rules, double tolerance, s
     }
 }
 
+/// What of the dataset and of the raster has no place in the file.
+void list_unheld(const Dataset& dataset, const FileGrid& grid, const GridRules& rules, const OutputSet& out, std::vector<Loss>& losses) {
+    add_other_losses(dataset, grid.object_index, rules.title, losses);
+    InfoKept kept{.title = rules.title, .names = rules.holds_name != nullptr && rules.holds_name(grid.name)};
+    kept.height_attribute = grid.height_index;
+    add_info_losses(grid.raster->info, kept, out, losses);
+}
+
 }  // namespace
 
-Result<FileGrid> grid_for_writing(const Dataset& dataset, const GridRules& rules, const WriteOptions& options, std::vector<Loss>& losses) {
+Result<FileGrid> grid_for_writing(const Dataset& dataset, const GridRules& rules, const OutputSet& out, const WriteOptions& options,
+                                  std::vector<Loss>& losses) {
     auto asked_sign = z_option(options.options);
     if (!asked_sign) return std::move(asked_sign).why();
     std::string why = "there is no grid of heights among the objects";
@@ -141,6 +151,7 @@ Result<FileGrid> grid_for_writing(const Dataset& dataset, const GridRules& rules
             add_loss(losses, {LossClass::identity, grid.name, "last digits of the nodes' places, by up to " + number_text(fit->moved),
                               std::string(rules.title) + " state steps and rotation, not the axes"});
         }
+        list_unheld(dataset, grid, rules, out, losses);
         return grid;
     }
     return failure(FailureKind::cannot_hold, "F021", {}, std::string(rules.title) + " hold one grid of heights: " + why);

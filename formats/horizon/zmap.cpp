@@ -6,14 +6,17 @@
 
 #include "formats/horizon/common.h"
 #include "formats/horizon/lattice_fit.h"
-#include "formats/horizon/losses.h"
 #include "formats/horizon/zmap_header.h"
 
 namespace geomend::horizon {
 
 namespace {
 
-constexpr GridRules rules{"ZMAP+ grids", false, false, 1e30, true};
+bool is_title(std::string_view name) {
+    return !name.empty() && name.find_first_of(",@!\n\r") == std::string_view::npos && trimmed(name) == name;
+}
+
+constexpr GridRules rules{"ZMAP+ grids", false, false, 1e30, true, is_title};
 constexpr std::size_t nodes_per_line = 5;
 constexpr std::size_t least_width = 15;
 
@@ -161,10 +164,6 @@ std::size_t widest(const FileGrid& grid) {
     return width + 1;  // a blank in front keeps fields apart
 }
 
-bool is_title(std::string_view name) {
-    return !name.empty() && name.find_first_of(",@!\n\r") == std::string_view::npos && trimmed(name) == name;
-}
-
 void write_header(OutputFile& file, const FileGrid& grid, std::size_t width) {
     for (const Annotation& a : grid.raster->info.annotations) {
         if (a.key == "horizon.zmap_comment" && a.value.find_first_of("\n\r") == std::string::npos) file << a.value << '\n';
@@ -266,12 +265,8 @@ Result<Dataset> read_zmap(const Input& input, const ReadOptions& options) {
 
 Result<std::vector<Loss>> write_zmap(const Dataset& dataset, OutputSet& out, const WriteOptions& options) {
     std::vector<Loss> losses;
-    const auto grid = grid_for_writing(dataset, rules, options, losses);
+    const auto grid = grid_for_writing(dataset, rules, out, options, losses);
     if (!grid) return grid.why();
-    add_other_losses(dataset, grid->object_index, rules.title, losses);
-    InfoKept kept{.title = rules.title, .names = is_title(grid->name)};
-    kept.height_attribute = grid->height_index;
-    add_info_losses(grid->raster->info, kept, out, losses);
     tell_rounded_steps(*grid, losses);
 
     OutputFile& file = out.main_file();
