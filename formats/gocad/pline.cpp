@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "formats/gocad/line_walk.h"
-#include "formats/gocad/node_table.h"
+#include "formats/gocad/node_object.h"
 #include "formats/gocad/object_readers.h"
 #include "formats/gocad/region_indicators.h"
 
@@ -99,13 +99,7 @@ private:
             }
             lines_.edges[r.place / 2][r.place % 2] = node;
         }
-        nodes_.finish();
-        add_sets(head_.regions, AttributeLocation::point, head_.info);
-        head_.finish();
-        lines_.info = std::move(head_.info);
-        lines_.points = std::move(nodes_.points);
-        lines_.alias = std::move(nodes_.alias);
-        lines_.labels = nodes_.take_labels();
+        end_node_object(head_, nodes_, lines_);
         scanner_.objects.emplace_back(std::move(lines_));
     }
 

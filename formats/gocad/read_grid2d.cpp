@@ -3,11 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "formats/gocad/array_object.h"
 #include "formats/gocad/array_properties.h"
-#include "formats/gocad/companion_files.h"
-#include "formats/gocad/indexed_property.h"
-#include "formats/gocad/lattice_axes.h"
-#include "formats/gocad/object_head.h"
 #include "formats/gocad/object_readers.h"
 
 // GSurf and its like: a lattice in U and V whose first property is the height along W. It becomes a raster with the
@@ -19,18 +16,12 @@ namespace {
 
 class Grid2dReader {
 public:
-    explicit Grid2dReader(ObjectScanner& scanner) : scanner_(scanner), log_(scanner.log), head_(scanner), files_(scanner) {}
+    explicit Grid2dReader(ObjectScanner& scanner) : scanner_(scanner), log_(scanner.log), object_(scanner) {}
 
     Result<void> run() {
         axes_.axis[2] = {0, 0, 1};
-        TextCursor line = scanner_.text();
-        while (line.next_line()) {
-            const std::string_view keyword = line.token();
-            if (keyword.empty()) continue;
-            if (auto taken = take(keyword, line); !taken) return taken;
-        }
-        if (auto named = properties_.check_names(scanner_.input.name()); !named) return named;
-        head_.finish();
+        auto whole = object_.read_records([this](std::string_view keyword, TextCursor& line) { return take(keyword, line); });
+        if (!whole) return whole;
         if (!axes_.complete(2, scanner_.frame.line, log_) || !check_shape()) return {};
         Raster raster;
         axes_.place(raster, false);
@@ -54,22 +45,14 @@ public:
     }
 
 private:
-    Result<void> take(std::string_view keyword, TextCursor& line) {
-        if (is_axis_record(keyword)) {
-            axes_.take(keyword, line, log_);
-            return {};
-        }
-        auto property = properties_.take(keyword, line, scanner_.input.name());
-        if (!property) return std::move(property).why();
-        if (*property) return {};
-        if (keyword == "TYPE") {
-            const std::uint32_t column = line.column();
-            const std::string_view type = line.token();
-            cells_ = same_word(type, "CELLS");
-            if (!cells_ && !same_word(type, "POINTS")) log_.add("F012", line.line(), column, "TYPE: expected POINTS or CELLS");
-        } else if (keyword.starts_with("AXIS_") || keyword == "CLASSIFICATION") head_.keep(keyword, line);
-        else head_.take(keyword, line);
-        return {};
+    bool take(std::string_view keyword, TextCursor& line) {
+        if (is_axis_record(keyword)) return axes_.take(keyword, line, log_);
+        if (keyword != "TYPE") return false;
+        const std::uint32_t column = line.column();
+        const std::string_view type = line.token();
+        cells_ = same_word(type, "CELLS");
+        if (!cells_ && !same_word(type, "POINTS")) log_.add("F012", line.line(), column, "TYPE: expected POINTS or CELLS");
+        return true;
     }
 
     bool check_shape() {
@@ -139,10 +122,11 @@ private:
 
     ObjectScanner& scanner_;
     ObjectLog& log_;
-    ObjectHead head_;
-    CompanionFiles files_;
-    LatticeAxes axes_;
-    IndexedPropertyList properties_{true};
+    ArrayObject object_;
+    ObjectHead& head_ = object_.head;
+    CompanionFiles& files_ = object_.files;
+    LatticeAxes& axes_ = object_.axes;
+    IndexedPropertyList& properties_ = object_.properties;
     bool cells_ = false;
 };
 

@@ -6,11 +6,8 @@
 #include <utility>
 
 #include "formats/gocad/array_codec.h"
+#include "formats/gocad/array_object.h"
 #include "formats/gocad/array_properties.h"
-#include "formats/gocad/companion_files.h"
-#include "formats/gocad/indexed_property.h"
-#include "formats/gocad/lattice_axes.h"
-#include "formats/gocad/object_head.h"
 #include "formats/gocad/object_readers.h"
 #include "formats/gocad/region_flags.h"
 #include "formats/gocad/sgrid_layout.h"
@@ -21,17 +18,11 @@ namespace {
 
 class SGridReader {
 public:
-    explicit SGridReader(ObjectScanner& scanner) : scanner_(scanner), log_(scanner.log), head_(scanner), files_(scanner) {}
+    explicit SGridReader(ObjectScanner& scanner) : scanner_(scanner), log_(scanner.log), object_(scanner) {}
 
     Result<void> run() {
-        TextCursor line = scanner_.text();
-        while (line.next_line()) {
-            const std::string_view keyword = line.token();
-            if (keyword.empty()) continue;
-            if (auto taken = take(keyword, line); !taken) return taken;
-        }
-        if (auto named = properties_.check_names(scanner_.input.name()); !named) return named;
-        head_.finish();
+        auto whole = object_.read_records([this](std::string_view keyword, TextCursor& line) { return take(keyword, line); });
+        if (!whole) return whole;
         if (!counts_.complete(0, scanner_.frame.line, log_)) return {};
         for (std::size_t d = 0; d < 3; ++d) grid_.dims[d] = static_cast<std::uint32_t>(counts_.count[d]);
         const SGridLayout layout(grid_.dims);
@@ -52,24 +43,18 @@ public:
     }
 
 private:
-    Result<void> take(std::string_view keyword, TextCursor& line) {
-        if (keyword == "AXIS_N") {
-            counts_.take(keyword, line, log_);
-            return {};
-        }
-        auto property = properties_.take(keyword, line, scanner_.input.name());
-        if (!property) return std::move(property).why();
-        if (*property || take_file_record(keyword, line)) return {};
-        if (keyword == "SPLIT") read_split(line);
+    bool take(std::string_view keyword, TextCursor& line) {
+        if (take_file_record(keyword, line)) return true;
+        if (keyword == "AXIS_N") counts_.take(keyword, line, log_);
+        else if (keyword == "SPLIT") read_split(line);
         else if (keyword == "FACE_SET") read_face_set(line);
         else if (keyword == "MODEL_REGION") {
             TextCursor name = line;
             head_.info.annotations.push_back({"gocad.model_region", std::string(name.quoted_token())});
             head_.take_known("REGION", line);
         } else if (keyword == "MODEL_LAYER") keep_layer(line);
-        else if (keyword.starts_with("AXIS_") || keyword == "CLASSIFICATION") head_.keep(keyword, line);
-        else head_.take(keyword, line);
-        return {};
+        else return false;
+        return true;
     }
 
     bool take_file_record(std::string_view keyword, TextCursor& line) {
@@ -165,15 +150,7 @@ private:
 
     void read_regions(const SGridLayout& layout) {
         if (log_.has_error()) return;
-        if (region_flags_.line == 0) {
-            if (!head_.regions.empty()) {
-                log_.add("F119", scanner_.frame.line, 0, "regions are declared, but no file says which cells belong to them");
-            }
-            for (const RegionBit& region : head_.regions) {
-                head_.info.annotations.push_back({"gocad.record", "REGION " + name_token(region.name) + ' ' + std::to_string(region.bit)});
-            }
-            return;
-        }
+        if (region_flags_.line == 0) return object_.keep_region_records("cells");
         const std::string_view entries = flag_entries(region_flags_, layout.node_count(), files_, log_);
         if (log_.has_error()) return;
         const auto thing = [&](std::uint64_t node) { return layout.cell_of_node(node); };
@@ -297,11 +274,12 @@ private:
 
     ObjectScanner& scanner_;
     ObjectLog& log_;
-    ObjectHead head_;
-    CompanionFiles files_;
+    ArrayObject object_;
+    ObjectHead& head_ = object_.head;
+    CompanionFiles& files_ = object_.files;
+    LatticeAxes& counts_ = object_.axes;
+    IndexedPropertyList& properties_ = object_.properties;
     StructuredGrid grid_;
-    LatticeAxes counts_;
-    IndexedPropertyList properties_{true};
     FlagsRecords points_, node_flags_, region_flags_;
     bool cells_by_default_ = false, double_points_ = false;
     std::string ascii_file_;

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "formats/gocad/line_walk.h"
-#include "formats/gocad/node_table.h"
+#include "formats/gocad/node_object.h"
 #include "formats/gocad/object_readers.h"
 #include "formats/gocad/region_indicators.h"
 
@@ -164,14 +164,7 @@ private:
             read_indicators(indicator_records_[i], true, head_.regions, indicators_[i], log_,
                             [&](std::int64_t id) { return nodes_.find(id); });
         }
-        nodes_.finish();
-        cell_values_.finish(head_.info.attributes);
-        add_sets(head_.regions, AttributeLocation::point, head_.info);
-        head_.finish();
-        surface_.info = std::move(head_.info);
-        surface_.points = std::move(nodes_.points);
-        surface_.alias = std::move(nodes_.alias);
-        surface_.labels = nodes_.take_labels();
+        end_node_object(head_, nodes_, surface_, &cell_values_);
         scanner_.objects.emplace_back(std::move(surface_));
     }
 

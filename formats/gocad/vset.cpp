@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "formats/gocad/line_walk.h"
-#include "formats/gocad/node_table.h"
+#include "formats/gocad/node_object.h"
 #include "formats/gocad/object_readers.h"
 #include "formats/gocad/region_indicators.h"
 
@@ -27,13 +27,7 @@ Result<void> read_vset(ObjectScanner& scanner) {
         }
     };
     if (!walk_lines(scanner, scan, take)) return scanner.stop();
-    nodes.finish();
-    add_sets(head.regions, AttributeLocation::point, head.info);
-    head.finish();
-    set.info = std::move(head.info);
-    set.points = std::move(nodes.points);
-    set.alias = std::move(nodes.alias);
-    set.labels = nodes.take_labels();
+    end_node_object(head, nodes, set);
     scanner.objects.emplace_back(std::move(set));
     return {};
 }

@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "gocad/gocad_support.h"
+#include "support/real_data.h"
 
 using namespace geomend;
 using namespace geomend::test;
@@ -345,4 +346,20 @@ TEST(GocadGrid2d, ValuesOfCellsStandAtTheirCentres) {
     const Raster& raster = first<Raster>(data);
     EXPECT_EQ(raster.dims, (std::array<std::uint32_t, 3>{2, 1, 1}));
     EXPECT_EQ(raster.origin, (Vec3{5, 10, 0}));
+}
+
+TEST(GocadVoxet, ValuesOfTheRealTextFileStandAtTheirSamples) {
+    const auto path = real_data("gocad/test.vo");
+    if (!path) GTEST_SKIP() << "test.vo is not here";
+    const Dataset data = good(*path);
+    ASSERT_EQ(data.objects.size(), 1u);
+    const Raster& raster = first<Raster>(data);
+    ASSERT_EQ(raster.dims, (std::array<std::uint32_t, 3>{10, 10, 10}));
+    ASSERT_EQ(raster.info.attributes.size(), 1u);
+    const auto value = [&](std::size_t i, std::size_t j, std::size_t k) {
+        return value_as_double(raster.info.attributes[0], (k * 10 + j) * 10 + i);
+    };
+    EXPECT_NEAR(value(0, 0, 0), 6.48414, 5e-6);
+    EXPECT_NEAR(value(5, 0, 9), 8.95907, 5e-6);
+    EXPECT_NEAR(value(9, 9, 9), 7.21909, 5e-6);
 }
