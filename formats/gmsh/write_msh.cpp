@@ -10,6 +10,7 @@
 #include "formats/gmsh/combine.h"
 #include "formats/gmsh/geomend_section.h"
 #include "formats/gmsh/writing.h"
+#include "model/attribute_names.h"
 
 namespace geomend::gmsh {
 
@@ -117,6 +118,7 @@ void tell_boundaries(const WritePlan& plan, const CellMesh& mesh, bool v41, std:
 }  // namespace
 
 Result<std::vector<Loss>> write_msh(const Dataset& dataset, OutputSet& outputs, const WriteOptions& options) {
+    if (const auto renamed = with_different_names(dataset)) return write_msh(*renamed, outputs, options);
     const auto choices = choices_from(options.options);
     if (!choices) return choices.why();
     std::vector<Loss> losses;

@@ -7,6 +7,7 @@
 #include "formats/vtk/legacy_arrays_out.h"
 #include "formats/vtk/vtk_cells.h"
 #include "formats/vtk/vtk_structure.h"
+#include "model/attribute_names.h"
 #include "model/dataset_text.h"
 
 namespace geomend::vtk {
@@ -350,6 +351,7 @@ Result<std::vector<Loss>> Writer::run() {
 }  // namespace
 
 Result<std::vector<Loss>> write_legacy(const Dataset& dataset, OutputSet& output, const WriteOptions& options) {
+    if (const auto renamed = with_different_names(dataset)) return write_legacy(*renamed, output, options);
     auto settings = settings_of(options.options);
     if (!settings) return std::move(settings).why();
     if (dataset.objects.empty())

@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "base/utf8.h"
+#include "model/attribute_names.h"
 
 namespace geomend {
 
@@ -173,11 +174,14 @@ Json attribute_json(const Attribute& a) {
     return j;
 }
 
-void apply_attribute(const Json& j, std::vector<Attribute>& attributes) {
+/// \param told  attributes that had their entry: of several with one name each takes its own, in their order
+void apply_attribute(const Json& j, std::vector<Attribute>& attributes, std::vector<bool>& told) {
     const std::string name = text_member(j, "name");
     const std::string location = text_member(j, "location");
-    for (Attribute& a : attributes) {
-        if (a.name != name || location != to_string(a.location)) continue;
+    for (std::size_t i = 0; i < attributes.size(); ++i) {
+        Attribute& a = attributes[i];
+        if (told[i] || a.name != name || location != to_string(a.location)) continue;
+        told[i] = true;
         a.unit = text_member(j, "unit");
         a.kind = text_member(j, "kind");
         a.property_class = text_member(j, "class");
@@ -193,6 +197,10 @@ void apply_attribute(const Json& j, std::vector<Attribute>& attributes) {
                 a.code_names.emplace_back(one[0].get<int>(), text_from(one[1]));
         });
         a.annotations = pairs_from(j, "annotations");
+        const auto own = std::ranges::find(a.annotations, own_name_key, &std::pair<std::string, std::string>::first);
+        if (own == a.annotations.end()) return;
+        a.name = std::move(own->second);
+        a.annotations.erase(own);
         return;
     }
 }
@@ -221,7 +229,8 @@ void apply_info(const Json& j, ObjectInfo& info) {
     info.role_text = text_member(j, "role_text");
     info.feature = text_member(j, "feature");
     info.crs = crs_from(member(j, "crs"));
-    for_each_member(j, "attributes", [&](const Json& one) { apply_attribute(one, info.attributes); });
+    std::vector<bool> told(info.attributes.size());
+    for_each_member(j, "attributes", [&](const Json& one) { apply_attribute(one, info.attributes, told); });
     for (Annotation& a : annotations_from(j)) info.annotations.push_back(std::move(a));
     info.groups.clear();
     for_each_member(j, "groups", [&](const Json& one) { info.groups.push_back(text_from(one)); });

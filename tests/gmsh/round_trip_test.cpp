@@ -111,6 +111,37 @@ TEST(MshRoundTrip, PropertiesKeepTypesUnitsNoDataAndComponents) {
     }
 }
 
+TEST(MshRoundTrip, AttributesOfOneNameStayApart) {
+    auto d = read_text(two_tets_41());
+    Surface s;
+    s.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 2, 2}};
+    for (const auto& triangle : {std::array<std::uint32_t, 3>{0, 1, 2}, std::array<std::uint32_t, 3>{2, 1, 3}})
+        s.polygons.push_back(triangle);
+    Dataset surface;
+    surface.objects.emplace_back(s);
+    for (Dataset* data : {&*d, &surface}) {
+        ObjectInfo& info = info_of(data->objects[0]);
+        info.attributes = {attribute("v", AttributeLocation::point, 1, std::vector<double>{1, 2, 3, 4, 5}),
+                           attribute("v", AttributeLocation::point, 1, std::vector<double>{-99999, 20, 30, 40, 50})};
+        info.attributes[0].unit = "m";
+        info.attributes[1].unit = "ft";
+        info.attributes[1].no_data = -99999;
+        for (const FormatOptions& way : all_ways) {
+            const auto back = read_text(write_text(*data, way).bytes);
+            ASSERT_TRUE(back.ok()) << back.why().error.message;
+            std::map<std::string, const Attribute*> by_unit;
+            for (const Attribute& a : info_of(back->objects[0]).attributes) by_unit[a.unit] = &a;
+            for (const Attribute& a : info.attributes) {
+                ASSERT_NE(by_unit[a.unit], nullptr) << way_text(way) << a.unit;
+                EXPECT_EQ(by_unit[a.unit]->name, "v");
+                for (std::size_t i = data == &surface ? 1 : 0; i < 4; ++i) {
+                    EXPECT_EQ(value_as_double(*by_unit[a.unit], i), value_as_double(a, i)) << way_text(way) << a.unit;
+                }
+            }
+        }
+    }
+}
+
 TEST(MshRoundTrip, ElementNodeDataAndTimeStepsComeBack) {
     const auto d =
         read_text(std::string(two_tets_22()) +

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "model/attribute_names.h"
+
 namespace geomend {
 namespace {
 
@@ -97,6 +99,47 @@ TEST(DatasetText, BringsEverythingBack) {
     EXPECT_EQ(back.models[0].faces[0].key, whole.models[0].faces[0].key);
     EXPECT_FALSE(back.models[0].regions[0].sides[1].front);
     EXPECT_EQ(back.models[0].layers[0].unresolved, std::vector<std::int64_t>{65});
+}
+
+TEST(DatasetText, AttributesOfOneNameTakeTheirEntriesInOrder) {
+    Dataset d;
+    PointSet set;
+    for (const char* unit : {"m", "ft", ""}) {
+        Attribute a;
+        a.name = "depth";
+        a.unit = unit;
+        set.info.attributes.push_back(a);
+    }
+    d.objects.emplace_back(set);
+    Dataset back = d;
+    for (Attribute& a : info_of(back.objects[0]).attributes) a.unit = "?";
+    ASSERT_TRUE(apply_dataset_text(dataset_text(d), back));
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(info_of(back.objects[0]).attributes[i].unit, set.info.attributes[i].unit);
+}
+
+TEST(DatasetText, GivesBackTheOwnNamesOfAttributes) {
+    Dataset d;
+    PointSet set;
+    set.info.attributes.resize(4);
+    for (Attribute& a : set.info.attributes) a.name = "x";
+    set.info.attributes[1].name = "x (2)";
+    set.info.attributes[3].location = AttributeLocation::object;
+    d.objects.emplace_back(set);
+    const auto renamed = with_different_names(d);
+    ASSERT_TRUE(renamed);
+    const auto& names = info_of(renamed->objects[0]).attributes;
+    EXPECT_EQ(names[0].name, "x");
+    EXPECT_EQ(names[1].name, "x (2)");
+    EXPECT_EQ(names[2].name, "x (3)");
+    EXPECT_EQ(names[3].name, "x");
+    EXPECT_FALSE(with_different_names(*renamed));
+    Dataset back = *renamed;
+    for (Attribute& a : info_of(back.objects[0]).attributes) a.annotations.clear();
+    ASSERT_TRUE(apply_dataset_text(dataset_text(*renamed), back));
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(info_of(back.objects[0]).attributes[i].name, set.info.attributes[i].name);
+        EXPECT_TRUE(info_of(back.objects[0]).attributes[i].annotations.empty());
+    }
 }
 
 TEST(DatasetText, IsRefusedWhenItIsNone) {

@@ -111,6 +111,24 @@ TEST_P(LegacyRoundTrip, PointsWithEveryTypeOfAttribute) {
     expect_same_info(data, back);
 }
 
+TEST_P(LegacyRoundTrip, AttributesOfOneName) {
+    PointSet set;
+    set.points = awkward;
+    set.info.attributes = {attribute("v", AttributeLocation::point, std::vector<double>{1, 2, 3, 4}),
+                           attribute("v", AttributeLocation::point, std::vector<double>{5, 6, 7, 8})};
+    set.info.attributes[1].unit = "ft";
+    Dataset data;
+    data.objects.emplace_back(set);
+    const Dataset back = must_read(written(data, GetParam()));
+    const auto& attributes = info_of(back.objects.at(0)).attributes;
+    ASSERT_EQ(attributes.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(attributes[i].name, "v");
+        EXPECT_EQ(attributes[i].unit, set.info.attributes[i].unit);
+        EXPECT_EQ(attributes[i].values, set.info.attributes[i].values);
+    }
+}
+
 TEST_P(LegacyRoundTrip, PolylinesWithPartsAndLabels) {
     PolylineSet set;
     set.points = awkward;

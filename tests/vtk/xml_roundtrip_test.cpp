@@ -97,6 +97,33 @@ TEST(XmlRoundTrip, SeveralObjectsShareAFileAndComeBackApart) {
     }
 }
 
+// Properties that share a name, at one location and across locations, with words of their own.
+Surface surface_with_equal_names() {
+    Surface s = two_part_surface();
+    s.info.attributes = {attribute("v", AttributeLocation::point, std::vector<double>{1, 2, 3, 4, 5, 6}),
+                         attribute("v", AttributeLocation::point, std::vector<double>{-1, -2, -3, -4, -5, -6}),
+                         attribute("v", AttributeLocation::polygon, std::vector<double>{7, 8}),
+                         attribute("v", AttributeLocation::polygon, std::vector<std::int32_t>{9, 10})};
+    for (std::size_t i = 0; i < 4; ++i) s.info.attributes[i].unit = std::string(i + 1, 'm');
+    return s;
+}
+
+TEST(XmlRoundTrip, AttributesOfOneNameStayApart) {
+    for (const std::size_t objects : {1u, 2u}) {
+        Dataset data;
+        for (std::size_t i = 0; i < objects; ++i) data.objects.emplace_back(surface_with_equal_names());
+        for (const char* format : {"vtp", "vtu", "vtm"}) {
+            SCOPED_TRACE(std::string(format) + " with " + std::to_string(objects));
+            const Dataset back = through_xml(data, format);
+            ASSERT_EQ(back.objects.size(), objects);
+            for (const Object& object : back.objects) {
+                expect_same_attributes(surface_with_equal_names().info.attributes, info_of(object).attributes);
+                for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(info_of(object).attributes[i].unit, std::string(i + 1, 'm'));
+            }
+        }
+    }
+}
+
 TEST(XmlRoundTrip, PolylinesKeepPartsAndEdges) {
     PolylineSet lines;
     lines.points = {awkward, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}};
