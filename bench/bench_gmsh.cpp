@@ -2,7 +2,7 @@
 // Reading and writing MSH against bare from_chars and to_chars over the same numbers. The mesh is a box of cubes, six
 // tetrahedra each, with its boundary triangles: 590,000 tetrahedra, 30 MB of text.
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <cmath>
@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "formats/gmsh/read_msh.h"
 #include "formats/gmsh/write_msh.h"
+#include "peak_memory.h"
 
 namespace {
 
@@ -121,11 +122,16 @@ void memchr_pass(benchmark::State& state) {
 void read(benchmark::State& state, const std::string& version, bool binary) {
     const File& file = file_of(version, binary);
     const ThreadBudget budget(static_cast<std::size_t>(state.range(0)));
+    Dataset kept;
     for (auto _ : state) {
         auto dataset = gmsh::read_msh(file.input, {});
-        if (!dataset) state.SkipWithError("cannot be read");
-        benchmark::DoNotOptimize(dataset);
+        if (!dataset) {
+            state.SkipWithError("cannot be read");
+            return;
+        }
+        kept = std::move(*dataset);
     }
+    bench::report_memory(state, file.path, kept);
     report_bytes(state, file.input.bytes().size());
 }
 
@@ -183,4 +189,9 @@ BENCHMARK_CAPTURE(write, msh41, "4.1")->Arg(1)->Arg(2)->Unit(benchmark::kMillise
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+    if (argc == 3 && std::strcmp(argv[1], "--peak") == 0)
+        return bench::print_peak(argv[2], [](const Input& input) { return gmsh::read_msh(input, {}); });
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+}
