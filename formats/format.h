@@ -56,13 +56,14 @@ enum class WriterWants : std::uint8_t {
     objects,      ///< takes the objects as they are
     brep,         ///< takes breps where there are any (built by src/topology), else objects
     faced_model,  ///< surfaces and a StatedModel over them (Gocad Model3d)
-    tagged_mesh   ///< one CellMesh with entities (MSH, Gocad solids) where there is a model, else objects
+    tagged_mesh,  ///< one CellMesh with entities (MSH, Gocad solids) where there is a model, else objects
+    corner_point  ///< corner-point grids; made from structured or (i,j,k)-tagged cells where columns allow it
 };
 
 /// One row of the table of formats.
 struct Format {
     std::string_view name;                         ///< for --from and --to, e.g. "vtu"
-    std::string_view family;                       ///< "gocad", "vtk", "gmsh", "horizon"
+    std::string_view family;                       ///< "gocad", "vtk", "gmsh", "horizon", "grdecl", "eclipse", "roff"
     std::string_view title;                        ///< one line for people
     std::span<const std::string_view> extensions;  ///< with the dot, lower case; the first is the usual one
     Sniffer sniff = nullptr;

@@ -5,9 +5,12 @@
 #include <filesystem>
 
 #include "base/text_cursor.h"
+#include "formats/eclipse/eclipse.h"
 #include "formats/gmsh/gmsh.h"
 #include "formats/gocad/gocad.h"
+#include "formats/grdecl/grdecl.h"
 #include "formats/horizon/horizon.h"
+#include "formats/roff/roff.h"
 #include "formats/vtk/vtk.h"
 
 namespace geomend {
@@ -16,7 +19,8 @@ namespace {
 
 std::vector<Format> gather() {
     std::vector<Format> all;
-    for (const auto rows : {gocad::formats(), vtk::formats(), gmsh::formats(), horizon::formats()}) {
+    for (const auto rows :
+         {gocad::formats(), vtk::formats(), gmsh::formats(), horizon::formats(), grdecl::formats(), eclipse::formats(), roff::formats()}) {
         all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;

@@ -507,6 +507,59 @@ def zmap_grid():
     return "".join(out)
 
 
+# ------------------------------------------------------------------------------------------------- corner-point grid
+
+def numbers(keyword, values, per_line=8):
+    """A keyword of a deck with its values, equal neighbours as repeats."""
+    words, n = [], 0
+    while n < len(values):
+        end = n
+        while end < len(values) and values[end] == values[n]:
+            end += 1
+        words.append(text(values[n]) if end == n + 1 else "%d*%s" % (end - n, text(values[n])))
+        n = end
+    lines = [" ".join(words[n:n + per_line]) for n in range(0, len(words), per_line)]
+    return keyword + "\n" + "\n".join(lines) + " /\n\n"
+
+
+def pillar_grid():
+    """8 x 5 x 4 cells of 100 x 100 m: a fault with 24 m of throw, layer 2 pinched out in the north-east, pillars that
+    lean to the east, one cell inactive."""
+    nx, ny, nz = 8, 5, 4
+    thick = [12.0, 8.0, 15.0, 10.0]
+    coord, zcorn = [], []
+    for j in range(ny + 1):
+        for i in range(nx + 1):
+            coord += [100.0 * i, 100.0 * j, 1900.0, 100.0 * i + 30.0, 100.0 * j, 2100.0]
+
+    def depth(i, j, k, east, south, below):
+        """Depth of one corner of cell (i, j, k)."""
+        u, v = i + east, j + south
+        z = 1950.0 + 0.5 * (u - 3) * (u - 3) + 3.0 * v + (24.0 if i >= 4 else 0.0)
+        for layer in range(k + below):
+            pinched = layer == 1 and u >= 6 and v >= 2
+            z += 0.0 if pinched else thick[layer]
+        return round(z, 3)
+
+    for k in range(nz):
+        for below in (0, 1):
+            for j in range(ny):
+                for south in (0, 1):
+                    for i in range(nx):
+                        zcorn += [depth(i, j, k, 0, south, below), depth(i, j, k, 1, south, below)]
+    cells = [(i, j, k) for k in range(nz) for j in range(ny) for i in range(nx)]
+    out = ["-- A small faulted corner-point grid: see samples/README.md\n\nSPECGRID\n%d %d %d 1 F /\n\n" % (nx, ny, nz),
+           "MAPUNITS\nMETRES /\n\nMAPAXES\n451000 5933500 451000 5933000 451800 5933000 /\n\nGRIDUNIT\nMETRES /\n\n",
+           numbers("COORD", coord, 6), numbers("ZCORN", zcorn),
+           numbers("ACTNUM", [0 if c == (0, 0, 0) else 1 for c in cells]),
+           numbers("PORO", [round(0.15 + 0.02 * k + 0.005 * ((i + j) % 3), 3) for i, j, k in cells]),
+           numbers("PERMX", [float(50 + 40 * k + 10 * (i % 4)) for i, j, k in cells]),
+           numbers("PERMZ", [float(5 + 4 * k) for i, j, k in cells]),
+           numbers("FIPNUM", [1 if k < 2 else 2 for i, j, k in cells]),
+           "FAULTS\n'MAIN' 4 4 1 5 1 4 X /\n/\n\nMULTFLT\n'MAIN' 0.1 /\n/\n"]
+    return "".join(out)
+
+
 def main(folder):
     lattice = Lattice(3, 3, 3)
     patches = patches_of(lattice)
@@ -524,6 +577,7 @@ def main(folder):
         "wells.wl": wells(),
         "h1_grid.irap": irap_grid(),
         "h1_grid.zmap": zmap_grid(),
+        "faulted_grid.grdecl": pillar_grid(),
     }
     for name, content in files.items():
         with open(os.path.join(folder, name), "w", encoding="ascii", newline="\n") as file:

@@ -135,6 +135,8 @@ public:
         end(well.info);
     }
 
+    void add(const CornerPointGrid& grid) { lose(LossClass::substance, grid.info, "the corner-point grid", "MSH holds its cells only"); }
+
     Combined finish() {
         if (!out_.left_out.empty()) out_.left_out.resize(out_.mesh.cell_count(), 0);
         if (!out_.left_out_points.empty()) out_.left_out_points.resize(out_.mesh.points.size(), 0);

@@ -26,6 +26,7 @@ bool holds_nothing(const Object& object) {
         bool operator()(const StructuredGrid& o) const { return o.points.empty(); }
         bool operator()(const Raster&) const { return false; }
         bool operator()(const Well& o) const { return o.path.empty() && o.markers.empty() && o.curves.empty(); }
+        bool operator()(const CornerPointGrid&) const { return false; }
     };
     return std::visit(Visitor{}, object);
 }

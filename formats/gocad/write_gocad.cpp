@@ -32,6 +32,11 @@ Result<void> write_object(std::uint32_t index, bool light, GocadOutput& to) {
         Result<void> operator()(const StructuredGrid& o) const { return write_sgrid(o, to); }
         Result<void> operator()(const Raster& o) const { return write_raster(o, to); }
         Result<void> operator()(const Well& o) const { return write_well(o, to); }
+        Result<void> operator()(const CornerPointGrid& o) const {
+            add_loss(to.losses,
+                     {LossClass::substance, o.info.name, "the corner-point grid", "Gocad files of these kinds hold its cells only", 1});
+            return {};
+        }
     };
     return std::visit(Visitor{to, index, light}, to.dataset.objects[index]);
 }

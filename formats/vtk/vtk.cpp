@@ -12,7 +12,7 @@ namespace geomend::vtk {
 namespace {
 
 using Names = std::array<std::string_view, 1>;
-constexpr Names vtk{".vtk"}, vtu{".vtu"}, vtp{".vtp"}, vts{".vts"}, vti{".vti"}, vtr{".vtr"}, vtm{".vtm"};
+constexpr Names vtk{".vtk"}, vtu{".vtu"}, vtp{".vtp"}, vts{".vts"}, vti{".vti"}, vtr{".vtr"}, vtm{".vtm"}, pvd{".pvd"};
 constexpr Names pvtu{".pvtu"}, pvtp{".pvtp"}, pvts{".pvts"}, pvti{".pvti"}, pvtr{".pvtr"};
 
 template <int which>
@@ -91,6 +91,8 @@ const std::array rows = {
            "fixtures and clients: no real file was found"},
     Format{"vtm", "vtk", "VTK XML multi-block: a block per corner, line, surface and region", vtm, sniff<5>, read_vtk_xml, write_vtm,
            WriterWants::brep, block_keeps(), wells_note, "real files and clients"},
+    Format{"pvd", "vtk", "ParaView series in time: a VTK XML file per report step", pvd, nullptr, nullptr, write_pvd, WriterWants::objects,
+           cell_keeps(), "substance: models; markers, zones and curves of wells", "fixtures and clients: made from restart files"},
     Format{"pvtu", "vtk", "VTK XML unstructured grid in pieces", pvtu, sniff<6>, read_vtk_xml, nullptr, WriterWants::objects, cell_keeps(),
            "", "real files"},
     Format{"pvtp", "vtk", "VTK XML poly data in pieces", pvtp, sniff<7>, read_vtk_xml, nullptr, WriterWants::objects, poly_keeps(), "",

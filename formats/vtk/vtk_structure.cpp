@@ -121,6 +121,7 @@ void put(Json& j, const Raster& raster) {
 }
 
 void put(Json&, const Well&) {}
+void put(Json&, const CornerPointGrid&) {}
 
 // ---- from text ----
 
@@ -296,6 +297,7 @@ void take(const Json& j, Raster& raster) {
 }
 
 void take(const Json&, Well&) {}
+void take(const Json&, CornerPointGrid&) {}
 
 // ---- arrays ----
 

@@ -11,5 +11,8 @@ namespace geomend::cli {
 void add_info(CLI::App& program, ExitStatus& status);
 void add_convert(CLI::App& program, ExitStatus& status);
 void add_formats(CLI::App& program, ExitStatus& status);
+void add_validate(CLI::App& program, ExitStatus& status);
+void add_repair(CLI::App& program, ExitStatus& status);
+void add_checks(CLI::App& program, ExitStatus& status);
 
 }  // namespace geomend::cli

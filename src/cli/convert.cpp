@@ -15,6 +15,7 @@ namespace {
 struct ConvertOptions : CommonOptions {
     std::vector<std::string> inputs;
     std::string output;
+    std::string like;
     bool lossy = false;
 };
 
@@ -63,6 +64,7 @@ ExitStatus run(const ConvertOptions& o) {
     request.inputs = o.inputs;
     request.output = o.output;
     request.to = o.to;
+    request.like = o.like;
     request.lossy = o.lossy;
     request.accept_unterminated = o.accept_unterminated;
     request.load = {o.from, std::move(*options), &monitor};
@@ -84,6 +86,8 @@ void add_convert(CLI::App& program, ExitStatus& status) {
     auto o = std::make_shared<ConvertOptions>();
     command->add_option("IN", o->inputs, "Input files; - is standard input")->required();
     command->add_option("-o,--output", o->output, "Output file; - is standard output")->required()->type_name("OUT");
+    command->add_option("--like", o->like, "Put the values of the inputs' cells onto the corner-point grid of this file")
+        ->type_name("GRID");
     command->add_flag("--lossy", o->lossy, "Write even where substance is lost (it is listed)");
     add_common_options(*command, *o, true);
     command->callback([o, &status] { status = run(*o); });

@@ -12,16 +12,19 @@ namespace {
 using geomend::cli::ExitStatus;
 
 ExitStatus run(int argc, char** argv) {
-    CLI::App program("Converts and inspects geological models: Gocad, VTK, Gmsh, horizon grids", "geomend");
+    CLI::App program("Converts, checks and repairs geological models: Gocad, VTK, Gmsh, corner-point grids, horizon grids", "geomend");
     program.set_version_flag("--version", "geomend " GEOMEND_VERSION);
     program.require_subcommand(1);
     program.footer(
-        "Exit status: 0 done, 2 wrong command line, 3 an input cannot be read, 4 the output cannot be written or hold the model,\n"
-        "5 a limit was hit, 70 internal fault. See geomend(1).");
+        "Exit status: 0 done, 1 findings, 2 wrong command line, 3 an input cannot be read, 4 the output cannot be written or hold\n"
+        "the model, 5 a limit was hit, 6 repaired but still not valid, 70 internal fault. See geomend(1).");
     ExitStatus status = ExitStatus::done;
     geomend::cli::add_info(program, status);
     geomend::cli::add_convert(program, status);
+    geomend::cli::add_validate(program, status);
+    geomend::cli::add_repair(program, status);
     geomend::cli::add_formats(program, status);
+    geomend::cli::add_checks(program, status);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

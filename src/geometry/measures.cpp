@@ -157,6 +157,22 @@ std::optional<std::array<Vec3, 2>> bounds_of(const StructuredGrid& grid) {
     return box.result();
 }
 
+/// Of the active cells, or of all where none is active; elevation-up like every other box.
+std::optional<std::array<Vec3, 2>> bounds_of(const CornerPointGrid& grid) {
+    Box box;
+    if (!misfit(grid).empty()) return box.result();  // properties without geometry
+    const bool all = active_count(grid) == 0;
+    for (std::uint32_t k = 0; k < grid.dims[2]; ++k) {
+        for (std::uint32_t j = 0; j < grid.dims[1]; ++j) {
+            for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
+                if (!all && !grid.is_active(grid.cell(i, j, k))) continue;
+                for (const Vec3& p : cell_corners(grid, i, j, k)) box.add(Vec3{p[0], p[1], 0.0 - p[2]});
+            }
+        }
+    }
+    return box.result();
+}
+
 std::optional<std::array<Vec3, 2>> bounds_of(const Well& well) {
     if (!well.path.empty()) return box_of(well.path).result();
     Box box;

@@ -17,6 +17,9 @@ struct Keeps {
     Keeping polyhedra = Keeping::no;
     Keeping structured_grids = Keeping::no;
     Keeping rasters = Keeping::no;
+    Keeping corner_point_grids = Keeping::no;
+    Keeping fault_faces = Keeping::no;  ///< named sets of cell faces
+    Keeping connections = Keeping::no;  ///< between cells that are not neighbours
     Keeping wells = Keeping::no;
     Keeping brep = Keeping::no;  ///< surfaces, regions and their sides
     Keeping several_objects = Keeping::no;

@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "model/corner_point.h"
 #include "model/object_info.h"
 #include "model/polygons.h"
 
 // What a file can hold. Plain arrays: readers fill them, writers read them. Positions of point sets, polylines,
-// surfaces, cell meshes, structured grids and wells are elevation-up, whatever the file's sign.
+// surfaces, cell meshes, structured grids and wells are elevation-up, whatever the file's sign; corner-point grids
+// are depth-down.
 
 namespace geomend {
 
@@ -237,9 +239,9 @@ struct Well {
 };
 
 /// One named thing of a file.
-using Object = std::variant<PointSet, PolylineSet, Surface, CellMesh, StructuredGrid, Raster, Well>;
+using Object = std::variant<PointSet, PolylineSet, Surface, CellMesh, StructuredGrid, Raster, Well, CornerPointGrid>;
 
-/// "point-set", "polyline-set", "surface", "cell-mesh", "structured-grid", "raster", "well".
+/// "point-set", "polyline-set", "surface", "cell-mesh", "structured-grid", "raster", "well", "corner-point-grid".
 const char* kind_name(const Object& object);
 ObjectInfo& info_of(Object& object);
 const ObjectInfo& info_of(const Object& object);

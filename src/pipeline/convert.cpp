@@ -6,6 +6,7 @@
 
 #include "base/output.h"
 #include "formats/registry.h"
+#include "pipeline/grids.h"
 #include "pipeline/merge.h"
 #include "pipeline/shape.h"
 
@@ -56,6 +57,15 @@ Result<Dataset> load_all(const ConvertRequest& request) {
     return all;
 }
 
+Result<void> make_like(Dataset& dataset, const Format& format, const ConvertRequest& request) {
+    if (request.like.empty()) return make_grids(dataset, format, nullptr);
+    LoadOptions options = request.load;
+    options.from.clear();
+    auto like = load(request.like, options);
+    if (!like) return std::move(like).why();
+    return make_grids(dataset, format, &*like);
+}
+
 Failure cannot_hold(const std::string& output, const Format& format, const std::vector<Loss>& losses) {
     Failure why = failure(FailureKind::cannot_hold, "F021", {output},
                           std::string(format.title) + " cannot hold all of this model: nothing was written (--lossy writes what fits)");
@@ -77,13 +87,22 @@ bool loses_substance(const std::vector<Loss>& losses) {
 
 Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "stopped; nothing was written"); }
 
-Result<ConvertReport> convert_unguarded(const ConvertRequest& request) {
+using Change = std::function<Result<void>(Dataset&)>;
+
+Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Change& change) {
     const auto format = target_format(request);
     if (!format) return format.why();
     auto dataset = load_all(request);
     if (!dataset) return std::move(dataset).why();
     const Monitor* monitor = request.load.monitor;
     if (monitor != nullptr && monitor->stopped()) return stopped();
+    if (auto joined = join_properties(*dataset); !joined) return std::move(joined).why();
+    if (change) {
+        if (auto changed = change(*dataset); !changed) return std::move(changed).why();
+    }
+    if (auto made = make_like(*dataset, **format, request); !made) return std::move(made).why();
+    if (auto done = apply_grid_options(*dataset, request.load.options); !done) return std::move(done).why();
+    if (auto shaped = shape_grids(*dataset, **format, request.load.options); !shaped) return std::move(shaped).why();
     shape_for(*dataset, **format);
 
     ConvertReport report;
@@ -103,9 +122,11 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request) {
 
 }  // namespace
 
-Result<ConvertReport> convert(const ConvertRequest& request) {
+Result<ConvertReport> convert(const ConvertRequest& request) { return convert(request, nullptr); }
+
+Result<ConvertReport> convert(const ConvertRequest& request, const Change& change) {
     try {
-        return convert_unguarded(request);
+        return convert_unguarded(request, change);
     } catch (const std::bad_alloc&) {
         return failure(FailureKind::limit, "F023", {request.output}, "there is not enough memory for this conversion; nothing was written");
     }

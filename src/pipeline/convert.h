@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct ConvertRequest {
     std::vector<std::string> inputs;   ///< at least one; "-" is standard input
     std::string output;                ///< "-" is standard output
     std::string to;                    ///< format name; empty: by the output's extension
+    std::string like;                  ///< a file whose corner-point grid takes the values of the inputs' cells; may be empty
     bool lossy = false;                ///< substance may be lost
     bool accept_unterminated = false;  ///< a last object without END is taken as it is
     LoadOptions load;
@@ -32,5 +34,8 @@ struct ConvertReport {
 /// failure (cannot_hold) then lists each loss in `also`. Inputs that disagree in units, vertical sign or coordinate
 /// system are refused (F016) unless option crs=ignore.
 Result<ConvertReport> convert(const ConvertRequest& request);
+
+/// The same with a change between reading and writing; its failure ends the conversion.
+Result<ConvertReport> convert(const ConvertRequest& request, const std::function<Result<void>(Dataset&)>& change);
 
 }  // namespace geomend

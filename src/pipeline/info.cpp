@@ -5,6 +5,8 @@
 #include <new>
 
 #include "geometry/measures.h"
+#include "grid/cell_geometry.h"
+#include "grid/connections.h"
 #include "topology/brep_from_dataset.h"
 
 namespace geomend {
@@ -99,6 +101,16 @@ void count_object(const Well& o, ObjectSummary& s) {
     if (!o.curves.empty()) s.counts["curves"] = o.curves.size();
 }
 
+void count_object(const CornerPointGrid& o, ObjectSummary& s) {
+    s.dims = o.dims;
+    s.counts["cells"] = o.cell_count();
+    s.counts["active_cells"] = active_count(o);
+    if (!o.faults.empty()) s.counts["faults"] = o.faults.size();
+    if (!o.connections.empty()) s.counts["stated_connections"] = o.connections.size();
+    if (o.pillars.empty()) return;  // properties without geometry
+    s.volume = grid::volume(o);
+}
+
 // VTK and MSH files store elevations whatever sign the model came with.
 ZPositive frame_of(const Dataset& dataset, const CoordinateSystem& crs) {
     const bool always_up = dataset.format == "vtk" || dataset.format == "gmsh";
@@ -184,6 +196,14 @@ FileSummary summarise(const std::string& path, const Dataset& dataset) {
     summary.format = dataset.format;
     summary.variant = dataset.variant;
     for (std::size_t i = 0; i < dataset.objects.size(); ++i) summary.objects.push_back(summarise_object(dataset, i));
+    for (const Object& object : dataset.objects) {
+        const auto* grid = std::get_if<CornerPointGrid>(&object);
+        if (grid == nullptr || grid->pillars.empty()) continue;
+        const grid::Connections found = grid::connections(*grid);
+        auto& counts = summary.connections ? *summary.connections : summary.connections.emplace();
+        counts.internal += found.internal;
+        counts.nnc += found.others.size();
+    }
     for (const Brep& brep : dataset.breps) summary.breps.push_back(summarise_brep(*brep));
     const auto take = [&](const CoordinateSystem& crs) {
         if (!summary.crs.stated && crs.stated) summary.crs = crs;

@@ -20,7 +20,7 @@ struct ObjectSummary {
     std::vector<std::string> groups;
     std::map<std::string, std::uint64_t> counts;       ///< "points", "edges", ...; only those that apply
     std::map<std::string, std::uint64_t> cell_types;   ///< of three-dimensional cells; only those that occur
-    std::optional<std::array<std::uint32_t, 3>> dims;  ///< numbers of points
+    std::optional<std::array<std::uint32_t, 3>> dims;  ///< numbers of points; of cells for corner-point grids
     std::optional<std::array<Vec3, 2>> bounds;         ///< in the file's own frame
     ZPositive z_positive = ZPositive::elevation;
     std::array<std::string, 3> units;
@@ -60,6 +60,11 @@ struct FileSummary {
     std::string file, format, variant;
     std::vector<ObjectSummary> objects;
     std::vector<BrepSummary> breps;
+    /// Pairs of touching cells of all corner-point grids, and how many of them are no neighbours by (i,j,k).
+    struct ConnectionCounts {
+        std::uint64_t internal = 0, nnc = 0;
+    };
+    std::optional<ConnectionCounts> connections;
     CoordinateSystem crs;
     std::vector<Finding> findings;
     std::vector<Loss> losses;

@@ -127,6 +127,7 @@ Json file_json(const FileSummary& f) {
         for (const BrepSummary& b : f.breps) each.push_back(brep_json(b, true));
         j["breps"] = std::move(each);
     }
+    if (f.connections) j["connections"] = Json{{"internal", f.connections->internal}, {"nnc", f.connections->nnc}};
     if (f.crs.stated) j["crs"] = crs_json(f.crs);
     Json findings = Json::array();
     for (const Finding& finding : f.findings) findings.push_back(finding_json(finding));

@@ -118,6 +118,9 @@ std::string info_text(const FileSummary& f, bool verbose) {
         if (!f.crs.datum.empty()) text += ", datum " + f.crs.datum;
         text += f.crs.z_positive == ZPositive::depth ? ", z is depth\n" : ", z is elevation\n";
     }
+    if (f.connections)
+        text += "  " + counted(f.connections->internal, "pairs of cells that touch") + ", " +
+                counted(f.connections->nnc, "of them across layers (non-neighbour connections)") + '\n';
     for (const BrepSummary& b : f.breps) text += brep_text(b);
     constexpr std::size_t shown = 40;
     for (std::size_t i = 0; i < f.objects.size() && (verbose || i < shown); ++i) text += object_text(f.objects[i], verbose);

@@ -155,6 +155,8 @@ void shape_for(Dataset& dataset, const Format& target) {
             if (stated && !is_tagged_mesh(dataset, target)) to_tagged_meshes(dataset, target);
             if (!stated && !holds_flat_meshes(target)) to_flat_objects(dataset);
             break;
+        case WriterWants::corner_point:
+            break;
     }
 }
 

@@ -28,7 +28,7 @@ USES = {
     "pipeline": ("formats", "report", "volume", "gridding"),
     "cli": ("pipeline",),
 }
-FAMILIES = ("gocad", "vtk", "gmsh", "horizon", "eclipse", "resqml")
+FAMILIES = ("gocad", "vtk", "gmsh", "horizon", "grdecl", "eclipse", "roff", "resqml")
 HIDDEN = re.compile(r"^(vtk\w*\.h|CGAL/.*|tetgen\.h|gmp\w*\.h|mpfr\.h)$")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "base/big_array.h"
+#include "base/number_text.h"
+#include "base/parallel.h"
+#include "formats/eclipse/arrays.h"
+#include "formats/eclipse/byte_order.h"
+
+namespace geomend::eclipse {
+
+namespace {
+
+constexpr std::uint64_t nowhere = std::numeric_limits<std::uint64_t>::max();
+
+/// The least of the offsets at which something is wrong, found by several threads.
+struct FirstWrong {
+    std::atomic<std::uint64_t> at{nowhere};
+    void tell(std::uint64_t offset) {
+        std::uint64_t known = at.load(std::memory_order_relaxed);
+        while (offset < known && !at.compare_exchange_weak(known, offset, std::memory_order_relaxed)) {
+        }
+    }
+    bool any() const { return at.load(std::memory_order_relaxed) != nowhere; }
+};
+
+// ---- how each type stands in a binary file ----
+
+struct AsInteger {
+    static constexpr std::size_t size = 4;
+    using type = std::int32_t;
+    static std::int32_t at(const char* p) { return static_cast<std::int32_t>(word_at(p)); }
+};
+struct AsFloat {
+    static constexpr std::size_t size = 4;
+    using type = float;
+    static float at(const char* p) { return std::bit_cast<float>(word_at(p)); }
+};
+struct AsDouble {
+    static constexpr std::size_t size = 8;
+    using type = double;
+    static double at(const char* p) { return std::bit_cast<double>(long_word_at(p)); }
+};
+/// True is all bits set, or one byte; whatever is not 0.
+struct AsLogical {
+    static constexpr std::size_t size = 4;
+    using type = std::uint8_t;
+    static std::uint8_t at(const char* p) { return word_at(p) != 0 ? 1 : 0; }
+};
+
+/// Calls body(first value, number of values, bytes) for the records of an array, in parallel, after a look at the
+/// lengths on both sides of each.
+template <class Body>
+Result<void> for_each_record(const ArrayFile& file, const Array& array, const Body& body) {
+    if (array.count == 0 || array.block == 0) return {};
+    const char* bytes = file.input.bytes().data();
+    const std::uint64_t stride = array.block * array.element_size + 8;
+    const std::uint64_t records = (array.count - 1) / array.block + 1;
+    const std::size_t grain = std::max<std::size_t>(1, (std::size_t{1} << 18) / stride);
+    FirstWrong wrong;
+    parallel_blocks(records, grain, [&](std::size_t from, std::size_t to) {
+        for (std::size_t r = from; r != to; ++r) {
+            const std::uint64_t first = r * array.block, count = std::min(array.block, array.count - first);
+            const std::uint64_t at = array.data + r * stride, length = count * array.element_size;
+            if (word_at(bytes + at) != length) return wrong.tell(at);
+            if (word_at(bytes + at + 4 + length) != length) return wrong.tell(at + 4 + length);
+            body(first, count, bytes + at + 4);
+        }
+    });
+    if (!wrong.any()) return {};
+    return unreadable("F012", place_at(file, wrong.at),
+                      "expected the length of a record of '" + array.name + "', found " +
+                          std::to_string(static_cast<std::int32_t>(word_at(bytes + wrong.at))));
+}
+
+template <class Stored, class T>
+Result<void> read_binary(const ArrayFile& file, const Array& array, T* out) {
+    return for_each_record(file, array, [&](std::uint64_t first, std::uint64_t count, const char* p) {
+        T* to = out + first;
+        for (std::uint64_t i = 0; i != count; ++i) to[i] = static_cast<T>(Stored::at(p + i * Stored::size));
+    });
+}
+
+// ---- text ----
+
+bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
+
+/// Fortran's ways with numbers that the fast path does not take: D exponents, none at all before a sign.
+bool slow_real(std::string_view token, double& value) {
+    if (parse_real(token, value) == NumberStatus::ok) return true;
+    const std::size_t sign = token.find_last_of("+-");
+    if (sign == std::string_view::npos || sign == 0) return false;
+    const std::string repaired = std::string(token.substr(0, sign)) + "E" + std::string(token.substr(sign));
+    return parse_real(repaired, value) == NumberStatus::ok;
+}
+
+template <class T>
+bool number_of(std::string_view token, T& value) {
+    if (token.starts_with('+')) token.remove_prefix(1);
+    const auto [stop, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+    if (error == std::errc{} && stop == token.data() + token.size()) return true;
+    if constexpr (std::is_floating_point_v<T>) {
+        double slow = 0;
+        if (!slow_real(token, slow)) return false;
+        value = static_cast<T>(slow);
+        return true;
+    }
+    return false;
+}
+
+bool logical_of(std::string_view token, std::uint8_t& value) {
+    value = token == "T" ? 1 : 0;
+    return token == "T" || token == "F";
+}
+
+/// Calls body(token) until it says false; the offset where it did, or nowhere.
+template <class Body>
+std::uint64_t for_each_token(std::string_view text, std::uint64_t at, std::uint64_t end, const Body& body) {
+    while (true) {
+        while (at != end && is_blank(text[at])) ++at;
+        if (at == end) return nowhere;
+        const std::uint64_t begin = at;
+        while (at != end && !is_blank(text[at])) ++at;
+        if (!body(text.substr(begin, at - begin))) return begin;
+    }
+}
+
+/// Values of a formatted array, in parallel: the text is cut at blanks, tokens are counted, then read.
+template <class T, class Parse>
+Result<void> read_text(const ArrayFile& file, const Array& array, T* out, const Parse& parse) {
+    const std::string_view text = file.input.bytes();
+    constexpr std::uint64_t piece = std::uint64_t{1} << 20;
+    std::vector<std::uint64_t> cuts{array.data};
+    while (array.end - cuts.back() > piece) {
+        std::uint64_t cut = cuts.back() + piece;
+        while (cut != array.end && !is_blank(text[cut])) ++cut;
+        cuts.push_back(cut);
+    }
+    cuts.push_back(array.end);
+    std::vector<std::uint64_t> first(cuts.size(), 0);
+    parallel_for_each_index(cuts.size() - 1, [&](std::size_t i) {
+        std::uint64_t count = 0;
+        for_each_token(text, cuts[i], cuts[i + 1], [&](std::string_view) { return ++count != 0; });
+        first[i + 1] = count;
+    });
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+    FirstWrong wrong;
+    parallel_for_each_index(cuts.size() - 1, [&](std::size_t i) {
+        std::uint64_t n = first[i];
+        const std::uint64_t bad =
+            for_each_token(text, cuts[i], cuts[i + 1], [&](std::string_view token) { return n >= array.count || parse(token, out[n++]); });
+        if (bad != nowhere) wrong.tell(bad);
+    });
+    if (wrong.any()) {
+        std::uint64_t end = wrong.at;
+        while (end != array.end && !is_blank(text[end])) ++end;
+        return unreadable("F005", place_at(file, wrong.at),
+                          "expected a value of '" + array.name + "' (" + type_word(array) + "), found '" +
+                              std::string(text.substr(wrong.at, std::min<std::uint64_t>(end - wrong.at, 40))) + "'");
+    }
+    if (first.back() != array.count) {
+        const bool short_of = first.back() < array.count && array.end == text.size();
+        return unreadable(
+            short_of ? "F004" : "F008", place_of(file, array),
+            "expected " + std::to_string(array.count) + " values of '" + array.name + "', found " + std::to_string(first.back()));
+    }
+    return {};
+}
+
+template <class Stored, class T>
+Result<void> read_into(const ArrayFile& file, const Array& array, T* out) {
+    if (!file.formatted) return read_binary<Stored>(file, array, out);
+    if constexpr (std::is_same_v<Stored, AsLogical>) {
+        return read_text(file, array, out, logical_of);
+    } else {
+        return read_text(file, array, out, [](std::string_view token, T& value) {
+            typename Stored::type stored{};
+            if (!number_of(token, stored)) return false;
+            value = static_cast<T>(stored);
+            return true;
+        });
+    }
+}
+
+Failure wrong_type(const ArrayFile& file, const Array& array, const char* expected) {
+    return unreadable("F012", place_of(file, array),
+                      "expected '" + array.name + "' to hold " + expected + ", found type " + type_word(array));
+}
+
+template <class Stored>
+Result<std::vector<typename Stored::type>> read_all(const ArrayFile& file, const Array& array) {
+    std::vector<typename Stored::type> values;
+    make_big(values, array.count);
+    if (auto done = read_into<Stored>(file, array, values.data()); !done) return done.why();
+    return values;
+}
+
+/// The place of a value, as near as the file allows.
+Location place_of_value(const ArrayFile& file, const Array& array, std::uint64_t index) {
+    if (file.formatted) return place_of(file, array);
+    return place_at(file, array.data + 4 + index * array.element_size + 8 * (index / array.block));
+}
+
+Failure not_finite(const ArrayFile& file, const Array& array, std::uint64_t index, double value) {
+    return unreadable(
+        "F006", place_of_value(file, array, index),
+        "expected a finite number, found " + number_text(value) + " as value " + std::to_string(index + 1) + " of '" + array.name + "'");
+}
+
+/// Bits of the exponent, all of which are set where a real is not finite.
+template <class Stored>
+struct Exponent;
+template <>
+struct Exponent<AsFloat> {
+    static constexpr std::uint32_t mask = 0x7f800000u;
+    static std::uint32_t word(const char* p) { return word_at(p); }
+};
+template <>
+struct Exponent<AsDouble> {
+    static constexpr std::uint64_t mask = 0x7ff0000000000000u;
+    static std::uint64_t word(const char* p) { return long_word_at(p); }
+};
+
+/// Values as doubles; the first that is not finite is a failure.
+template <class Stored>
+Result<void> read_finite(const ArrayFile& file, const Array& array, std::vector<double>& values) {
+    FirstWrong wrong;
+    if (file.formatted) {
+        if (auto done = read_into<Stored>(file, array, values.data()); !done) return done;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (!std::isfinite(values[i])) return not_finite(file, array, i, values[i]);
+        }
+        return {};
+    }
+    const auto done = for_each_record(file, array, [&](std::uint64_t first, std::uint64_t count, const char* p) {
+        constexpr auto mask = Exponent<Stored>::mask;
+        double* to = values.data() + first;
+        bool special = false;
+        for (std::uint64_t i = 0; i != count; ++i) {
+            const auto word = Exponent<Stored>::word(p + i * Stored::size);
+            special |= (word & mask) == mask;
+            to[i] = static_cast<double>(std::bit_cast<typename Stored::type>(word));
+        }
+        for (std::uint64_t i = 0; special && i != count; ++i) {
+            if (!std::isfinite(to[i])) return wrong.tell(first + i);
+        }
+    });
+    if (!done) return done;
+    if (wrong.any()) return not_finite(file, array, wrong.at, values[wrong.at]);
+    return {};
+}
+
+}  // namespace
+
+Result<std::vector<std::int32_t>> integers(const ArrayFile& file, const Array& array) {
+    if (array.type != ArrayType::integer) return wrong_type(file, array, "integers");
+    return read_all<AsInteger>(file, array);
+}
+
+Result<std::vector<float>> floats(const ArrayFile& file, const Array& array) {
+    if (array.type != ArrayType::real) return wrong_type(file, array, "reals");
+    return read_all<AsFloat>(file, array);
+}
+
+Result<std::vector<double>> doubles(const ArrayFile& file, const Array& array) {
+    if (array.type != ArrayType::real_double) return wrong_type(file, array, "reals of double precision");
+    return read_all<AsDouble>(file, array);
+}
+
+Result<std::vector<std::uint8_t>> logicals(const ArrayFile& file, const Array& array) {
+    if (array.type != ArrayType::logical) return wrong_type(file, array, "logical values");
+    return read_all<AsLogical>(file, array);
+}
+
+Result<std::vector<double>> reals(const ArrayFile& file, const Array& array) {
+    if (array.type != ArrayType::real && array.type != ArrayType::real_double) return wrong_type(file, array, "reals");
+    std::vector<double> values;
+    make_big(values, array.count);
+    const auto done =
+        array.type == ArrayType::real ? read_finite<AsFloat>(file, array, values) : read_finite<AsDouble>(file, array, values);
+    if (!done) return done.why();
+    return values;
+}
+
+Result<std::vector<std::string>> texts(const ArrayFile& file, const Array& array) {
+    if (array.type != ArrayType::text) return wrong_type(file, array, "text");
+    std::vector<std::string> values(array.count);
+    const auto take = [&](std::uint64_t index, const char* p) {
+        std::string_view value(p, array.element_size);
+        while (!value.empty() && (value.back() == ' ' || value.back() == '\0')) value.remove_suffix(1);
+        values[index] = value;
+    };
+    if (!file.formatted) {
+        const auto done = for_each_record(file, array, [&](std::uint64_t first, std::uint64_t count, const char* p) {
+            for (std::uint64_t i = 0; i != count; ++i) take(first + i, p + i * array.element_size);
+        });
+        if (!done) return done.why();
+        return values;
+    }
+    const std::string_view text = file.input.bytes();
+    std::uint64_t at = array.data;
+    for (std::uint64_t i = 0; i != array.count; ++i) {
+        while (is_blank(text[at])) ++at;
+        take(i, text.data() + at + 1);
+        at += array.element_size + 2;
+    }
+    return values;
+}
+
+}  // namespace geomend::eclipse

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/text_cursor.h"
+#include "formats/grdecl/deck.h"
+#include "formats/grdecl/number_array.h"
+
+namespace geomend::grdecl {
+
+namespace {
+
+constexpr auto edits = std::to_array<std::string_view>(
+    {"EQUALS", "ADD", "MULTIPLY", "MINVALUE", "MAXVALUE", "COPY", "EQUALREG", "ADDREG", "MULTIREG", "COPYREG", "OPERATE"});
+
+/// Calls each(cell) for the cells of a box.
+template <class Each>
+void for_cells(const Dims& dims, const CellBox& box, const Each& each) {
+    for (std::size_t k = box.first[2]; k <= box.last[2]; ++k) {
+        for (std::size_t j = box.first[1]; j <= box.last[1]; ++j) {
+            const std::size_t row = dims[0] * (j + std::size_t{dims[1]} * k);
+            for (std::size_t i = box.first[0]; i <= box.last[0]; ++i) each(row + i);
+        }
+    }
+}
+
+/// One edit while it is worked on.
+struct Edit {
+    const Scanner& in;
+    const Record& record;
+    GridText& g;
+    CellBox& box;
+    Section section;
+    std::uint64_t& room;
+    EditResult result = {};
+
+    std::string name(std::size_t i) const { return known_name(record.text(i)); }
+    bool fail(Trouble trouble) {
+        result.trouble = std::move(trouble);
+        return result.trouble.has_value();
+    }
+    /// An array that must be there; nullptr (and told) where it is not.
+    CellArray* existing(std::size_t i) {
+        if (!record.given(i)) {
+            fail(unreadable("F012", in.location(record.slash), "expected the name of an array, found the end of the record"));
+            return nullptr;
+        }
+        CellArray* a = g.find(name(i));
+        if (a != nullptr && a->values.index() < 2) return a;
+        result.applied = false;
+        result.missing = name(i);
+        return nullptr;
+    }
+    /// The array of that name; made, of the same type as `like` or as the keyword says, where it is not there.
+    CellArray* made(std::size_t i, const CellArray* like) {
+        if (!record.given(i)) {
+            fail(unreadable("F012", in.location(record.slash), "expected the name of an array, found the end of the record"));
+            return nullptr;
+        }
+        if (CellArray* a = g.find(name(i)); a != nullptr && a->values.index() < 2) return a;
+        const std::uint64_t cells = cells_of(*g.dims);
+        if (cells > room) {
+            fail(unreadable("F014", in.location(record.begin),
+                            "the deck asks for more values than its size allows (" + std::to_string(cells) +
+                                " more); --option max-values=N raises the limit"));
+            return nullptr;
+        }
+        room -= cells;
+        const auto keyword = cell_keyword(name(i));
+        const bool whole = keyword ? keyword->whole : like != nullptr && like->values.index() == 1;
+        CellArray fresh{name(i), {}, section};
+        if (whole)
+            fresh.values =
+                std::vector<std::int32_t>(cells, keyword && keyword->initial ? static_cast<std::int32_t>(*keyword->initial) : unset_whole);
+        else fresh.values = std::vector<double>(cells, keyword && keyword->initial ? *keyword->initial : unset_real);
+        g.arrays.push_back(std::move(fresh));
+        return &g.arrays.back();
+    }
+    template <class Apply>
+    void change(CellArray& a, const CellBox& where, const Apply& apply) {
+        std::visit(
+            [&](auto& values) {
+                using T = typename std::decay_t<decltype(values)>::value_type;
+                if constexpr (!std::is_same_v<T, std::string>) {
+                    for_cells(*g.dims, where, [&](std::size_t cell) {
+                        if constexpr (std::is_same_v<T, double>) values[cell] = apply(cell, values[cell]);
+                        else
+                            values[cell] = static_cast<T>(
+                                std::clamp(std::round(apply(cell, static_cast<double>(values[cell]))), -2147483647.0, 2147483647.0));
+                    });
+                }
+            },
+            a.values);
+    }
+};
+
+double value_at(const CellArray& a, std::size_t cell) {
+    if (const auto* real = std::get_if<std::vector<double>>(&a.values)) return (*real)[cell];
+    return std::get<std::vector<std::int32_t>>(a.values)[cell];
+}
+
+bool is_unset(double v) { return v == unset_real || v == static_cast<double>(unset_whole); }
+
+void apply_scalar(Edit& e, std::string_view keyword, const CellBox& where, CellArray& a, double value, const CellArray* only,
+                  std::int64_t region) {
+    const auto in_region = [&](std::size_t cell) { return only == nullptr || value_at(*only, cell) == static_cast<double>(region); };
+    const bool sets = keyword.starts_with("EQUAL");
+    e.change(a, where, [&](std::size_t cell, double old) {
+        if (!in_region(cell)) return old;
+        if (sets) return value;
+        if (is_unset(old)) return old;
+        if (keyword.starts_with("ADD")) return old + value;
+        if (keyword == "MINVALUE") return std::max(old, value);
+        if (keyword == "MAXVALUE") return std::min(old, value);
+        return old * value;
+    });
+}
+
+void scalar_in_box(Edit& e, std::string_view keyword) {
+    if (e.fail(take_box(e.in, e.record, 2, *e.g.dims, e.box))) return;
+    double value = 0;
+    if (e.fail(need_real(e.in, e.record, 1, "a value", value))) return;
+    CellArray* a = keyword == "EQUALS" ? e.made(0, nullptr) : e.existing(0);
+    if (a != nullptr) apply_scalar(e, keyword, e.box, *a, value, nullptr, 0);
+}
+
+void copy_in_box(Edit& e) {
+    if (e.fail(take_box(e.in, e.record, 2, *e.g.dims, e.box))) return;
+    if (e.existing(0) == nullptr) return;
+    CellArray* to = e.made(1, e.g.find(e.name(0)));
+    if (to == nullptr) return;
+    const CellArray* from = e.g.find(e.name(0));  // making `to` may have moved it
+    e.change(*to, e.box, [&](std::size_t cell, double) { return value_at(*from, cell); });
+}
+
+/// The array of region numbers that a letter (M, F, O) names.
+CellArray* regions_of(Edit& e, std::size_t i) {
+    std::string word = e.record.given(i) ? upper_case(trimmed(e.record.text(i))) : "M";
+    const std::string array = word == "F" ? "FLUXNUM" : word == "O" ? "OPERNUM" : word == "M" ? "MULTNUM" : word;
+    CellArray* a = e.g.find(array);
+    if (a == nullptr || a->values.index() != 1) {
+        e.result.applied = false;
+        e.result.missing = array;
+        return nullptr;
+    }
+    return a;
+}
+
+void scalar_in_region(Edit& e, std::string_view keyword) {
+    double value = 0;
+    std::int64_t region = 0;
+    if (e.fail(need_real(e.in, e.record, 1, "a value", value))) return;
+    if (e.fail(need_whole(e.in, e.record, 2, "a region", region))) return;
+    if (regions_of(e, 3) == nullptr) return;
+    CellArray* a = keyword == "EQUALREG" ? e.made(0, nullptr) : e.existing(0);
+    if (a == nullptr) return;
+    const CellBox all{{0, 0, 0}, {(*e.g.dims)[0] - 1, (*e.g.dims)[1] - 1, (*e.g.dims)[2] - 1}};
+    apply_scalar(e, keyword, all, *a, value, regions_of(e, 3), region);
+}
+
+void copy_in_region(Edit& e) {
+    std::int64_t region = 0;
+    if (e.fail(need_whole(e.in, e.record, 2, "a region", region))) return;
+    if (regions_of(e, 3) == nullptr || e.existing(0) == nullptr) return;
+    CellArray* to = e.made(1, e.g.find(e.name(0)));
+    if (to == nullptr) return;
+    const CellArray* from = e.g.find(e.name(0));
+    const CellArray* regions = regions_of(e, 3);
+    const CellBox all{{0, 0, 0}, {(*e.g.dims)[0] - 1, (*e.g.dims)[1] - 1, (*e.g.dims)[2] - 1}};
+    e.change(*to, all, [&](std::size_t cell, double old) {
+        return value_at(*regions, cell) == static_cast<double>(region) ? value_at(*from, cell) : old;
+    });
+}
+
+using Operation = double (*)(double target, double source, double a, double b);
+
+Operation operation_of(std::string_view word) {
+    struct Row {
+        std::string_view name;
+        Operation apply;
+    };
+    static constexpr std::array rows = {
+        Row{"MULTA", [](double, double x, double a, double b) { return a * x + b; }},
+        Row{"POLY", [](double r, double x, double a, double b) { return r + a * std::pow(x, b); }},
+        Row{"SLOG", [](double, double x, double a, double b) { return std::pow(10.0, a + b * x); }},
+        Row{"LOG10", [](double, double x, double, double) { return std::log10(x); }},
+        Row{"LOGE", [](double, double x, double, double) { return std::log(x); }},
+        Row{"INV", [](double, double x, double, double) { return 1 / x; }},
+        Row{"MULTX", [](double, double x, double a, double) { return a * x; }},
+        Row{"ADDX", [](double, double x, double a, double) { return a + x; }},
+        Row{"COPY", [](double, double x, double, double) { return x; }},
+        Row{"MAXLIM", [](double, double x, double a, double) { return std::min(a, x); }},
+        Row{"MINLIM", [](double, double x, double a, double) { return std::max(a, x); }},
+        Row{"MULTP", [](double, double x, double a, double b) { return a * std::pow(x, b); }},
+        Row{"ABS", [](double, double x, double, double) { return std::abs(x); }},
+        Row{"MULTIPLY", [](double r, double x, double, double) { return r * x; }},
+    };
+    const auto row = std::ranges::find(rows, word, &Row::name);
+    return row == rows.end() ? nullptr : row->apply;
+}
+
+// target I1 .. K2 operation source a b
+void operate(Edit& e) {
+    if (e.fail(take_box(e.in, e.record, 1, *e.g.dims, e.box))) return;
+    const std::string word = upper_case(trimmed(e.record.text(7)));
+    const Operation apply = operation_of(word);
+    if (apply == nullptr) {
+        e.fail(unreadable("F012", e.in.location(e.record.given(7) ? e.record.items[7].at : e.record.slash),
+                          "expected an operation of OPERATE (MULTA, POLY, COPY, ...), found " + shown(word)));
+        return;
+    }
+    double a = 0, b = 0;
+    if (e.fail(take_real(e.in, e.record, 9, "a number", a)) || e.fail(take_real(e.in, e.record, 10, "a number", b))) return;
+    if (e.existing(8) == nullptr) return;
+    CellArray* target = e.made(0, e.g.find(e.name(8)));
+    if (target == nullptr) return;
+    const CellArray* source = e.g.find(e.name(8));
+    bool finite = true;
+    e.change(*target, e.box, [&](std::size_t cell, double old) {
+        const double x = value_at(*source, cell);
+        if (is_unset(x)) return old;
+        const double made = apply(is_unset(old) ? 0 : old, x, a, b);
+        if (std::isfinite(made)) return made;
+        finite = false;
+        return old;
+    });
+    if (!finite)
+        e.fail(unreadable("F006", e.in.location(e.record.begin), "OPERATE gives values that are not finite for " + shown(e.name(0))));
+}
+
+}  // namespace
+
+bool is_edit(std::string_view keyword) { return std::ranges::find(edits, keyword) != edits.end(); }
+
+EditResult apply_edit(const Scanner& in, std::string_view keyword, const Record& record, GridText& g, CellBox& box, Section section,
+                      std::uint64_t& room) {
+    Edit e{in, record, g, box, section, room, {}};
+    if (keyword == "COPY") copy_in_box(e);
+    else if (keyword == "OPERATE") operate(e);
+    else if (keyword == "COPYREG") copy_in_region(e);
+    else if (keyword.ends_with("REG")) scalar_in_region(e, keyword);
+    else scalar_in_box(e, keyword);
+    return std::move(e.result);
+}
+
+}  // namespace geomend::grdecl

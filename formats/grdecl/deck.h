@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "formats/grdecl/deck_text.h"
+#include "formats/grdecl/keywords.h"
+#include "model/dataset.h"
+
+// What the text of a deck says of its grids, before it is made into geometry.
+
+namespace geomend::grdecl {
+
+using Dims = std::array<std::uint32_t, 3>;
+/// A failure, or nothing.
+using Trouble = std::optional<Failure>;
+
+/// Cells from first to last, counted from 0, both inclusive.
+struct CellBox {
+    Dims first{0, 0, 0}, last{0, 0, 0};
+
+    std::uint64_t count() const {
+        std::uint64_t n = 1;
+        for (std::size_t a = 0; a < 3; ++a) n *= std::uint64_t{last[a]} - first[a] + 1;
+        return n;
+    }
+};
+
+/// One value per cell (of the deck's layers: with two porosities twice those of the geometry).
+struct CellArray {
+    std::string name;
+    std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::string>> values;
+    Section section = Section::grid;
+};
+
+/// Everything that is said of one grid, the global one or a local refinement.
+struct GridText {
+    CornerPointGrid grid;  ///< header, faults, connections, multipliers and annotations; geometry comes at the end
+    std::optional<Dims> dims;
+    bool dims_stated = false;  ///< by DIMENS, SPECGRID or CARFIN
+    bool dims_used = false;    ///< arrays of that size were read: they stay
+    std::uint32_t coordinate_sets = 1;
+    std::vector<double> pillars, depths;               ///< COORD, ZCORN
+    std::vector<CellArray> arrays;                     ///< in the order in which they appear
+    std::array<std::vector<double>, 3> widths;         ///< DXV or DRV, DYV or DTHETAV, DZV
+    std::vector<double> corner_tops;                   ///< DEPTHZ
+    std::optional<double> inner_radius, outer_radius;  ///< INRAD, OUTRAD
+    bool radial = false;
+    std::array<std::vector<std::uint32_t>, 3> fine_cells;  ///< NXFIN ...: fine cells of each host cell
+    std::array<std::vector<double>, 3> fine_widths;        ///< HXFIN ...: their relative widths
+    std::optional<std::string> geometry_file;              ///< GDFILE
+
+    CellArray* find(std::string_view name) {
+        for (CellArray& a : arrays) {
+            if (a.name == name) return &a;
+        }
+        return nullptr;
+    }
+    /// Takes an array out; nothing where it is not there.
+    std::optional<CellArray> take(std::string_view name) {
+        for (auto a = arrays.begin(); a != arrays.end(); ++a) {
+            if (a->name != name) continue;
+            CellArray taken = std::move(*a);
+            arrays.erase(a);
+            return taken;
+        }
+        return {};
+    }
+};
+
+/// Number of cells of a box of that size.
+inline std::uint64_t cells_of(const Dims& d) { return std::uint64_t{d[0]} * d[1] * d[2]; }
+
+/// A finding of the reader, of the severity that the catalogue gives the code.
+Finding finding(std::string code, Location where, std::string message, std::uint64_t count = 0);
+
+/// Item `i` as a number; `value` stays as it is where the item is defaulted. Failure F005 or F006.
+Trouble take_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value);
+Trouble take_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value);
+/// Item `i` as a number that must be given. Failure F012 where it is not.
+Trouble need_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value);
+Trouble need_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value);
+
+/// Six items I1 I2 J1 J2 K1 K2 from item `i` on into a box; items that are defaulted stay as they are.
+/// Failure F012 where it is empty or not within the dims (dims 0: not known).
+Trouble take_box(const Scanner& in, const Record& record, std::size_t i, const Dims& dims, CellBox& box);
+
+// ---- records of the grid's head, each with the scanner behind its keyword (head_records.cpp) ----
+
+Trouble read_map_axes(Scanner& in, GridText& g);
+Trouble read_map_units(Scanner& in, GridText& g);
+Trouble read_grid_unit(Scanner& in, GridText& g);
+Trouble read_orientation(Scanner& in, GridText& g);
+Trouble read_reservoirs(Scanner& in, GridText& g);
+Trouble read_pinch(Scanner& in, GridText& g);
+Trouble read_least_pore_volume(Scanner& in, GridText& g);
+
+// ---- lists (list_records.cpp) ----
+
+/// Calls `each` for the records of a list up to its lone '/'. A list that ends with the file, its last line with a
+/// line end, is taken with a finding F101.
+template <class Each>
+Trouble read_list(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, const Each& each);
+bool list_ends(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, Trouble& trouble);
+
+Trouble read_faults(Scanner& in, GridText& g, std::vector<Finding>& findings);
+Trouble read_fault_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings);
+Trouble read_connections(Scanner& in, GridText& g, std::vector<Finding>& findings, std::vector<Loss>& losses);
+Trouble read_region_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings);
+
+template <class Each>
+Trouble read_list(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, const Each& each) {
+    Trouble trouble;
+    while (!list_ends(in, keyword, findings, trouble)) {
+        auto record = in.record(keyword);
+        if (!record) return std::move(record).why();
+        if (auto failed = each(*record)) return failed;
+    }
+    return trouble;
+}
+
+// ---- operations on arrays (array_edits.cpp) ----
+
+struct EditResult {
+    Trouble trouble;
+    bool applied = true;  ///< false: an array that it needs is not there
+    std::string missing;  ///< that array
+};
+
+/// Whether a keyword is an operation on arrays (EQUALS, COPY, MULTIREG, OPERATE, ...).
+bool is_edit(std::string_view keyword);
+/// Does what one record of an operation says. `box` is the current box and becomes that of the record.
+/// \param room cells that may still be made; new arrays are taken off it
+EditResult apply_edit(const Scanner& in, std::string_view keyword, const Record& record, GridText& g, CellBox& box, Section section,
+                      std::uint64_t& room);
+
+// ---- into the model (build_grid.cpp, block_geometry.cpp, local_grids.cpp) ----
+
+/// Makes the grid of a text; `dual` says that the deck's layers are those of two porosities. Arrays move out of it.
+/// \param room values that may still be made
+Result<CornerPointGrid> build_grid(GridText&& text, const Input& input, bool dual, std::uint64_t& room, std::vector<Finding>& findings,
+                                   std::vector<Loss>& losses);
+
+/// Pillars and corner depths from block sizes (DX DY DZ TOPS and their like), Cartesian or radial; takes those arrays
+/// out of the text. Nothing is done where there are none.
+Trouble make_block_geometry(GridText& text, const Input& input, std::uint32_t layers, std::uint64_t& room, std::vector<Finding>& findings);
+
+/// The geometry of a local grid that has none of its own: its host's cells cut evenly. Sets host cells and activity.
+Trouble refine_host(CornerPointGrid& grid, const std::array<std::vector<std::uint32_t>, 3>& fine_cells,
+                    const std::array<std::vector<double>, 3>& fine_widths, const CornerPointGrid& host, const Input& input,
+                    std::uint64_t& room);
+
+}  // namespace geomend::grdecl

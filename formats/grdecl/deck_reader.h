@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/format.h"
+#include "formats/grdecl/deck.h"
+#include "formats/grdecl/number_array.h"
+
+namespace geomend::grdecl {
+
+/// Walks through a deck and the files that it includes, and gathers what is said of its grids.
+class DeckReader {
+public:
+    DeckReader(const Input& input, const ReadOptions& options);
+
+    /// Everything from the first keyword to the last.
+    Result<Dataset> read();
+
+private:
+    struct Frame {
+        const Input* input;
+        Scanner scanner;
+        std::filesystem::path path;
+    };
+
+    // deck_reader.cpp
+    Trouble set_options();
+    void take_remark();
+    Trouble run();
+    Trouble keyword(const Item& word);
+    Trouble section_text();
+    Trouble include();
+    Trouble open_include(std::string_view path, const char* at);
+    Trouble paths();
+    Trouble skip_block(std::string_view word);
+    Trouble keep(const char* begin, std::string_view name, bool is_known);
+    void keep_text(const char* begin, const char* end);
+    void enter(Section s);
+    Trouble companion_properties();
+
+    // deck_keywords.cpp: one function for each keyword that says something of a grid
+    using Handler = Trouble (DeckReader::*)();
+    static Handler handler_of(std::string_view name);
+    Trouble specgrid();
+    Trouble dimens();
+    Trouble coord();
+    Trouble zcorn();
+    Trouble box();
+    Trouble end_box();
+    Trouble faults();
+    Trouble multflt();
+    Trouble nnc();
+    Trouble multregt();
+    Trouble header();
+    Trouble vector_of_widths();
+    Trouble corner_tops();
+    Trouble radius();
+    Trouble fine_cells();
+    Trouble carfin();
+    Trouble refine();
+    Trouble end_fin();
+    Trouble gdfile();
+    Trouble import_file();
+    Trouble edits();
+    Trouble title();
+    Trouble unit_system();
+    Trouble porosity();
+    Trouble radial();
+    Trouble radial_refinement();
+    Trouble set_dims(const Dims& dims, std::string_view keyword, const char* at);
+
+    // deck_arrays.cpp
+    Trouble need_dims(const char* at, std::string_view name);
+    bool find_dims_ahead();
+    Trouble cell_array(std::string_view name, bool whole);
+    Trouble unknown(const char* begin, const std::string& name);
+    bool unknown_numbers(const std::string& name, Trouble& failed);
+    bool unknown_words(const std::string& name);
+    template <class T>
+    Trouble numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short = false,
+                    std::uint64_t or_else = 0);
+    template <class T>
+    Trouble store(std::string_view name, std::vector<T>&& values, const std::optional<CellKeyword>& row);
+    Trouble afford(std::uint64_t values, const char* at, std::string_view name);
+    Failure array_failure(const ArrayScan& scan, std::string_view name, std::string_view text, std::uint64_t expected,
+                          const char* slash) const;
+
+    // deck_result.cpp
+    Result<Dataset> finish();
+    void dims_from_boxes();
+
+    Scanner& in() { return frames_.back().scanner; }
+    const Scanner& in() const { return frames_.back().scanner; }
+    GridText& grid() { return grids_[current_]; }
+    Location where(const char* at) const { return in().location(at); }
+    CellBox whole_grid() const;
+    bool has_two_porosities() const { return porosity_ != CornerPointGrid::Porosity::single && current_ == 0; }
+    bool stopped() const { return options_->monitor != nullptr && options_->monitor->stopped(); }
+
+    const Input* input_;
+    const ReadOptions* options_;
+    std::deque<Input> files_;
+    std::vector<Frame> frames_;
+    std::deque<GridText> grids_;
+    std::size_t current_ = 0;
+    std::optional<CellBox> box_;
+    Section section_ = Section::none;
+    bool ended_ = false;
+    bool probing_ = false;  ///< only dims are looked for
+    std::string word_;      ///< the keyword at hand
+    const char* word_at_ = nullptr;
+    std::optional<Dims> dims_option_;
+    bool skip_missing_ = false;
+    bool looked_ahead_ = false;
+    bool dims_differ_ = false;  ///< told already
+    std::uint64_t room_ = 0;    ///< values that may still be made
+    std::uint64_t text_size_ = 0;
+    std::uint64_t includes_ = 0;
+    std::map<std::string, std::string, std::less<>> aliases_;
+    CornerPointGrid::Porosity porosity_ = CornerPointGrid::Porosity::single;
+    bool radial_ = false;
+    std::string unit_system_;
+    std::vector<std::pair<Section, std::string>> texts_;  ///< of sections that are kept as they stand
+    std::vector<std::string> unknown_;                    ///< keywords that were kept, for F102
+    Location first_unknown_;
+    std::uint64_t unknown_count_ = 0;
+    std::uint64_t stray_slashes_ = 0;
+    Location first_stray_slash_;
+    std::uint64_t not_applied_ = 0;
+    Location first_not_applied_;
+    std::string missing_array_;
+    std::vector<Finding> findings_;
+    std::vector<Loss> losses_;
+};
+
+/// Reads a GRDECL include or a whole deck, with its includes. Options: dims=NX,NY,NZ where the text does not state
+/// them, includes=skip passes over files that are missing, max-values=N raises the limit on values made from repeats.
+Result<Dataset> read_deck(const Input& input, const ReadOptions& options);
+
+}  // namespace geomend::grdecl

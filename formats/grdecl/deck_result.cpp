@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+
+#include "base/text_cursor.h"
+#include "formats/grdecl/deck_reader.h"
+
+namespace geomend::grdecl {
+
+namespace {
+
+std::string_view length_unit(std::string_view system) {
+    if (system == "METRIC" || system == "PVT-M") return "METRES";
+    if (system == "FIELD") return "FEET";
+    return system == "LAB" ? "CM" : "";
+}
+
+}  // namespace
+
+/// FAULTS alone do not say how large their grid is: large enough for them.
+void DeckReader::dims_from_boxes() {
+    Dims dims{1, 1, 1};
+    for (const auto& fault : grid().grid.faults) {
+        for (const auto& box : fault.boxes) {
+            for (std::size_t a = 0; a < 3; ++a) dims[a] = std::max({dims[a], box.first[a] + 1, box.last[a] + 1});
+        }
+    }
+    findings_.push_back(finding("F141", {input_->name()},
+                                "the text does not state the numbers of cells: " + std::to_string(dims[0]) + " x " +
+                                    std::to_string(dims[1]) + " x " + std::to_string(dims[2]) + " is what its faults need"));
+    grid().dims = dims;
+}
+
+Result<Dataset> DeckReader::finish() {
+    current_ = 0;
+    Dataset dataset;
+    dataset.format = "grdecl";
+    const bool deck = std::ranges::any_of(texts_, [](const auto& t) { return t.first == Section::runspec; });
+    dataset.variant = deck ? "DATA deck" : "GRDECL";
+    if (!grid().dims) {
+        const CornerPointGrid& g = grid().grid;
+        if (g.faults.empty() && g.region_multipliers.empty() && g.info.annotations.empty() && !g.map_axes && texts_.empty())
+            return unreadable("F017", {input_->name()}, "nothing in the text is of a grid");
+        dims_from_boxes();
+    }
+    std::deque<GridText>& texts = grids_;
+    for (std::size_t g = 0; g < texts.size(); ++g) {
+        GridText& text = texts[g];
+        if (text.geometry_file && text.depths.empty()) {
+            losses_.push_back({LossClass::substance, text.grid.info.name,
+                               "the geometry, which GDFILE takes from " + shown(*text.geometry_file),
+                               "convert that file, with this one as its properties", 1});
+        }
+        text.grid.unit_system = unit_system_;
+        auto& crs = text.grid.info.crs;
+        if (g > 0) crs.axis_units = std::get<CornerPointGrid>(dataset.objects[0]).info.crs.axis_units;
+        if (crs.axis_units[0].empty() && !unit_system_.empty()) crs.axis_units.fill(std::string(length_unit(unit_system_)));
+        if (!crs.axis_units[0].empty()) crs.stated = true;
+        const auto fine_cells = std::move(text.fine_cells);
+        const auto fine_widths = std::move(text.fine_widths);
+        auto built =
+            build_grid(std::move(text), *input_, g == 0 && porosity_ != CornerPointGrid::Porosity::single, room_, findings_, losses_);
+        if (!built) return std::move(built).why();
+        built->porosity = porosity_;
+        if (built->host) {
+            const CornerPointGrid* host = nullptr;
+            for (const Object& object : dataset.objects) {
+                const auto& other = std::get<CornerPointGrid>(object);
+                if (built->host->grid.empty() ? !other.host.has_value() : other.info.name == built->host->grid) host = &other;
+            }
+            if (host == nullptr)
+                return unreadable("F007", {input_->name()}, "the host of local grid " + shown(built->info.name) + " is not there");
+            if (built->host->last[2] >= host->dims[2])
+                return unreadable("F012", {input_->name()},
+                                  "the local grid " + shown(built->info.name) + " lies in layers of the fracture");
+            if (auto failed = refine_host(*built, fine_cells, fine_widths, *host, *input_, room_)) return std::move(*failed);
+        }
+        dataset.objects.emplace_back(std::move(*built));
+    }
+    for (auto& [section, text] : texts_)
+        dataset.annotations.push_back({"grdecl.section", std::string(section_name(section)) + "\n" + text});
+    if (unknown_count_ > 0) {
+        std::string names;
+        for (const std::string& name : unknown_) names += (names.empty() ? "" : ", ") + name;
+        findings_.push_back(
+            finding("F102", first_unknown_, "keywords that are not known are kept as they stand: " + names, unknown_count_));
+    }
+    if (stray_slashes_ > 0) findings_.push_back(finding("F118", first_stray_slash_, "a '/' ends nothing", stray_slashes_));
+    if (not_applied_ > 0) {
+        findings_.push_back(finding("F142", first_not_applied_,
+                                    "operations on arrays that are not there (" + missing_array_ + ") are kept as they stand, not applied",
+                                    not_applied_));
+    }
+    dataset.findings = std::move(findings_);
+    dataset.losses = std::move(losses_);
+    return dataset;
+}
+
+}  // namespace geomend::grdecl

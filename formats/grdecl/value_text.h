@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/number_text.h"
+#include "base/output.h"
+#include "base/parallel.h"
+
+namespace geomend::grdecl {
+
+/// What one element of an array is written as: a value, or a default (N*).
+template <class T>
+struct Element {
+    T value{};
+    bool given = true;
+
+    bool same(const Element& other) const {
+        if (given != other.given) return false;
+        if (!given) return true;
+        if constexpr (std::is_same_v<T, double>) return std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(other.value);
+        else if constexpr (std::is_same_v<T, float>)
+            return std::bit_cast<std::uint32_t>(value) == std::bit_cast<std::uint32_t>(other.value);
+        else return value == other.value;
+    }
+};
+
+/// Items in lines of at most 128 characters, the classic limit of simulators.
+class Lines {
+public:
+    void clear() {
+        text_.clear();
+        column_ = 0;
+    }
+    void put(std::string_view item) {
+        constexpr std::size_t widest = 128;
+        if (column_ + 1 + item.size() > widest) {
+            text_ += '\n';
+            column_ = 0;
+        }
+        text_ += ' ';
+        text_ += item;
+        column_ += 1 + item.size();
+    }
+    void end() {
+        if (column_ > 0) text_ += '\n';
+        column_ = 0;
+    }
+    std::string_view view() const { return text_; }
+    /// An empty text to make an item in, without an allocation for each.
+    std::string& scratch() {
+        scratch_.clear();
+        return scratch_;
+    }
+
+private:
+    std::string scratch_;
+    std::string text_;
+    std::size_t column_ = 0;
+};
+
+/// Puts count times the same element: "v", "N*v" or "N*". Numbers are the shortest digits that read back; `with_point`
+/// tells reals from whole numbers where the keyword does not.
+template <class T>
+void put_run(Lines& lines, std::size_t count, const Element<T>& element, bool with_point) {
+    std::string& text = lines.scratch();
+    if (count > 1 || !element.given) {
+        append_number(text, std::uint64_t{count});
+        text += '*';
+    }
+    if constexpr (std::is_same_v<T, std::string_view>) {
+        const char quote = element.value.find('\'') == std::string_view::npos ? '\'' : '"';
+        if (element.given) text.append(1, quote).append(element.value).append(1, quote);
+    } else if constexpr (std::is_unsigned_v<T>) {
+        if (element.given) append_number(text, std::uint64_t{element.value});
+    } else {
+        if (element.given) append_number(text, element.value);
+        if (with_point && element.given && text.find_first_of(".e", text.find('*') + 1) == std::string::npos) text += ".0";
+    }
+    lines.put(text);
+}
+
+/// A name in quotes; line ends in it become blanks.
+inline std::string in_quotes(std::string_view name) {
+    const char quote = name.find('\'') == std::string_view::npos ? '\'' : '"';
+    std::string text = quote + std::string(name) + quote;
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
+/// Writes a keyword and its array: element(i) for i < count. Several parts are made at the same time; the text does
+/// not depend on how many.
+template <class ElementAt>
+void write_array(OutputFile& out, std::string_view keyword, std::size_t count, const ElementAt& element, bool with_point = false) {
+    constexpr std::size_t grain = std::size_t{1} << 16, at_once = 16;
+    out << keyword << '\n';
+    std::vector<Lines> parts(std::min(at_once, count / grain + 1));
+    for (std::size_t base = 0; base < count && out.good(); base += at_once * grain) {
+        const std::size_t n = std::min(at_once, (count - base + grain - 1) / grain);
+        parallel_for_each_index(n, [&](std::size_t part) {
+            const std::size_t first = base + part * grain, last = std::min(count, first + grain);
+            Lines& lines = parts[part];
+            lines.clear();
+            for (std::size_t i = first; i < last;) {
+                const auto value = element(i);
+                std::size_t next = i + 1;
+                while (next < last && value.same(element(next))) ++next;
+                put_run(lines, next - i, value, with_point);
+                i = next;
+            }
+            lines.end();
+        });
+        for (std::size_t part = 0; part < n; ++part) out.write(parts[part].view());
+    }
+    out << "/\n\n";
+}
+
+}  // namespace geomend::grdecl

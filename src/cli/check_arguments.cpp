@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "cli/check_arguments.h"
+
+#include <algorithm>
+
+namespace geomend::cli {
+
+void add_check_arguments(CLI::App& command, CheckArguments& a) {
+    command.add_option("--report", a.report, "Write a report: .json, .sarif, .xml (JUnit) or .txt")->type_name("FILE");
+    command.add_option("--fail-on", a.fail_on, "Findings from which the exit status is 1 (default error)")
+        ->type_name("error|warning|info|never")
+        ->check(CLI::IsMember({"error", "warning", "info", "never"}));
+    command.add_option("--checks", a.checks, "Run only these checks")->type_name("CODE,...")->delimiter(',')->allow_extra_args(false);
+    command.add_option("--skip", a.skip, "Leave these checks out")->type_name("CODE,...")->delimiter(',')->allow_extra_args(false);
+    command.add_option("--max-findings", a.max_findings, "Most findings that are listed for a file; all are counted")->type_name("N");
+}
+
+Result<validators::CheckOptions> check_options(const CommonOptions& common, const CheckArguments& a, const Monitor* monitor) {
+    validators::CheckOptions o;
+    o.tolerance = common.tolerance;
+    o.near = common.near;
+    o.only = a.checks;
+    o.skip = a.skip;
+    o.monitor = monitor;
+    const auto options = format_options(common.options);
+    if (!options) return options.why();
+    const std::string_view cells = option_value(*options, "cells");
+    if (!cells.empty() && cells != "all" && cells != "active")
+        return failure(FailureKind::usage, "F018", {}, "--option cells=" + std::string(cells) + ": expected all or active");
+    o.all_cells = cells == "all";
+    return o;
+}
+
+bool fails(const CheckArguments& a, std::span<const Finding> findings) {
+    if (a.fail_on == "never") return false;
+    const Severity least = a.fail_on == "info" ? Severity::info : a.fail_on == "warning" ? Severity::warning : Severity::error;
+    return std::ranges::any_of(findings, [&](const Finding& f) { return f.severity >= least; });
+}
+
+Report empty_report(const CheckArguments& a) {
+    Report report;
+    report.tool = "geomend " GEOMEND_VERSION;
+    report.most_findings = a.max_findings;
+    return report;
+}
+
+}  // namespace geomend::cli

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/common_options.h"
+#include "report/report.h"
+#include "validators/grid_scope.h"
+
+namespace geomend::cli {
+
+/// What the commands that check (validate, repair) take beside the common options.
+struct CheckArguments {
+    std::string report, fail_on = "error";
+    std::vector<std::string> checks, skip;
+    std::size_t max_findings = static_cast<std::size_t>(-1);
+};
+
+void add_check_arguments(CLI::App& command, CheckArguments& arguments);
+
+/// What the checks are told. Failure (usage) for a wrong value of option cells.
+Result<validators::CheckOptions> check_options(const CommonOptions& common, const CheckArguments& arguments, const Monitor* monitor);
+
+/// True where a finding is at or above the severity of --fail-on.
+bool fails(const CheckArguments& arguments, std::span<const Finding> findings);
+
+/// A report without files yet.
+Report empty_report(const CheckArguments& arguments);
+
+}  // namespace geomend::cli

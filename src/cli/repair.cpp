@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/repair.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "base/number_text.h"
+#include "cli/check_arguments.h"
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "repair/grid_steps.h"
+
+namespace geomend::cli {
+
+namespace {
+
+struct RepairOptions : CommonOptions, CheckArguments {
+    std::string input, output;
+    std::vector<std::string> steps;
+    bool lossy = false, keep_invalid = false;
+};
+
+Result<std::optional<double>> gap_of(const FormatOptions& options) {
+    const std::string_view text = option_value(options, "gap");
+    if (text.empty()) return std::optional<double>();
+    double gap = 0;
+    if (parse_real(text, gap) != NumberStatus::ok || !(gap >= 0) || gap > 1e20)
+        return failure(FailureKind::usage, "F018", {}, "--option gap=" + std::string(text) + ": expected a length");
+    return std::optional<double>(gap);
+}
+
+Result<RepairRequest> request_of(const RepairOptions& o, const Monitor& monitor) {
+    auto options = format_options(o.options);
+    if (!options) return std::move(options).why();
+    RepairRequest request;
+    auto gap = gap_of(*options);
+    if (!gap) return std::move(gap).why();
+    request.gap = *gap;
+    auto checks = check_options(o, o, &monitor);
+    if (!checks) return std::move(checks).why();
+    request.checks = std::move(*checks);
+    request.files.inputs = {o.input};
+    request.files.output = o.output;
+    request.files.to = o.to;
+    request.files.lossy = o.lossy;
+    request.files.accept_unterminated = o.accept_unterminated;
+    request.files.load = {o.from, std::move(*options), &monitor};
+    request.steps = o.steps;
+    request.keep_invalid = o.keep_invalid;
+    return request;
+}
+
+void tell_losses(const std::vector<Loss>& losses, bool verbose) {
+    end_progress();
+    for (const Loss& loss : losses) {
+        if (loss.loss_class == LossClass::style && !verbose) continue;
+        const std::string entity = loss.entity.empty() ? std::string() : loss.entity + ": ",
+                          why = loss.why.empty() ? std::string() : ": " + loss.why;
+        std::fprintf(stderr, "lost (%s): %s%s%s\n", to_string(loss.loss_class), entity.c_str(), loss.what.c_str(), why.c_str());
+    }
+}
+
+ExitStatus run(const RepairOptions& o) {
+    if (o.json && o.output == "-")
+        return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
+    if (!o.report.empty()) {
+        if (auto form = report_form(o.report); !form) return report(form.why());
+    }
+    const ThreadBudget budget(o.threads);
+    const Monitor monitor = make_monitor(o);
+    const auto request = request_of(o, monitor);
+    if (!request) return report(request.why());
+    auto repaired = repair_file(*request);
+    if (!repaired) return report(repaired.why());
+    const bool valid = count_by_severity(repaired->file.findings).error == 0;
+    ExitStatus status = !valid ? ExitStatus::invalid_result : fails(o, repaired->file.findings) ? ExitStatus::findings : ExitStatus::done;
+    Report all = empty_report(o);
+    all.files.push_back(std::move(repaired->file));
+    if (!o.report.empty()) {
+        if (auto written = write_report(all, o.report); !written) status = worse(status, report(written.why()));
+    }
+    if (!o.quiet) tell_losses(repaired->losses, o.verbose);
+    if (o.json) return worse(status, print(report_json(all)));
+    if (!o.quiet) {
+        // The model itself may go to standard output.
+        const std::string text = report_text(all, ::isatty(o.output == "-" ? STDERR_FILENO : STDOUT_FILENO) == 1);
+        if (o.output == "-") std::fputs(text.c_str(), stderr);
+        else status = worse(status, print(text));
+    }
+    if (!repaired->written) std::fputs("geomend: the result is not valid: nothing was written (--keep-invalid writes it)\n", stderr);
+    return status;
+}
+
+}  // namespace
+
+void add_repair(CLI::App& program, ExitStatus& status) {
+    auto* command = program.add_subcommand("repair", "Mend what validate finds, by explicit steps; so far of corner-point grids");
+    auto o = std::make_shared<RepairOptions>();
+    command->add_option("IN", o->input, "Input file; - is standard input")->required();
+    command->add_option("-o,--output", o->output, "Output file; - is standard output")->required()->type_name("OUT");
+    std::string names;
+    for (const repair::StepRow& row : repair::grid_steps()) names += (names.empty() ? "" : "|") + std::string(row.name);
+    command
+        ->add_option("--step", o->steps, "A step, may be repeated; taken in the order given (default monotone, close-gaps, drop-collapsed)")
+        ->type_name(names)
+        ->allow_extra_args(false);
+    command->add_flag("--keep-invalid", o->keep_invalid, "Write the result even where it still has errors");
+    command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
+    add_check_arguments(*command, *o);
+    add_common_options(*command, *o, true);
+    command->callback([o, &status] { status = run(*o); });
+}
+
+}  // namespace geomend::cli

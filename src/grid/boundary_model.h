@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "grid/faces.h"
+#include "model/dataset.h"
+
+namespace geomend::grid {
+
+/// Which surfaces and regions a model takes from a grid.
+struct ModelRequest {
+    std::string regions;                  ///< attribute of cells whose values are regions; empty: none
+    std::vector<std::uint32_t> horizons;  ///< layers (from 1) below which a horizon lies
+};
+
+/// The boundary representation of a grid, as surfaces and a model stated over them: the outside of the grid (one surface
+/// per side), faults (named by FAULTS records, else "unnamed throw"), horizons below the chosen layers and what else
+/// divides two regions. Regions are the values of an attribute, cut at horizons where those are given. Surfaces are
+/// made of the faces of conforming_faces(), as polygons, so that they share their points where they meet.
+/// Failure (usage) where the attribute is missing or a layer is not in the grid.
+Result<Dataset> boundary_model(const CornerPointGrid& grid, const ModelRequest& request);
+
+/// The name of the fault that FAULTS records put on a face of a cell, or nullptr. Built once per grid.
+class FaultFaces {
+public:
+    explicit FaultFaces(const CornerPointGrid& grid);
+    const std::string* find(std::size_t cell, CellFace face) const;
+
+private:
+    const CornerPointGrid& grid_;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> faces_;  // 6 cell + face, fault; sorted
+};
+
+}  // namespace geomend::grid

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "grid/connections.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "grid/pillar_nodes.h"
+
+namespace geomend::grid {
+
+namespace {
+
+// Corners of the top of a cell that lie on its side towards a neighbour: on pillar a and on pillar b.
+constexpr std::array<std::array<unsigned, 2>, 4> side_corners{{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
+
+// Cells lie upright and each active one below the last one.
+bool in_order(std::span<const Side> sides, std::span<const std::uint8_t> active) {
+    const Side* above = nullptr;
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        if (active[k] == 0) continue;
+        if (!sides[k].upright()) return false;
+        if (above != nullptr && (sides[k].top_a < above->bottom_a || sides[k].top_b < above->bottom_b)) return false;
+        above = &sides[k];
+    }
+    return true;
+}
+
+void column_presence(const CornerPointGrid& grid, std::span<const std::uint8_t> present, std::uint32_t i, std::uint32_t j,
+                     std::vector<std::uint8_t>& column) {
+    const std::size_t layer = std::size_t{grid.dims[0]} * grid.dims[1];
+    column.resize(grid.dims[2]);
+    std::size_t cell = grid.cell(i, j, 0);
+    for (std::uint8_t& p : column) {
+        p = present[cell];
+        cell += layer;
+    }
+}
+
+struct RowResult {
+    std::vector<NonNeighbour> along_i, along_j;
+    std::uint64_t internal = 0;
+};
+
+void connect_row(const CornerPointGrid& grid, std::uint32_t j, PairSides& sides, Connections& to, RowResult& row) {
+    each_pair_of_row(grid, j, [&](const ColumnPair& pair) {
+        load(grid, to.present, pair, sides);
+        const auto first = static_cast<std::uint32_t>(grid.cell(pair.i, pair.j, 0));
+        const std::uint32_t second = first + (pair.along_i ? 1 : grid.dims[0]);
+        const std::uint32_t layer = grid.dims[0] * grid.dims[1];
+        each_contact(sides, [&](std::uint32_t k, std::uint32_t m) {
+            if (!grid.reservoirs.empty() && pillar_set(grid, k) != pillar_set(grid, m)) return;
+            ++row.internal;
+            if (k == m) to.neighbours[first + std::size_t{layer} * k] |= pair.along_i ? Connections::east : Connections::south;
+            else
+                (pair.along_i ? row.along_i : row.along_j)
+                    .push_back({first + layer * k, second + layer * m, pair.along_i ? CellFace::i_plus : CellFace::j_plus});
+        });
+    });
+}
+
+void connect_downwards(const CornerPointGrid& grid, std::uint32_t j, Connections& to, RowResult& row) {
+    for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
+        std::size_t above = grid.cell_count();
+        for (std::uint32_t k = 0; k < grid.dims[2]; ++k) {
+            const std::size_t cell = grid.cell(i, j, k);
+            if (to.present[cell] == 0) continue;
+            if (above < grid.cell_count() && stacked(grid, above, cell)) {
+                to.neighbours[above] |= Connections::below;
+                ++row.internal;
+            }
+            above = cell;
+        }
+    }
+}
+
+}  // namespace
+
+std::size_t next_below(const CornerPointGrid& grid, std::span<const std::uint8_t> present, std::size_t cell) {
+    const std::size_t layer = std::size_t{grid.dims[0]} * grid.dims[1], cells = grid.cell_count();
+    for (std::size_t next = cell + layer; next < cells; next += layer) {
+        if (present[next] != 0) return next;
+    }
+    return cells;
+}
+
+bool stacked(const CornerPointGrid& grid, std::size_t upper, std::size_t lower) {
+    const auto u = grid.ijk(upper), l = grid.ijk(lower);
+    if (!grid.reservoirs.empty() && pillar_set(grid, u[2]) != pillar_set(grid, l[2])) return false;
+    for (unsigned c = 0; c < 4; ++c) {
+        if (grid.depths[corner_index(grid.dims, u[0], u[1], u[2], c + 4)] != grid.depths[corner_index(grid.dims, l[0], l[1], l[2], c)])
+            return false;
+    }
+    return true;
+}
+
+void column_sides(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, CellFace face, std::span<Side> sides) {
+    const auto [a, b] = side_corners[static_cast<std::size_t>(face)];
+    const std::size_t plane = 4 * std::size_t{grid.dims[0]} * grid.dims[1];
+    const double* at_a = grid.depths.data() + corner_index(grid.dims, i, j, 0, a);
+    const double* at_b = grid.depths.data() + corner_index(grid.dims, i, j, 0, b);
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        sides[k] = {at_a[2 * k * plane], at_b[2 * k * plane], at_a[(2 * k + 1) * plane], at_b[(2 * k + 1) * plane]};
+    }
+}
+
+void load(const CornerPointGrid& grid, std::span<const std::uint8_t> present, const ColumnPair& pair, PairSides& sides) {
+    const std::uint32_t i2 = pair.i + (pair.along_i ? 1 : 0), j2 = pair.j + (pair.along_i ? 0 : 1);
+    sides.first.resize(grid.dims[2]);
+    sides.second.resize(grid.dims[2]);
+    column_sides(grid, pair.i, pair.j, pair.along_i ? CellFace::i_plus : CellFace::j_plus, sides.first);
+    column_sides(grid, i2, j2, pair.along_i ? CellFace::i_minus : CellFace::j_minus, sides.second);
+    column_presence(grid, present, pair.i, pair.j, sides.first_active);
+    column_presence(grid, present, i2, j2, sides.second_active);
+    sides.ordered = in_order(sides.first, sides.first_active) && in_order(sides.second, sides.second_active);
+}
+
+Connections connections(const CornerPointGrid& grid) {
+    Connections result;
+    result.neighbours.assign(grid.cell_count(), 0);
+    result.present = present_cells(grid);
+    std::vector<RowResult> rows(grid.dims[1]);
+    parallel_blocks(rows.size(), 1, [&](std::size_t first, std::size_t last) {
+        PairSides sides;
+        for (std::size_t j = first; j < last; ++j) {
+            connect_row(grid, static_cast<std::uint32_t>(j), sides, result, rows[j]);
+            connect_downwards(grid, static_cast<std::uint32_t>(j), result, rows[j]);
+        }
+    });
+    for (const RowResult& row : rows) {
+        result.internal += row.internal;
+        result.others.insert(result.others.end(), row.along_i.begin(), row.along_i.end());
+    }
+    for (const RowResult& row : rows) result.others.insert(result.others.end(), row.along_j.begin(), row.along_j.end());
+    return result;
+}
+
+}  // namespace geomend::grid

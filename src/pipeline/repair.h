@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "pipeline/convert.h"
+#include "pipeline/validate.h"
+
+namespace geomend {
+
+struct RepairRequest {
+    ConvertRequest files;            ///< one input
+    std::vector<std::string> steps;  ///< in the order in which they are taken; empty: the usual ones
+    std::optional<double> gap;       ///< for close-gaps
+    bool keep_invalid = false;       ///< write a result that still has errors
+    validators::CheckOptions checks;
+};
+
+/// What came of a repair.
+struct RepairReport {
+    ReportedFile file;         ///< what is found after it, and what each step did
+    bool valid_before = true;  ///< no error was found before
+    bool written = false;
+    std::vector<Loss> losses;
+};
+
+/// Reads, takes the steps, validates the result and writes it: also where it still has errors, if that is accepted, else
+/// not (`written` tells). Only corner-point grids can be repaired so far: failure (usage) where the input has none.
+/// Other failures are those of convert().
+Result<RepairReport> repair_file(const RepairRequest& request);
+
+}  // namespace geomend

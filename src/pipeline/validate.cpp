@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/validate.h"
+
+#include <algorithm>
+#include <map>
+#include <new>
+
+namespace geomend {
+
+namespace {
+
+bool has_errors(const std::vector<Finding>& findings) {
+    return std::ranges::any_of(findings, [](const Finding& f) { return f.severity == Severity::error; });
+}
+
+// One finding for each kind of object that cannot be judged yet.
+void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
+    std::map<std::string, Finding> kinds;
+    for (const Object& object : dataset.objects) {
+        if (std::holds_alternative<CornerPointGrid>(object)) continue;
+        Finding& f = kinds[kind_name(object)];
+        ++f.count;
+        if (f.entities.size() < 100) f.entities.push_back({kind_name(object), info_of(object).name});
+    }
+    for (auto& [kind, f] : kinds) {
+        f.code = "F160";
+        f.message = "no check exists yet for objects of kind " + kind + ": " + std::to_string(f.count) +
+                    (f.count == 1 ? " was read, but not judged" : " were read, but not judged");
+        findings.push_back(std::move(f));
+    }
+}
+
+}  // namespace
+
+Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options) {
+    if (auto known = validators::known_codes(options); !known) return std::move(known).why();
+    ReportedFile file;
+    file.file = path;
+    std::ranges::copy_if(dataset.findings, std::back_inserter(file.findings),
+                         [&](const Finding& f) { return !f.code.starts_with('C') || validators::wanted(options, f.code); });
+    bool all_judged = !dataset.objects.empty();
+    for (const Object& object : dataset.objects) {
+        const auto* grid = std::get_if<CornerPointGrid>(&object);
+        all_judged = all_judged && grid != nullptr;
+        if (grid == nullptr) continue;
+        auto checked = validators::check(*grid, options);
+        if (!checked) return std::move(checked).why();
+        all_judged = all_judged && checked->geometry;
+        file.tolerance = std::max(file.tolerance, checked->lengths.tolerance);
+        file.near = std::max(file.near, checked->lengths.near);
+        std::ranges::move(checked->findings, std::back_inserter(file.findings));
+    }
+    tell_unchecked(dataset, file.findings);
+    if (has_errors(file.findings)) file.valid = false;
+    else if (all_judged) file.valid = true;
+    return file;
+}
+
+Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_options, const validators::CheckOptions& options) {
+    if (auto known = validators::known_codes(options); !known) return std::move(known).why();
+    auto dataset = load(path, load_options);
+    if (!dataset) return std::move(dataset).why();
+    try {
+        return validate(path, *dataset, options);
+    } catch (const std::bad_alloc&) {
+        return failure(FailureKind::limit, "F023", {path}, "there is not enough memory for the checks");
+    }
+}
+
+ReportedFile unreadable_file(const std::string& path, const Failure& why) {
+    ReportedFile file;
+    file.file = path;
+    file.valid = false;
+    file.findings.push_back(why.error);
+    file.findings.insert(file.findings.end(), why.also.begin(), why.also.end());
+    return file;
+}
+
+}  // namespace geomend

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include "base/result.h"
+#include "model/dataset.h"
+#include "pipeline/load.h"
+#include "report/report.h"
+#include "validators/registry.h"
+
+namespace geomend {
+
+/// Runs the checks that apply to each object; what the reader noticed is in the report, too. Objects of kinds that no
+/// check exists for are named (F160), and the file is then not called valid.
+/// Failure: a code of the options is of no check (usage), or stopped (cancelled).
+Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options);
+
+/// Reads a file and validates it. Failure as of load().
+Result<ReportedFile> validate(const std::string& path, const LoadOptions& load, const validators::CheckOptions& options);
+
+/// A file that could not be read, for a report: not valid, with what stopped the reader as its findings.
+ReportedFile unreadable_file(const std::string& path, const Failure& why);
+
+}  // namespace geomend

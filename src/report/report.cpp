@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "report/report.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "base/output.h"
+#include "report/json.h"
+#include "report/worst_first.h"
+
+namespace geomend {
+
+namespace {
+
+std::string plain_text(const Report& report) { return report_text(report, false); }
+
+struct Form {
+    std::string_view extension;
+    std::string (*make)(const Report&);
+};
+constexpr std::array forms{Form{".json", report_json}, Form{".sarif", report_sarif}, Form{".xml", report_junit}, Form{".txt", plain_text}};
+
+Result<const Form*> form_of(const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    const auto form = std::ranges::find(forms, extension, &Form::extension);
+    if (form != forms.end()) return &*form;
+    return failure(FailureKind::usage, "F018", {}, "--report " + path + ": expected a name that ends with .json, .sarif, .xml or .txt");
+}
+
+Json file_json(const ReportedFile& file, std::size_t most) {
+    Json j{{"file", file.file}};
+    if (file.valid) j["valid"] = *file.valid;
+    const SeverityCounts counts = count_by_severity(file.findings);
+    j["counts"] = {{"error", counts.error}, {"warning", counts.warning}, {"info", counts.info}};
+    j["tolerance"] = file.tolerance;
+    j["near"] = file.near;
+    Json findings = Json::array();
+    const auto sorted = worst_first(file.findings);
+    for (const Finding* f : std::span(sorted).first(std::min(most, sorted.size()))) findings.push_back(finding_json(*f));
+    if (sorted.size() > most) j["not_listed"] = sorted.size() - most;
+    j["findings"] = std::move(findings);
+    if (file.steps.empty()) return j;
+    Json steps = Json::array();
+    for (const ReportedStep& s : file.steps) {
+        Json all = finding_json(s.what), step{{"step", s.step}};
+        for (auto& [key, value] : all.items()) {
+            if (key != "code" && key != "severity" && key != "fix") step[key] = std::move(value);
+        }
+        step["count"] = s.what.count;
+        steps.push_back(std::move(step));
+    }
+    j["steps"] = std::move(steps);
+    return j;
+}
+
+}  // namespace
+
+SeverityCounts count_by_severity(std::span<const Finding> findings) {
+    SeverityCounts counts;
+    for (const Finding& f : findings)
+        ++(f.severity == Severity::error ? counts.error : f.severity == Severity::warning ? counts.warning : counts.info);
+    return counts;
+}
+
+std::vector<const Finding*> worst_first(std::span<const Finding> findings) {
+    std::vector<const Finding*> all;
+    for (const Finding& f : findings) all.push_back(&f);
+    std::ranges::stable_sort(all, [](const Finding* a, const Finding* b) { return a->severity > b->severity; });
+    return all;
+}
+
+std::string report_json(const Report& report) {
+    double tolerance = 0, near = 0;  // of several files the largest; each has its own
+    Json files = Json::array();
+    for (const ReportedFile& file : report.files) {
+        tolerance = std::max(tolerance, file.tolerance);
+        near = std::max(near, file.near);
+        files.push_back(file_json(file, report.most_findings));
+    }
+    return json_text(Json{{"schema", 1}, {"tool", report.tool}, {"tolerance", tolerance}, {"near", near}, {"files", std::move(files)}});
+}
+
+Result<void> report_form(const std::string& path) {
+    const auto form = form_of(path);
+    return form ? Result<void>() : Result<void>(form.why());
+}
+
+Result<void> write_report(const Report& report, const std::string& path) {
+    const auto form = form_of(path);
+    if (!form) return form.why();
+    OutputSet output(path);
+    output.main_file() << (*form)->make(report);
+    return output.commit();
+}
+
+}  // namespace geomend

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace geomend {
+
+/// What one step of a repair did; `what` has its message, entities, elements and count, and no code.
+struct ReportedStep {
+    std::string step;
+    Finding what;
+};
+
+/// What was found in one file.
+struct ReportedFile {
+    std::string file;
+    std::optional<bool> valid;  ///< no error; nothing where not all of the file could be judged and no error was found
+    double tolerance = 0, near = 0;
+    std::vector<Finding> findings;
+    std::vector<ReportedStep> steps;  ///< of a repair
+};
+
+struct Report {
+    std::string tool;  ///< "geomend 0.1.0"
+    std::vector<ReportedFile> files;
+    std::size_t most_findings = static_cast<std::size_t>(-1);  ///< listed for each file; all are counted
+};
+
+/// Numbers of findings by severity.
+struct SeverityCounts {
+    std::uint64_t error = 0, warning = 0, info = 0;
+};
+SeverityCounts count_by_severity(std::span<const Finding> findings);
+
+/// The schema that INTERFACE states (1): files with findings, worst first.
+std::string report_json(const Report& report);
+/// For people: grouped by entity, worst first. \param colour with the escapes of terminals
+std::string report_text(const Report& report, bool colour);
+/// JUnit XML: a suite for each file, a case for each finding; errors are failures.
+std::string report_junit(const Report& report);
+/// SARIF 2.1.0.
+std::string report_sarif(const Report& report);
+
+/// Writes by extension: .json, .sarif, .xml (JUnit), .txt. Failure (usage) for others, (unwritable) where it cannot.
+Result<void> write_report(const Report& report, const std::string& path);
+/// Failure (usage) where write_report() would refuse the extension.
+Result<void> report_form(const std::string& path);
+
+}  // namespace geomend

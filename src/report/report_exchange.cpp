@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <set>
+
+#include "base/codes.h"
+#include "report/json.h"
+#include "report/report.h"
+#include "report/worst_first.h"
+
+// Forms that other programs read: JUnit (as continuous integration servers take it) and SARIF 2.1.0 (OASIS standard).
+
+namespace geomend {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                // XML 1.0 has no other control characters, not even escaped.
+                out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
+        }
+    }
+    return out;
+}
+
+std::string entity_of(const Finding& f) { return f.entities.empty() ? std::string("file") : f.entities.front().name; }
+
+const char* level(Severity severity) {
+    constexpr const char* words[] = {"note", "warning", "error"};
+    return words[static_cast<std::size_t>(severity)];
+}
+
+Json sarif_rules(const Report& report) {
+    std::set<std::string> codes;
+    for (const ReportedFile& file : report.files) {
+        for (const Finding& f : file.findings) codes.insert(f.code);
+    }
+    Json rules = Json::array();
+    for (const std::string& code : codes) {
+        Json rule{{"id", code}};
+        if (const CodeInfo* row = find_code(code)) {
+            rule["shortDescription"] = {{"text", std::string(row->meaning)}};
+            if (!row->fix.empty()) rule["help"] = {{"text", std::string(row->fix)}};
+            rule["defaultConfiguration"] = {{"level", level(row->severity)}};
+        }
+        rules.push_back(std::move(rule));
+    }
+    return rules;
+}
+
+Json sarif_result(const ReportedFile& file, const Finding& f) {
+    Json physical{{"artifactLocation", {{"uri", f.where.file.empty() ? file.file : f.where.file}}}};
+    if (f.where.line > 0) {
+        physical["region"] = {{"startLine", f.where.line}};
+        if (f.where.column > 0) physical["region"]["startColumn"] = f.where.column;
+    }
+    Json place{{"physicalLocation", std::move(physical)}};
+    if (!f.entities.empty()) {
+        Json logical = Json::array();
+        for (const EntityRef& e : f.entities) logical.push_back({{"name", e.name}, {"kind", e.kind}});
+        place["logicalLocations"] = std::move(logical);
+    }
+    Json result{{"ruleId", f.code}, {"level", level(f.severity)}, {"message", {{"text", f.message}}}};
+    result["locations"] = Json::array({std::move(place)});
+    Json all = finding_json(f), more = Json::object();
+    for (const char* key : {"elements", "index", "element_kind", "count", "points", "polylines", "measures"}) {
+        if (all.contains(key)) more[key] = std::move(all[key]);
+    }
+    if (!more.empty()) result["properties"] = std::move(more);
+    return result;
+}
+
+}  // namespace
+
+std::string report_junit(const Report& report) {
+    std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"" + escaped(report.tool) + "\">\n";
+    for (const ReportedFile& file : report.files) {
+        const SeverityCounts n = count_by_severity(file.findings);
+        const std::size_t cases = std::max<std::size_t>(1, file.findings.size());
+        text += " <testsuite name=\"" + escaped(file.file) + "\" tests=\"" + std::to_string(cases) + "\" failures=\"" +
+                std::to_string(n.error) + "\">\n";
+        if (file.findings.empty()) text += "  <testcase classname=\"" + escaped(file.file) + "\" name=\"all checks\"/>\n";
+        for (const Finding* f : worst_first(file.findings)) {
+            text += "  <testcase classname=\"" + escaped(file.file) + "\" name=\"" + f->code + ' ' + escaped(entity_of(*f)) + "\">";
+            const bool error = f->severity == Severity::error;
+            text += error ? "<failure type=\"" + f->code + "\" message=\"" + escaped(f->message) + "\">" : "<system-out>";
+            text += escaped(json_text(finding_json(*f)));
+            text += error ? "</failure>" : "</system-out>";
+            text += "</testcase>\n";
+        }
+        text += " </testsuite>\n";
+    }
+    return text + "</testsuites>\n";
+}
+
+std::string report_sarif(const Report& report) {
+    const std::size_t blank = report.tool.find(' ');
+    Json driver{{"name", report.tool.substr(0, blank)}};
+    if (blank != std::string::npos) driver["version"] = report.tool.substr(blank + 1);
+    driver["rules"] = sarif_rules(report);
+    Json results = Json::array();
+    for (const ReportedFile& file : report.files) {
+        for (const Finding* f : worst_first(file.findings)) results.push_back(sarif_result(file, *f));
+    }
+    Json run{{"tool", {{"driver", std::move(driver)}}}, {"results", std::move(results)}};
+    return json_text(
+        Json{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({std::move(run)})}});
+}
+
+}  // namespace geomend

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <cstdio>
+
+#include "base/codes.h"
+#include "report/elements.h"
+#include "report/report.h"
+#include "report/worst_first.h"
+
+namespace geomend {
+
+namespace {
+
+constexpr std::size_t shown_elements = 8;
+
+std::string rounded(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
+
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+class Text {
+public:
+    explicit Text(bool colour) : colour_(colour) {}
+
+    void file(const ReportedFile& file, std::size_t most) {
+        const SeverityCounts n = count_by_severity(file.findings);
+        const char* state = !file.valid ? "not fully checked" : *file.valid ? "valid" : "not valid";
+        text_ += file.file + ": " +
+                 painted(state, !file.valid   ? "33"
+                                : *file.valid ? "32"
+                                              : "31") +
+                 "; " + counted(n.error, "error", "errors") + ", " + counted(n.warning, "warning", "warnings") + ", " +
+                 counted(n.info, "note", "notes");
+        if (file.tolerance > 0) text_ += "; tolerance " + rounded(file.tolerance) + ", near " + rounded(file.near);
+        text_ += '\n';
+        for (const ReportedStep& s : file.steps) step(s);
+        by_entity(file, most);
+    }
+    std::string take() { return std::move(text_); }
+
+private:
+    std::string painted(const std::string& word, const char* colour) const {
+        return colour_ ? std::string("\033[1;") + colour + "m" + word + "\033[0m" : word;
+    }
+
+    void by_entity(const ReportedFile& file, std::size_t most) {
+        const auto sorted = worst_first(file.findings);
+        const std::size_t shown = std::min(most, sorted.size());
+        // Entities in the order of their worst finding.
+        std::vector<std::pair<std::string, std::vector<const Finding*>>> groups;
+        for (std::size_t i = 0; i < shown; ++i) {
+            std::string name = "file";
+            if (!sorted[i]->entities.empty()) name = sorted[i]->entities.front().kind + " '" + sorted[i]->entities.front().name + "'";
+            auto group = std::ranges::find(groups, name, [](const auto& g) { return g.first; });
+            if (group == groups.end()) group = groups.insert(groups.end(), {name, {}});
+            group->second.push_back(sorted[i]);
+        }
+        for (const auto& [name, findings] : groups) {
+            text_ += "  " + name + '\n';
+            for (const Finding* f : findings) finding(*f);
+        }
+        if (sorted.size() > shown) text_ += "  ... and " + counted(sorted.size() - shown, "more finding", "more findings") + '\n';
+    }
+
+    void finding(const Finding& f) {
+        constexpr const char* words[] = {"note   ", "warning", "error  "};
+        constexpr const char* colours[] = {"36", "33", "31"};
+        const auto severity = static_cast<std::size_t>(f.severity);
+        text_ += "    " + painted(words[severity], colours[severity]) + ' ' + f.code + "  ";
+        if (!f.where.file.empty() && (f.where.line > 0 || f.where.offset >= 0)) text_ += to_string(f.where) + ": ";
+        text_ += f.message + '\n';
+        further_entities(f);
+        elements(f);
+        const CodeInfo* row = find_code(f.code);
+        if (row != nullptr && !row->fix.empty()) text_ += indent() + "to mend it: " + std::string(row->fix) + '\n';
+    }
+
+    void step(const ReportedStep& s) {
+        text_ += "  " + painted(s.step, "36") + ": " + s.what.message + '\n';
+        elements(s.what);
+    }
+
+    void further_entities(const Finding& f) {
+        if (f.entities.size() < 2) return;
+        text_ += indent() + f.entities[1].kind + ':';
+        for (std::size_t e = 1; e < f.entities.size() && e <= shown_elements; ++e) text_ += ' ' + f.entities[e].name;
+        if (f.entities.size() > shown_elements + 1) text_ += " ...";
+        text_ += '\n';
+    }
+
+    void elements(const Finding& f) {
+        if (f.elements.empty()) return;
+        const std::size_t width = numbers_of_element(f), listed = f.elements.size() / width, shown = std::min(listed, shown_elements);
+        text_ += indent() + element_kind(f) + (f.count == 1 ? "" : "s");
+        for (std::size_t e = 0; e < shown; ++e) {
+            text_ += width > 1 ? " (" : " ";
+            for (std::size_t n = 0; n < width; ++n) text_ += (n > 0 ? "," : "") + std::to_string(f.elements[e * width + n]);
+            if (width > 1) text_ += ')';
+        }
+        if (f.count > shown) text_ += " and " + std::to_string(f.count - shown) + " more";
+        text_ += '\n';
+    }
+
+    static std::string indent() { return std::string(18, ' '); }
+
+    bool colour_;
+    std::string text_;
+};
+
+}  // namespace
+
+std::string report_text(const Report& report, bool colour) {
+    Text text(colour);
+    for (const ReportedFile& file : report.files) text.file(file, report.most_findings);
+    return text.take();
+}
+
+}  // namespace geomend

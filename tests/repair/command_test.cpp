@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+// The commands validate and repair as a user runs them.
+
+namespace geomend {
+namespace {
+
+using test::run_geomend;
+using test::TemporaryFolder;
+
+// One column of three cells; each gives the depths of its top and its bottom.
+std::string column_deck(const std::vector<std::array<double, 2>>& cells) {
+    std::string text = "SPECGRID\n1 1 " + std::to_string(cells.size()) + " 1 F /\nCOORD\n";
+    for (const char* xy : {"0 0", "100 0", "0 100", "100 100"}) text += std::string(xy) + " 1000 " + xy + " 1100\n";
+    text += "/\nZCORN\n";
+    for (const auto& cell : cells) {
+        for (const double z : cell) text += "4*" + std::to_string(z) + "\n";
+    }
+    return text + "/\n";
+}
+
+nlohmann::json json_of(const test::ProgramRun& run) { return nlohmann::json::parse(run.out, nullptr, false); }
+
+TEST(Validate, TellsByItsStatusWhatItFound) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "good.grdecl", column_deck({{1000, 1010}, {1010, 1020}}));
+    test::write_file(folder / "gap.grdecl", column_deck({{1000, 1010}, {1012, 1020}}));
+    test::write_file(folder / "overlap.grdecl", column_deck({{1000, 1013}, {1010, 1020}}));
+    test::write_file(folder / "short.grdecl", "SPECGRID\n1 1 2 1 F /\nCOORD\n1 2 3 /\n");
+    const auto status = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "validate");
+        return run_geomend(arguments).status;
+    };
+    const std::string good = folder / "good.grdecl", gap = folder / "gap.grdecl", overlap = folder / "overlap.grdecl",
+                      cut = folder / "short.grdecl";
+    EXPECT_EQ(status({good}), 0);
+    EXPECT_EQ(status({gap}), 0);
+    EXPECT_EQ(status({gap, "--fail-on", "warning"}), 1);
+    EXPECT_EQ(status({overlap}), 1);
+    EXPECT_EQ(status({overlap, "--fail-on", "never"}), 0);
+    EXPECT_EQ(status({overlap, "--skip", "C04"}), 0);
+    EXPECT_EQ(status({overlap, "--checks", "C03,C05"}), 0);
+    EXPECT_EQ(status({overlap, "--checks", "C77"}), 2);
+    EXPECT_EQ(status({overlap, "--tolerance", "5"}), 0);
+    EXPECT_EQ(status({good, cut, overlap}), 3);
+    EXPECT_EQ(status({good, "--report", folder / "report.doc"}), 2);
+}
+
+TEST(Validate, ReportsInTheSchemaOfTheInterface) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "overlap.grdecl", column_deck({{1000, 1010}, {1010, 1023}, {1020, 1030}}));
+    const auto run = run_geomend({"validate", "--json", folder / "overlap.grdecl", "--report", folder / "r.sarif"});
+    EXPECT_EQ(run.status, 1);
+    const auto j = json_of(run);
+    ASSERT_TRUE(j.is_object()) << run.out << run.err;
+    EXPECT_EQ(j["schema"], 1);
+    EXPECT_GT(j["tolerance"], 0);
+    const auto& file = j["files"].at(0);
+    EXPECT_EQ(file["valid"], false);
+    EXPECT_EQ(file["counts"]["error"], 1);
+    const auto& f = file["findings"].at(0);
+    EXPECT_EQ(f["code"], "C04");
+    EXPECT_EQ(f["severity"], "error");
+    EXPECT_EQ(f["elements"], nlohmann::json::parse("[[1,1,2]]"));
+    EXPECT_EQ(f["index"], nlohmann::json::parse("[1]"));
+    EXPECT_EQ(f["element_kind"], "cell");
+    EXPECT_EQ(f["count"], 1);
+    EXPECT_DOUBLE_EQ(f["measures"]["overlap"], 3);
+    EXPECT_EQ(f["entities"][0]["kind"], "corner-point-grid");
+    const auto sarif = nlohmann::json::parse(test::read_file(folder / "r.sarif"), nullptr, false);
+    ASSERT_TRUE(sarif.is_object());
+    EXPECT_EQ(sarif["version"], "2.1.0");
+    EXPECT_EQ(sarif["runs"][0]["results"][0]["ruleId"], "C04");
+}
+
+TEST(Validate, DoesNotCallValidWhatItCannotJudge) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "p.vs", "GOCAD VSet 1\nHEADER {\nname:p\n}\nVRTX 1 0 0 0\nEND\n");
+    const auto run = run_geomend({"validate", "--json", folder / "p.vs"});
+    EXPECT_EQ(run.status, 0);
+    const auto j = json_of(run);
+    EXPECT_FALSE(j["files"][0].contains("valid"));
+    EXPECT_NE(run.out.find("F160"), std::string::npos);
+}
+
+TEST(Repair, MendsWithTheUsualStepsAndTellsWhatItDid) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "in.grdecl", column_deck({{1000, 1010}, {1010, 1004}, {1004, 1020}}));
+    const auto run = run_geomend({"repair", folder / "in.grdecl", "-o", folder / "out.grdecl", "--json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    const auto j = json_of(run);
+    ASSERT_EQ(j["files"][0]["steps"].size(), 3u) << run.out;
+    EXPECT_EQ(j["files"][0]["steps"][0]["step"], "monotone");
+    EXPECT_EQ(j["files"][0]["steps"][0]["elements"], nlohmann::json::parse("[[1,1,2]]"));
+    EXPECT_EQ(j["files"][0]["steps"][2]["count"], 1) << "the inverted cell has no thickness now";
+    EXPECT_EQ(run_geomend({"validate", "--fail-on", "warning", folder / "out.grdecl"}).status, 0);
+}
+
+TEST(Repair, WritesNothingThatIsNotValidUnlessAsked) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "in.grdecl", column_deck({{1000, 1013}, {1010, 1020}}));
+    const std::string in = folder / "in.grdecl", out = folder / "out.grdecl";
+    EXPECT_EQ(run_geomend({"repair", in, "-o", out}).status, 6) << "3 is more than the tolerance";
+    EXPECT_FALSE(std::filesystem::exists(out));
+    EXPECT_EQ(run_geomend({"repair", in, "-o", out, "--keep-invalid"}).status, 6);
+    EXPECT_TRUE(std::filesystem::exists(out));
+    EXPECT_EQ(run_geomend({"repair", in, "-o", out, "--option", "gap=5"}).status, 0);
+    EXPECT_EQ(run_geomend({"validate", out}).status, 0);
+    EXPECT_EQ(run_geomend({"repair", in, "-o", out, "--step", "smooth"}).status, 2);
+    EXPECT_EQ(run_geomend({"repair", in, "-o", out, "--option", "gap=wide"}).status, 2);
+}
+
+TEST(Checks, TableNamesEveryCornerPointCheck) {
+    const auto run = run_geomend({"checks", "--json"});
+    const auto j = nlohmann::json::parse(run.out, nullptr, false);
+    std::size_t corner_point = 0;
+    for (const auto& row : j) {
+        if (row["code"].get<std::string>()[0] != 'C') continue;
+        ++corner_point;
+        EXPECT_FALSE(row["condition"].get<std::string>().empty());
+    }
+    EXPECT_EQ(corner_point, 22u);
+}
+
+}  // namespace
+}  // namespace geomend

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "pipeline/validate.h"
+#include "support/real_data.h"
+#include "validators/checks_testing.h"
+
+namespace geomend {
+namespace {
+
+using namespace testing;
+using Codes = std::set<std::string>;
+
+// Findings of a real file; nothing where it is not there, which skips the test.
+std::optional<ReportedFile> report_of(const std::string& name) {
+    const auto path = test::real_data("cornerpoint/" + name);
+    if (!path) return {};
+    auto file = validate(path->string(), LoadOptions{}, CheckOptions{});
+    EXPECT_TRUE(file) << name << ": " << (file ? "" : file.why().error.message);
+    if (!file) return ReportedFile{};
+    return std::move(*file);
+}
+
+#define REPORT_OF(variable, name)          \
+    const auto variable = report_of(name); \
+    if (!variable) GTEST_SKIP() << "no real data"
+
+std::uint64_t count(const ReportedFile& file, const std::string& code) {
+    for (const Finding& f : file.findings) {
+        if (f.code == code) return f.count;
+    }
+    return 0;
+}
+
+TEST(RealGrids, CollapsedCellsOf20X20X6AreCounted) {
+    REPORT_OF(file, "pygrdecl/20X20X6.GRDECL");
+    EXPECT_EQ(count(*file, "C05"), 49u);
+    EXPECT_EQ(file->valid, true);
+}
+
+TEST(RealGrids, WedgesOfReekAreCountedInBothEncodings) {
+    for (const char* name : {"reek/reek_sim_grid.grdecl", "reek/REEK.EGRID"}) {
+        REPORT_OF(file, name);
+        EXPECT_EQ(count(*file, "C06"), 20u) << name;
+        EXPECT_EQ(file->valid, true) << name;
+    }
+}
+
+TEST(RealGrids, WedgesOfTheSecondReekAreCounted) {
+    REPORT_OF(file, "reek3/reek_sim.grdecl");
+    EXPECT_EQ(count(*file, "C06"), 516u);
+    EXPECT_EQ(count(*file, "C05"), 0u);
+    EXPECT_EQ(file->valid, true);
+}
+
+TEST(RealGrids, ReekIsLeftHandedInItsDeckAndByItsMapAxesInItsEgrid) {
+    REPORT_OF(deck, "reek/reek_sim_grid.grdecl");
+    REPORT_OF(egrid, "reek/REEK.EGRID");
+    const Finding in_deck = find(deck->findings, "C12", Severity::info), in_egrid = find(egrid->findings, "C12", Severity::info);
+    EXPECT_EQ(measure(in_deck, "left_handed"), 35838);
+    EXPECT_EQ(measure(in_egrid, "right_handed"), 35838);
+}
+
+TEST(RealGrids, TheConcaveCellIsFound) {
+    REPORT_OF(file, "small/concave.grdecl");
+    EXPECT_EQ(cells_of(find(file->findings, "C07", Severity::error)), (std::vector<Cell>{{1, 1, 1}}));
+    EXPECT_TRUE(codes_of(file->findings).contains("C08 warning"));
+    EXPECT_EQ(file->valid, false);
+}
+
+TEST(RealGrids, TheOverlapOfTwentyMetresIsFound) {
+    REPORT_OF(file, "small/sixcells2_described_zoverlap.grdecl");
+    const Finding f = find(file->findings, "C04", Severity::error);
+    EXPECT_EQ(f.count, 1u);
+    EXPECT_NEAR(measure(f, "overlap"), 20, 1e-3);
+}
+
+TEST(RealGrids, TheGapOfOneMetreIsFound) {
+    REPORT_OF(file, "small/banal4.grdecl");
+    const Finding f = find(file->findings, "C04", Severity::warning);
+    EXPECT_EQ(f.count, 1u);
+    EXPECT_NEAR(measure(f, "gap"), 1, 1e-3);
+    EXPECT_EQ(file->valid, true);
+}
+
+TEST(RealGrids, TheHandednessPairDiffers) {
+    REPORT_OF(left, "small/sixcells_described_hdr1.grdecl");
+    REPORT_OF(right, "small/sixcells_lefthanded_hdr1.grdecl");
+    EXPECT_NE(codes_of(left->findings).contains("C12 info"), codes_of(right->findings).contains("C12 info"));
+}
+
+TEST(RealGrids, SoundOnesHaveNoErrors) {
+    for (const char* name :
+         {"spe9/SPE9.GRDECL", "pygrdecl/Simple20x20x5_Fault.grdecl", "pygrdecl/Simple10x10x3_Fault.grdecl", "pygrdecl/CP.GRDECL",
+          "pygrdecl/40X48x1_3fatults.GRDECL", "upscaling/27cellsIso.grdecl", "upscaling/EightCells.grdecl", "small/banal1.grdecl",
+          "small/banal3.grdecl", "small/banal6.grdecl", "simpleb8/E100_BO.EGRID", "simpleb8/simpleb8.grdecl", "small/twocell.grdecl"}) {
+        REPORT_OF(file, name);
+        EXPECT_EQ(file->valid, true) << name;
+        EXPECT_FALSE(codes_of(file->findings).contains("C04 warning")) << name;
+    }
+}
+
+TEST(RealGrids, Spe9HasNothingToTell) {
+    REPORT_OF(file, "spe9/SPE9.GRDECL");
+    EXPECT_EQ(codes_of(file->findings), Codes{});
+}
+
+}  // namespace
+}  // namespace geomend

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "validators/corner_point.h"
+#include "validators/pore_volume.h"
+
+// What matters to flow: C16, C17 and C21.
+
+namespace geomend::validators {
+
+namespace {
+
+// Calls body(a, b, lateral) for each pair of present cells that touch: as simulators connect them, as the file states,
+// and one above the other within the tolerance.
+template <class Body>
+void each_touch(const GridScope& scope, const Body& body) {
+    const auto& grid = scope.grid();
+    const grid::Connections& all = scope.connections();
+    const std::size_t cells = grid.cell_count();
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        if (all.present[cell] == 0) continue;
+        const unsigned to = all.neighbours[cell];
+        if ((to & grid::Connections::east) != 0) body(cell, cell + 1, true);
+        if ((to & grid::Connections::south) != 0) body(cell, cell + grid.dims[0], true);
+        const std::size_t below = grid::next_below(grid, all.present, cell);
+        if (below == cells) continue;
+        if ((to & grid::Connections::below) != 0) {
+            body(cell, below, false);
+            continue;
+        }
+        const auto [i, j, k] = grid.ijk(cell);
+        const std::uint32_t lower = grid.ijk(below)[2];
+        bool near = scope.judged(cell) && scope.judged(below);
+        for (unsigned c = 0; c < 4 && near; ++c)
+            near = std::abs(scope.depth(i, j, lower, c) - scope.depth(i, j, k, c + 4)) <= scope.depth_tolerance();
+        if (near) body(cell, below, false);
+    }
+    for (const grid::NonNeighbour& n : all.others) body(n.first, n.second, n.face != CellFace::k_plus);
+    for (const auto& c : grid.connections) {
+        const std::size_t a = c.first % cells, b = c.second % cells;  // of two porosities both parts are in one cell
+        if (all.present[a] != 0 && all.present[b] != 0 && a != b)
+            body(a, b, a % (std::size_t{grid.dims[0]} * grid.dims[1]) != b % (std::size_t{grid.dims[0]} * grid.dims[1]));
+    }
+}
+
+// Cells that belong together; the root of a part is its first cell.
+class Parts {
+public:
+    explicit Parts(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    std::uint32_t root(std::uint32_t of) {
+        while (parent_[of] != of) of = parent_[of] = parent_[parent_[of]];
+        return of;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = root(a);
+        b = root(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+bool fits_in_32_bits(const CornerPointGrid& grid) { return grid.cell_count() < 0xffffffffu; }
+
+}  // namespace
+
+void check_pore_volumes(const GridScope& scope, std::vector<Finding>& findings) {
+    const auto& grid = scope.grid();
+    if (!knows_pore_volumes(grid)) return;
+    const std::vector<double> volumes = pore_volumes(grid);
+    const std::vector<double> own_least = fitting_values(grid, "MINPVV", 0);
+    const double least = least_pore_volume(grid);
+    const auto found = find_cells(scope, [&](std::size_t cell, std::uint32_t, std::uint32_t, std::uint32_t) {
+        const double bound = own_least.empty() ? least : own_least[cell];
+        return Judgement{grid.is_active(cell) && volumes[cell] < bound, bound - volumes[cell]};
+    });
+    if (found.count == 0) return;
+    const std::string bound = !own_least.empty()       ? "its MINPVV"
+                              : grid.least_pore_volume ? "MINPV, " + rounded(least)
+                                                       : "1e-6, the usual MINPV";
+    Finding f = cells_finding(scope, "C16",
+                              "the pore volume of " + counted(found.count, "active cell", "active cells") + " is below " + bound +
+                                  ": simulators make such cells inactive",
+                              found);
+    if (own_least.empty()) f.measures = {{"least_pore_volume", least}};
+    findings.push_back(std::move(f));
+}
+
+void check_parts(const GridScope& scope, std::vector<Finding>& findings) {
+    const auto& grid = scope.grid();
+    if (!fits_in_32_bits(grid)) return;
+    Parts parts(grid.cell_count());
+    each_touch(scope,
+               [&](std::size_t a, std::size_t b, bool) { parts.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)); });
+    const auto& present = scope.connections().present;
+    std::vector<std::uint32_t> size(grid.cell_count(), 0);
+    for (std::uint32_t cell = 0; cell < size.size(); ++cell) {
+        if (present[cell] != 0) ++size[parts.root(cell)];
+    }
+    const auto largest = static_cast<std::uint32_t>(std::ranges::max_element(size) - size.begin());
+    FoundCells found;
+    std::uint64_t number = 0;
+    for (std::uint32_t cell = 0; cell < size.size(); ++cell) {
+        number += size[cell] > 0 ? 1 : 0;
+        if (present[cell] != 0 && parts.root(cell) != largest) found.add(cell, 0);
+    }
+    if (number < 2) return;
+    Finding f = cells_finding(scope, "C17",
+                              "the active cells fall into " + std::to_string(number) +
+                                  " parts that do not touch: " + counted(size[largest], "cell", "cells") + " in the largest, " +
+                                  counted(found.count, "cell", "cells") + " elsewhere, which are listed",
+                              found);
+    f.measures = {{"parts", static_cast<double>(number)}, {"largest_part", static_cast<double>(size[largest])}};
+    findings.push_back(std::move(f));
+}
+
+std::vector<std::size_t> isolated_cells(const GridScope& scope) {
+    const auto& grid = scope.grid();
+    std::vector<std::size_t> cells;
+    if (!fits_in_32_bits(grid)) return cells;
+    std::vector<std::uint8_t> touched(grid.cell_count(), 0);
+    each_touch(scope, [&](std::size_t a, std::size_t b, bool) { touched[a] = touched[b] = 1; });
+    const auto& present = scope.connections().present;
+    if (std::ranges::count_if(present, [](std::uint8_t p) { return p != 0; }) < 2) return cells;
+    for (std::size_t cell = 0; cell < touched.size(); ++cell) {
+        if (present[cell] != 0 && touched[cell] == 0) cells.push_back(cell);
+    }
+    return cells;
+}
+
+void check_isolated(const GridScope& scope, std::vector<Finding>& findings) {
+    const auto& grid = scope.grid();
+    if (!fits_in_32_bits(grid)) return;
+    FoundCells found;
+    for (const std::size_t cell : isolated_cells(scope)) found.add(cell, 0);
+    if (found.count > 0) {
+        findings.push_back(
+            cells_finding(scope, "C21", counted(found.count, "active cell has", "active cells have") + " no active neighbour", found));
+    }
+    const std::size_t columns = std::size_t{grid.dims[0]} * grid.dims[1];
+    std::vector<std::uint8_t> joined(columns, 0);
+    each_touch(scope, [&](std::size_t a, std::size_t b, bool lateral) {
+        if (lateral) joined[a % columns] = joined[b % columns] = 1;
+    });
+    std::vector<std::uint32_t> height(columns, 0);
+    const auto& present = scope.connections().present;
+    for (std::size_t cell = 0; cell < present.size(); ++cell) height[cell % columns] += present[cell] != 0 ? 1 : 0;
+    if (std::ranges::count_if(height, [](std::uint32_t h) { return h > 0; }) < 2) return;  // one column has no others to touch
+    Finding f = grid_finding(scope, "C21", {});
+    f.element_kind = "column-ij";
+    for (std::size_t c = 0; c < columns; ++c) {
+        if (height[c] < 2 || joined[c] != 0) continue;  // a single cell was told above
+        ++f.count;
+        if (f.index.size() == listed_elements) continue;
+        f.elements.push_back(static_cast<std::int64_t>(c % grid.dims[0]) + 1);
+        f.elements.push_back(static_cast<std::int64_t>(c / grid.dims[0]) + 1);
+        f.index.push_back(static_cast<std::int64_t>(c));
+    }
+    if (f.count == 0) return;
+    f.message = counted(f.count, "column of active cells touches", "columns of active cells touch") + " no other column";
+    findings.push_back(std::move(f));
+}
+
+}  // namespace geomend::validators

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/found_cells.h"
+
+#include <cstdio>
+
+#include "base/codes.h"
+
+namespace geomend::validators {
+
+std::string cell_text(const CornerPointGrid& grid, std::size_t cell) {
+    const auto [i, j, k] = grid.ijk(cell);
+    return "(" + std::to_string(i + 1) + "," + std::to_string(j + 1) + "," + std::to_string(k + 1) + ")";
+}
+
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+    return std::to_string(count) + ' ' + std::string(count == 1 ? one : many);
+}
+
+std::string rounded(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
+
+Finding grid_finding(const GridScope& scope, std::string_view code, std::string message) {
+    Finding f;
+    f.code = code;
+    if (const CodeInfo* row = find_code(code)) f.severity = row->severity;
+    f.message = std::move(message);
+    f.entities = {{"corner-point-grid", scope.grid().info.name}};
+    return f;
+}
+
+void list_cells(const CornerPointGrid& grid, const FoundCells& cells, Finding& finding) {
+    finding.count = cells.count;
+    finding.element_kind = "cell-ijk";
+    for (const std::size_t cell : cells.first) {
+        for (const std::uint32_t n : grid.ijk(cell)) finding.elements.push_back(std::int64_t{n} + 1);
+        finding.index.push_back(static_cast<std::int64_t>(cell));
+    }
+}
+
+Finding cells_finding(const GridScope& scope, std::string_view code, std::string message, const FoundCells& cells) {
+    Finding f = grid_finding(scope, code, std::move(message));
+    list_cells(scope.grid(), cells, f);
+    return f;
+}
+
+}  // namespace geomend::validators

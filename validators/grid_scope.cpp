@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/grid_scope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace geomend::validators {
+
+namespace {
+
+constexpr std::size_t block = 8192;
+constexpr double huge = 1e20;  // simulators take such coordinates for not set
+
+bool sound(double v) { return std::abs(v) < huge; }
+
+// What each block of cells adds; blocks are joined in their order, so that threads make no difference.
+struct Sums {
+    std::uint64_t cells = 0;
+    Vec3 sum{};
+    double largest = 0, largest_depth = 0;
+    std::int64_t votes = 0;
+};
+
+// Distance between neighbouring numbers of the stored precision at a value.
+double step_at(double value, bool single) {
+    if (single) {
+        const auto v = static_cast<float>(value);
+        return static_cast<double>(std::nextafter(v, std::numeric_limits<float>::infinity())) - static_cast<double>(v);
+    }
+    return std::nextafter(value, std::numeric_limits<double>::infinity()) - value;
+}
+
+template <class Body>
+void each_block(std::size_t cells, const Body& body) {
+    parallel_for_each_index((cells + block - 1) / block, [&](std::size_t b) { body(b, b * block, std::min(cells, (b + 1) * block)); });
+}
+
+}  // namespace
+
+GridScope::GridScope(const CornerPointGrid& grid, const CheckOptions& options)
+    : grid_(grid), monitor_(options.monitor), all_cells_(options.all_cells) {
+    if (!has_geometry(grid)) {
+        judged_.assign(grid.cell_count(), 0);
+        return;
+    }
+    choose_cells();
+    measure(options);
+}
+
+void GridScope::choose_cells() {
+    const std::size_t lines = std::size_t{grid_.dims[0]} + 1, set = pillar_count(grid_.dims);
+    std::vector<std::uint8_t> sound_pillar(grid_.pillars.size() / 6);
+    for (std::size_t p = 0; p < sound_pillar.size(); ++p) {
+        sound_pillar[p] = std::all_of(grid_.pillars.begin() + static_cast<std::ptrdiff_t>(6 * p),
+                                      grid_.pillars.begin() + static_cast<std::ptrdiff_t>(6 * p + 6), sound);
+    }
+    judged_.assign(grid_.cell_count(), 0);
+    each_block(judged_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t cell = first; cell < last; ++cell) {
+            if (!in_scope(cell)) continue;
+            const auto [i, j, k] = grid_.ijk(cell);
+            const std::size_t from = grid_.reservoirs.empty() ? 0 : set * pillar_set(grid_, k);
+            bool all = true;
+            for (unsigned c = 0; c < 8 && all; ++c) {
+                const std::size_t pillar = from + i + (c & 1u) + lines * (std::size_t{j} + ((c >> 1) & 1u));
+                all = sound_pillar[pillar] != 0 && sound(depth(i, j, k, c));
+            }
+            judged_[cell] = all ? 1 : 0;
+        }
+    });
+}
+
+void GridScope::measure(const CheckOptions& options) {
+    std::vector<Sums> parts((judged_.size() + block - 1) / block);
+    each_block(judged_.size(), [&](std::size_t b, std::size_t first, std::size_t last) {
+        Sums& part = parts[b];
+        for (std::size_t cell = first; cell < last; ++cell) {
+            if (judged_[cell] == 0) continue;
+            const auto [i, j, k] = grid_.ijk(cell);
+            ++part.cells;
+            for (const Vec3& p : cell_corners(grid_, i, j, k)) {
+                for (std::size_t d = 0; d < 3; ++d) {
+                    part.sum[d] += p[d];
+                    part.largest = std::max(part.largest, std::abs(p[d]));
+                }
+                part.largest_depth = std::max(part.largest_depth, std::abs(p[2]));
+            }
+            const double v = grid::cell_volume(corners(i, j, k));
+            part.votes += v > 0 ? 1 : v < 0 ? -1 : 0;
+        }
+    });
+    Sums all;
+    for (const Sums& part : parts) {
+        all.cells += part.cells;
+        all.votes += part.votes;
+        for (std::size_t d = 0; d < 3; ++d) all.sum[d] += part.sum[d];
+        all.largest = std::max(all.largest, part.largest);
+        all.largest_depth = std::max(all.largest_depth, part.largest_depth);
+    }
+    judged_count_ = all.cells;
+    right_handed_ = all.votes >= 0;
+    if (all.cells > 0) {
+        const double points = 8.0 * static_cast<double>(all.cells);
+        const Vec3 centroid{all.sum[0] / points, all.sum[1] / points, all.sum[2] / points};
+        std::vector<double> farthest(parts.size(), 0.0);
+        each_block(judged_.size(), [&](std::size_t b, std::size_t first, std::size_t last) {
+            for (std::size_t cell = first; cell < last; ++cell) {
+                if (judged_[cell] == 0) continue;
+                const auto [i, j, k] = grid_.ijk(cell);
+                for (const Vec3& p : cell_corners(grid_, i, j, k)) {
+                    const double x = p[0] - centroid[0], y = p[1] - centroid[1], z = p[2] - centroid[2];
+                    farthest[b] = std::max(farthest[b], x * x + y * y + z * z);
+                }
+            }
+        });
+        lengths_.diameter = 2 * std::sqrt(*std::ranges::max_element(farthest));
+    }
+    const auto rule = [&](double largest) { return std::max(1e-7 * lengths_.diameter, 4 * step_at(largest, grid_.single_precision)); };
+    lengths_.tolerance = options.tolerance >= 0 ? options.tolerance : rule(all.largest);
+    depth_tolerance_ = options.tolerance >= 0 ? options.tolerance : rule(all.largest_depth);
+    lengths_.near = options.near >= 0 ? options.near : 1e-3 * lengths_.diameter;
+}
+
+grid::Corners GridScope::corners(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+    if (!grid_.cylindrical) return cell_corners(grid_, i, j, k);
+    const std::size_t lines = std::size_t{grid_.dims[0]} + 1;
+    const double* set = grid_.pillars.data() + 6 * pillar_count(grid_.dims) * (grid_.reservoirs.empty() ? 0 : pillar_set(grid_, k));
+    grid::Corners all;
+    for (unsigned c = 0; c < 8; ++c) {
+        const std::size_t pillar = i + (c & 1u) + lines * (std::size_t{j} + ((c >> 1) & 1u));
+        all[c] = pillar_point(set + 6 * pillar, depth(i, j, k, c));
+    }
+    return all;
+}
+
+const grid::Connections& GridScope::connections() const {
+    if (!connections_) connections_ = std::make_unique<grid::Connections>(grid::connections(grid_));
+    return *connections_;
+}
+
+}  // namespace geomend::validators

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "model/dataset.h"
+#include "validators/grid_scope.h"
+
+namespace geomend::validators {
+
+/// One row of the table of checks.
+struct Check {
+    std::string_view code;
+    std::string_view condition;                                      ///< when it finds something, with its thresholds; one line
+    void (*run)(const GridScope&, std::vector<Finding>&) = nullptr;  ///< nullptr: told by the reader, or before the others
+    bool of_records = false;                                         ///< needs no geometry
+};
+
+/// All checks, in the order of their codes.
+std::span<const Check> all_checks();
+
+/// Failure (usage) where a code of `only` or `skip` is of no check.
+Result<void> known_codes(const CheckOptions& options);
+
+/// Whether the options ask for a check.
+bool wanted(const CheckOptions& options, std::string_view code);
+
+/// Findings of one grid, and the lengths that it was judged by.
+struct Checked {
+    std::vector<Finding> findings;
+    Lengths lengths;
+    bool geometry = true;  ///< false: there is none, only records were checked (F161 tells)
+};
+
+/// Runs all wanted checks of a corner-point grid. Never changes it. Cost: linear in cells but for columns whose cells
+/// overlap. Failure (cancelled) when the monitor stops it.
+Result<Checked> check(const CornerPointGrid& grid, const CheckOptions& options);
+
+}  // namespace geomend::validators
