@@ -164,7 +164,7 @@ TEST_P(MshBinary, CutsAreToldInBothByteOrders) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Versions, MshBinary, testing::Values(Make{"2.2", msh_22}, Make{"4", msh_40}, Make{"4.1", msh_41}),
-                         [](const auto& info) { return "Msh" + std::to_string(info.index); });
+                         [](const auto& one) { return "Msh" + std::to_string(one.index); });
 
 TEST(MshBinaryOrder, AnIntegerThatIsNotOneInAnyOrderIsRefused) {
     Bytes b(std::endian::native);
