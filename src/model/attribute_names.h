@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,38 +18,41 @@ namespace geomend {
 /// Annotation of an attribute that has another name in the file: its own name, which apply_dataset_text gives back.
 inline constexpr std::string_view own_name_key = "geomend.own_name";
 
-/// Gives attributes whose names are equal names that differ: "x", "x (2)", ... Values of points stand apart from those of
-/// edges, polygons and cells, which go into one section of a file. \return whether any name was changed
-inline bool make_names_differ(std::vector<Attribute>& attributes) {
-    const auto section = [](const Attribute& a) {
-        return a.location == AttributeLocation::polygon || a.location == AttributeLocation::edge ? AttributeLocation::cell : a.location;
-    };
-    std::set<std::pair<AttributeLocation, std::string>> names, used;
-    for (const Attribute& a : attributes) names.insert({section(a), a.name});
-    if (names.size() == attributes.size()) return false;
-    for (Attribute& a : attributes) {
-        if (used.insert({section(a), a.name}).second) continue;
-        std::string name;
-        for (int n = 2; name.empty() || !names.insert({section(a), name}).second; ++n) name = a.name + " (" + std::to_string(n) + ")";
-        a.annotations.emplace_back(own_name_key, std::exchange(a.name, std::move(name)));
+/// What tells an attribute apart in a file: its name in the section of the points, or in that of the edges, polygons and
+/// cells, or of the whole.
+inline std::pair<AttributeLocation, std::string> file_name_of(const Attribute& a) {
+    const bool cells = a.location == AttributeLocation::polygon || a.location == AttributeLocation::edge;
+    return {cells ? AttributeLocation::cell : a.location, a.name};
+}
+
+/// Whether a file could not tell all of them apart.
+inline bool has_equal_names(const std::vector<Attribute>& attributes) {
+    std::set<std::pair<AttributeLocation, std::string>> names;
+    for (const Attribute& a : attributes) {
+        if (!names.insert(file_name_of(a)).second) return true;
     }
-    return true;
+    return false;
+}
+
+/// Gives attributes whose names are equal names that differ: "x", "x (2)", ... Others stay as they are.
+inline void make_names_differ(std::vector<Attribute>& attributes) {
+    if (!has_equal_names(attributes)) return;
+    std::set<std::pair<AttributeLocation, std::string>> names, used;
+    for (const Attribute& a : attributes) names.insert(file_name_of(a));
+    for (Attribute& a : attributes) {
+        if (used.insert(file_name_of(a)).second) continue;
+        std::string own = a.name;
+        for (int n = 2; a.name == own || !names.insert(file_name_of(a)).second; ++n) a.name = own + " (" + std::to_string(n) + ")";
+        a.annotations.emplace_back(own_name_key, std::move(own));
+    }
 }
 
 /// A copy in which the attributes of each object have different names; nothing where they have so already, which is usual.
 inline std::optional<Dataset> with_different_names(const Dataset& dataset) {
-    std::optional<Dataset> copy;
-    for (std::size_t i = 0; i < dataset.objects.size(); ++i) {
-        std::vector<Attribute> words;
-        for (const Attribute& a : info_of(dataset.objects[i]).attributes) {
-            words.emplace_back();
-            words.back().name = a.name;
-            words.back().location = a.location;
-        }
-        if (!make_names_differ(words)) continue;
-        if (!copy) copy = dataset;
-        make_names_differ(info_of(copy->objects[i]).attributes);
-    }
+    const auto equal = [](const Object& object) { return has_equal_names(info_of(object).attributes); };
+    if (std::ranges::none_of(dataset.objects, equal)) return {};
+    Dataset copy = dataset;
+    for (Object& object : copy.objects) make_names_differ(info_of(object).attributes);
     return copy;
 }
 

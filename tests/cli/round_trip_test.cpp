@@ -83,5 +83,33 @@ INSTANTIATE_TEST_SUITE_P(Real, RoundTrip,
                                          Trip{"vtk/dfn1_ascii.vtp", "a.vtk", "b.vtp"}, Trip{"vtk/supportedElements.vtk", "a.vtu", "b.vtk"},
                                          Trip{"vtk/cone_append_encoded.vtu", "a.msh", "b.vtu"}));
 
+// A tetrahedron of two surfaces; the properties of the first share a name.
+const char* model_with_equal_names() {
+    return "GOCAD Model3d 1\nHEADER {\nname:m\n}\nTSURF cap\nTSURF floor\n"
+           "TFACE 1 boundary cap\n0 0 1\n1 0 0\n0 1 0\nTFACE 2 boundary floor\n0 0 0\n1 0 0\n0 1 0\n"
+           "REGION 3 Universe\n-1 +2 0\nREGION 4 inside\n+1 -2 0\nEND\n"
+           "GOCAD TSurf 1\nHEADER {\nname:cap\n}\nPROPERTIES p p\nUNITS m ft\nTFACE\n"
+           "PVRTX 1 0 0 1 1 10\nPVRTX 2 1 0 0 2 20\nPVRTX 3 0 1 0 3 30\nPVRTX 4 0 0 0 4 40\n"
+           "TRGL 1 2 3\nTRGL 1 3 4\nTRGL 1 4 2\nEND\n"
+           "GOCAD TSurf 1\nHEADER {\nname:floor\n}\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nTRGL 1 2 3\nEND\n";
+}
+
+TEST(ModelRoundTrip, PropertiesOfOneNameComeBackApart) {
+    const TemporaryFolder folder;
+    write_file(folder / "m.ml", model_with_equal_names());
+    for (const char* through : {"m.vtm", "m.msh"}) {
+        const ProgramRun there = run_geomend({"convert", (folder / "m.ml").string(), "-o", (folder / through).string()});
+        ASSERT_EQ(there.status, 0) << there.err;
+        const ProgramRun back = run_geomend({"convert", (folder / through).string(), "-o", (folder / "back.ml").string()});
+        ASSERT_EQ(back.status, 0) << back.err;
+        const std::string text = read_file(folder / "back.ml");
+        EXPECT_NE(text.find("PROPERTIES p p\n"), std::string::npos) << through << '\n' << text;
+        EXPECT_NE(text.find("UNITS m ft\n"), std::string::npos) << through;
+        for (const char* values : {"0 0 1 1 10", "1 0 0 2 20", "0 1 0 3 30", "0 0 0 4 40"}) {
+            EXPECT_NE(text.find(values), std::string::npos) << through << ' ' << values;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace geomend::test

@@ -10,7 +10,8 @@ DATA_FOLDERS = ("tests/fuzz/corpus/",)
 
 def files(root):
     """Every file of the project as a path relative to root with forward slashes, sorted. No build folders."""
-    found = [name for name in os.listdir(root) if os.path.isfile(os.path.join(root, name))]
+    # In a second working tree .git is a file that tells where the first one is.
+    found = [name for name in os.listdir(root) if name != ".git" and os.path.isfile(os.path.join(root, name))]
     for folder in FOLDERS:
         for place, folders, names in os.walk(os.path.join(root, folder)):
             folders[:] = [name for name in folders if name not in ("__pycache__", "node_modules")]
