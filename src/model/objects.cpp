@@ -58,7 +58,8 @@ bool is_second_order(CellType type) { return row(type).linear != type; }
 CellType linear_type(CellType type) { return row(type).linear; }
 
 const char* kind_name(const Object& object) {
-    constexpr const char* names[] = {"point-set", "polyline-set", "surface", "cell-mesh", "structured-grid", "raster", "well", "corner-point-grid"};
+    constexpr const char* names[] = {"point-set",       "polyline-set", "surface", "cell-mesh",
+                                     "structured-grid", "raster",       "well",    "corner-point-grid"};
     return names[object.index()];
 }
 

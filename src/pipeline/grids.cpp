@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,6 +16,7 @@
 #include "grid/cell_mesh.h"
 #include "grid/from_cells.h"
 #include "grid/map_axes.h"
+#include "grid/quality.h"
 #include "grid/transmissibility.h"
 #include "pipeline/merge.h"
 
@@ -287,9 +289,14 @@ Result<void> apply_grid_options(Dataset& dataset, const FormatOptions& options) 
     if (!map.empty() && map != "apply" && map != "keep") return usage("--option map=" + std::string(map) + ": expected apply or keep");
     if (!connections.empty() && connections != "compute" && connections != "keep")
         return usage("--option connections=" + std::string(connections) + ": expected compute or keep");
+    const std::string_view quality = option_value(options, "quality");
+    if (!quality.empty() && quality != "add") return usage("--option quality=" + std::string(quality) + ": expected add");
     for (Object& object : dataset.objects) {
         auto* grid = std::get_if<CornerPointGrid>(&object);
         if (grid == nullptr) continue;
+        if (quality == "add") {
+            std::ranges::move(grid::quality_attributes(*grid), std::back_inserter(grid->info.attributes));
+        }
         if (map == "apply") {
             if (auto moved = grid::apply_map_axes(*grid); !moved) return moved;
         }

@@ -15,7 +15,8 @@ Result<void> join_properties(Dataset& dataset);
 
 /// Options map=apply (grid::apply_map_axes) and connections=compute: all pairs of cells that touch without being
 /// neighbours become connections of the grid and, where it has PERMX, they and TRANX, TRANY, TRANZ get
-/// transmissibilities; pairs below 1e-6 are left out then, as simulators do, and told. Failure (usage) for other values.
+/// transmissibilities; pairs below 1e-6 are left out then, as simulators do, and told. quality=add gives each cell
+/// figures of its shape (grid::quality_attributes). Failure (usage) for other values.
 Result<void> apply_grid_options(Dataset& dataset, const FormatOptions& options);
 
 /// For targets that hold corner-point grids: structured grids and cells with attributes I, J, K become such grids where

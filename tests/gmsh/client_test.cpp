@@ -44,8 +44,7 @@ TEST(GmshClient, EveryVersionOfTheClientIsReadAlike) {
     const TemporaryFolder folder;
     write_file(folder / "box.geo", box_geo());
     std::size_t expected = 0;
-    for (const std::string how :
-         {"msh1", "msh22", "msh22 -bin", "msh40", "msh40 -bin", "msh41", "msh41 -bin", "msh41 -order 2", "msh22 -bin -order 2"}) {
+    for (const std::string how : {"msh1", "msh22", "msh22 -bin", "msh40", "msh41", "msh41 -bin", "msh41 -order 2", "msh22 -bin -order 2"}) {
         const auto file = folder / "box.msh";
         ASSERT_EQ(
             std::system(

@@ -80,7 +80,8 @@ TEST(Transmissibility, multipliers_of_cells_faults_and_regions_multiply) {
 TEST(Transmissibility, flows_past_collapsed_cells_only_with_pinch) {
     CornerPointGrid grid = testing::brick_grid(1, 1, 3);
     testing::add_constant(grid, "PERMX", 100);
-    testing::reshape(grid, [](auto, auto, std::uint32_t k, unsigned c, double depth) { return k == 2 || (k == 1 && c >= 4) ? depth - 10 : depth; });
+    testing::reshape(
+        grid, [](auto, auto, std::uint32_t k, unsigned c, double depth) { return k == 2 || (k == 1 && c >= 4) ? depth - 10 : depth; });
     EXPECT_EQ(transmissibilities(grid, connections(grid))->z[0], 0);
     grid.pinch.emplace();
     EXPECT_NEAR(transmissibilities(grid, connections(grid))->z[0], metric * 100 * 1000, 1e-6);
