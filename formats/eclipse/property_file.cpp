@@ -216,7 +216,7 @@ Result<PropertyGrids::Place> PropertyGrids::grid_of(const PropertyPart& part) {
     }
     CornerPointGrid grid;
     grid.info.name = part.grid.empty() ? stem_of(file_.input) : part.grid;
-    if (!part.grid.empty()) grid.host.emplace();
+    if (!part.grid.empty()) grid.host = CornerPointGrid::Host{};
     grid.unit_system = unit_system_name((*head)->unit);
     grid.single_precision = true;
     grid.info.crs.z_positive = ZPositive::depth;

@@ -114,7 +114,7 @@ private:
         const auto words = texts(file_, array);
         if (!words) return words.why();
         if (words->size() != 1) return fail("F008", array, "expected one name, found " + std::to_string(words->size()));
-        if (!parts_.grid.host) parts_.grid.host.emplace();
+        if (!parts_.grid.host) parts_.grid.host = CornerPointGrid::Host{};
         if (array.name == "LGR") parts_.grid.info.name = words->front();
         if (array.name == "LGRPARNT") parts_.grid.host->grid = words->front() == "GLOBAL" ? "" : words->front();
         return {};
@@ -129,7 +129,7 @@ private:
                 "F008", array,
                 "expected " + std::to_string(parts_.grid.cell_count()) + " values of HOSTNUM, found " + std::to_string(hosts->size()));
         }
-        if (!parts_.grid.host) parts_.grid.host.emplace();
+        if (!parts_.grid.host) parts_.grid.host = CornerPointGrid::Host{};
         parts_.grid.host->cells.reserve(hosts->size());
         for (const std::int32_t cell : *hosts) {
             if (cell < 1) return fail("F007", array, "expected the number of a host cell, found " + std::to_string(cell));

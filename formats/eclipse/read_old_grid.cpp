@@ -46,7 +46,7 @@ private:
             const auto words = texts(file_, array);
             if (!words) return words.why();
             if (auto done = end_grid(); !done) return done;
-            parts_.grid.host.emplace();
+            parts_.grid.host = CornerPointGrid::Host{};
             parts_.grid.info.name = words->empty() ? "" : words->front();
             return {};
         }

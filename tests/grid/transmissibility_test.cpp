@@ -83,7 +83,7 @@ TEST(Transmissibility, flows_past_collapsed_cells_only_with_pinch) {
     testing::reshape(
         grid, [](auto, auto, std::uint32_t k, unsigned c, double depth) { return k == 2 || (k == 1 && c >= 4) ? depth - 10 : depth; });
     EXPECT_EQ(transmissibilities(grid, connections(grid))->z[0], 0);
-    grid.pinch.emplace();
+    grid.pinch = CornerPointGrid::Pinch{};
     EXPECT_NEAR(transmissibilities(grid, connections(grid))->z[0], metric * 100 * 1000, 1e-6);
 }
 

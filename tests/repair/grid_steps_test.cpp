@@ -112,7 +112,7 @@ TEST(RepairSteps, PinchClosesThinInactiveLayers) {
     CornerPointGrid grid = brick_grid(2, 1, 3);
     grid.activity = {1, 1, 0, 0, 1, 1};
     for (unsigned c = 4; c < 8; ++c) corner(grid, 0, 0, 0, c) = corner(grid, 0, 0, 1, c - 4) = 1019.5;
-    grid.pinch.emplace();
+    grid.pinch = CornerPointGrid::Pinch{};
     grid.pinch->threshold = 0.6;
     ASSERT_EQ(grid::connections(grid).neighbours[0] & grid::Connections::below, 0);
     const auto done = mend(grid, {"pinch"});
@@ -188,7 +188,7 @@ TEST(RepairSteps, LocalGridsFollowTheReversalOfTheirHost) {
     dataset.objects.emplace_back(left_handed_grid());
     CornerPointGrid local = brick_grid(2, 2, 1);
     local.info.name = "LGR";
-    local.host.emplace();
+    local.host = CornerPointGrid::Host{};
     local.host->first = {0, 0, 0};
     local.host->last = {0, 1, 0};
     local.host->cells = {0, 0, 3, 3};
