@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "grid/multipliers.h"
 
+#include "grid/fault_boxes.h"
 #include "grid/transmissibility.h"
 
 namespace geomend::grid {
@@ -47,12 +48,7 @@ void Multipliers::take_faults(const CornerPointGrid& grid) {
         for (const auto& box : fault.boxes) {
             std::vector<double>& values = faces_[static_cast<std::size_t>(box.face)];
             if (values.empty()) values.assign(grid.cell_count(), 1.0);
-            for (std::uint32_t k = box.first[2]; k <= box.last[2] && k < grid.dims[2]; ++k) {
-                for (std::uint32_t j = box.first[1]; j <= box.last[1] && j < grid.dims[1]; ++j) {
-                    for (std::uint32_t i = box.first[0]; i <= box.last[0] && i < grid.dims[0]; ++i)
-                        values[grid.cell(i, j, k)] *= *fault.multiplier;
-                }
-            }
+            each_cell(grid, box, [&](std::size_t cell) { values[cell] *= *fault.multiplier; });
         }
     }
 }
