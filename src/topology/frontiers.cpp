@@ -6,8 +6,8 @@
 #include <numeric>
 #include <optional>
 
+#include "geometry/predicates.h"
 #include "topology/face_volume.h"
-#include "topology/orientation.h"
 
 namespace geomend::topology {
 
