@@ -23,10 +23,11 @@ void judge_surfaces(const ModelScope& scope, std::vector<Finding>& findings, con
     }
 }
 
-/// Asks bad(surface, polygon) -> bool of each polygon; a surface with such polygons gets one finding, whose message is
-/// `count` and the name of the surface between the texts: "12 triangles of 'H1b_2' ...".
+/// Asks bad(surface, polygon) -> bool of each polygon; a surface with such polygons gets one finding: "12 triangles of 'H1b_2' ...".
+/// \param one, many what goes on after one triangle, and after several
 template <class Bad>
-void judge_polygons(const ModelScope& scope, std::vector<Finding>& findings, std::string_view code, std::string_view what, const Bad& bad) {
+void judge_polygons(const ModelScope& scope, std::vector<Finding>& findings, std::string_view code, std::string_view one,
+                    std::string_view many, const Bad& bad) {
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
         std::vector<std::uint32_t> polygons;
@@ -36,7 +37,7 @@ void judge_polygons(const ModelScope& scope, std::vector<Finding>& findings, std
         if (polygons.empty()) return std::nullopt;
         const char* kind = surface.polygons.all_triangles() ? "triangle" : "polygon";
         std::string message = std::to_string(polygons.size()) + " " + kind + (polygons.size() == 1 ? "" : "s") + " of " +
-                              quoted(surface.name) + " " + std::string(what);
+                              quoted(surface.name) + " " + std::string(polygons.size() == 1 ? one : many);
         return polygons_finding(scope, code, s, std::move(message), polygons);
     });
 }

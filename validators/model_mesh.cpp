@@ -115,12 +115,13 @@ void check_isolated_points(const ModelScope& scope, std::vector<Finding>& findin
 }
 
 void check_degenerate(const ModelScope& scope, std::vector<Finding>& findings) {
-    judge_polygons(scope, findings, "B01", "have no interior: they use a vertex twice", uses_vertex_twice);
+    judge_polygons(scope, findings, "B01", "has no interior: it uses a vertex twice", "have no interior: they use a vertex twice",
+                   uses_vertex_twice);
 }
 
 void check_flat_triangles(const ModelScope& scope, std::vector<Finding>& findings) {
     const double tolerance = scope.lengths().tolerance;
-    judge_polygons(scope, findings, "M03", "are flatter than " + rounded(tolerance),
+    judge_polygons(scope, findings, "M03", "is flatter than " + rounded(tolerance), "are flatter than " + rounded(tolerance),
                    [&](const BrepData::Surface& surface, std::uint32_t p) {
                        const auto polygon = surface.polygons[p];
                        if (polygon.size() != 3 || uses_vertex_twice(surface, p)) return false;

@@ -30,7 +30,7 @@ double sharpest(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 void check_triangle_angles(const ModelScope& scope, std::vector<Finding>& findings) {
     const double limit = std::pow(std::cos(smallest_angle / degrees), 2);
-    judge_polygons(scope, findings, "Q01", "have an angle below " + rounded(smallest_angle) + " degree",
+    judge_polygons(scope, findings, "Q01", "has an angle below 1 degree", "have an angle below 1 degree",
                    [&](const BrepData::Surface& surface, std::uint32_t p) {
                        const auto polygon = surface.polygons[p];
                        return polygon.size() == 3 &&
@@ -41,8 +41,8 @@ void check_triangle_angles(const ModelScope& scope, std::vector<Finding>& findin
 
 void check_short_edges(const ModelScope& scope, std::vector<Finding>& findings) {
     const double limit = scope.lengths().near * scope.lengths().near;
-    judge_polygons(scope, findings, "Q02", "have an edge shorter than " + rounded(scope.lengths().near),
-                   [&](const BrepData::Surface& surface, std::uint32_t p) {
+    judge_polygons(scope, findings, "Q02", "has an edge shorter than " + rounded(scope.lengths().near),
+                   "have an edge shorter than " + rounded(scope.lengths().near), [&](const BrepData::Surface& surface, std::uint32_t p) {
                        const auto polygon = surface.polygons[p];
                        for (std::size_t i = 0; i < polygon.size(); ++i) {
                            const Vec3 d = minus(scope.vertex_of_node(surface, polygon[i]),
@@ -54,34 +54,39 @@ void check_short_edges(const ModelScope& scope, std::vector<Finding>& findings) 
 }
 
 void check_folds(const ModelScope& scope, std::vector<Finding>& findings) {
-    const double limit = -std::cos(smallest_fold_angle / degrees);
+    const double limit = std::cos(smallest_fold_angle / degrees);
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
         if (!surface.polygons.all_triangles()) return std::nullopt;
-        std::vector<Vec3> normals(surface.polygons.size());
-        for (std::size_t p = 0; p < normals.size(); ++p) {
-            const auto t = surface.polygons[p];
-            const Vec3& a = scope.vertex_of_node(surface, t[0]);
-            Vec3 n = cross(minus(scope.vertex_of_node(surface, t[1]), a), minus(scope.vertex_of_node(surface, t[2]), a));
-            const double length = std::sqrt(dot(n, n));
-            for (double& x : n) x = length > 0 ? x / length : 0;
-            normals[p] = n;
-        }
+        // By the directions in which the two triangles leave their edge, whatever sense they are wound in.
+        const auto across = [&](std::uint32_t p, const Vec3& from, const Vec3& axis) {
+            Vec3 best{};
+            for (const std::uint32_t node : surface.polygons[p]) {
+                const Vec3 d = minus(scope.vertex_of_node(surface, node), from);
+                const double along = dot(d, axis) / dot(axis, axis);
+                const Vec3 off{d[0] - along * axis[0], d[1] - along * axis[1], d[2] - along * axis[2]};
+                if (dot(off, off) > dot(best, best)) best = off;
+            }
+            return best;
+        };
         std::vector<std::uint32_t> folded;
         double worst = 0;
         for (std::uint32_t c = 0; c < surface.neighbours.size(); ++c) {
             const std::uint32_t p = c / 3, q = surface.neighbours[c];
             if (q == no_index || q < p) continue;
-            const double cosine = dot(normals[p], normals[q]);
-            if (cosine >= limit) continue;
-            worst = std::min(worst, cosine);
+            const Vec3& from = scope.vertex_of_node(surface, surface.polygons.corners[c]);
+            const Vec3 axis = minus(scope.vertex_of_node(surface, surface.polygons.corners[c % 3 == 2 ? c - 2 : c + 1]), from);
+            const Vec3 a = across(p, from, axis), b = across(q, from, axis);
+            const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
+            if (!(cosine > limit)) continue;
+            worst = std::max(worst, cosine);
             folded.push_back(p);
             folded.push_back(q);
         }
         if (folded.empty()) return std::nullopt;
         std::ranges::sort(folded);
         folded.erase(std::unique(folded.begin(), folded.end()), folded.end());
-        const double angle = 180 - degrees * std::acos(std::max(worst, -1.0));
+        const double angle = degrees * std::acos(std::min(worst, 1.0));
         Finding finding = polygons_finding(scope, "Q03", s,
                                            counted(folded.size(), "triangle", "triangles") + " of " + quoted(surface.name) +
                                                " are folded on their neighbours; they enclose " + rounded(angle) + " degrees",

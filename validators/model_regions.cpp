@@ -193,12 +193,9 @@ void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
                                               : quoted(surface.name) + " lies inside " + region_name(scope, region) + " on both sides");
             if (!error) finding.severity = Severity::info;
             if (line != no_index) {
-                finding.message += error ? "; they meet around the free border of " : ", around its free border ";
-                for (std::uint32_t o = 0; o < brep.surfaces.size(); ++o) {
+                for (std::uint32_t o = 0; error && o < brep.surfaces.size(); ++o) {
                     const bool owner = std::ranges::any_of(brep.surfaces[o].lines, [&](const auto& use) { return use.line.value == line; });
-                    if (!owner) continue;
-                    if (error) finding.message += quoted(brep.surfaces[o].name);
-                    break;
+                    if (owner) finding.message += "; they meet around the free border of " + quoted(brep.surfaces[o].name);
                 }
                 mark_line(scope, line, finding);
             }
@@ -324,6 +321,42 @@ void check_outside_surfaces(const ModelScope& scope, std::vector<Finding>& findi
     finding.message = counted(finding.count, "surface lies", "surfaces lie") +
                       " outside of all regions: " + quoted(finding.entities[0].name) + (finding.count > 1 ? ", ..." : "");
     findings.push_back(std::move(finding));
+}
+
+void check_stated_borders(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    std::map<std::uint32_t, std::vector<std::uint32_t>> surfaces_of;  // per object
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) surfaces_of[brep.surfaces[s].source_object].push_back(s);
+    for (const auto& [object, surfaces] : surfaces_of) {
+        const auto* source = object < scope.dataset().objects.size() ? std::get_if<Surface>(&scope.dataset().objects[object]) : nullptr;
+        if (source == nullptr || source->border_starts.empty()) continue;
+        std::set<std::pair<std::uint32_t, std::uint32_t>> wanted;
+        for (const auto& start : source->border_starts) wanted.insert(std::minmax(start.corner, start.next));
+        for (std::size_t p = 0; p < source->polygons.size() && !wanted.empty(); ++p) {
+            const auto polygon = source->polygons[p];
+            for (std::size_t i = 0; i < polygon.size(); ++i) wanted.erase(std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]));
+        }
+        if (wanted.empty()) continue;
+        Finding finding = finding_of("B19", {});
+        for (const std::uint32_t s : surfaces) {
+            if (finding.entities.size() < listed_elements && surfaces.size() == 1) finding.entities.push_back(surface_ref(scope, s));
+        }
+        if (finding.entities.empty()) finding.entities.push_back({"interface", source->info.name});
+        for (const auto& start : source->border_starts) {
+            if (!wanted.contains(std::minmax(start.corner, start.next))) continue;
+            if (finding.count++ == 0)
+                finding.message = ": the first one runs from point " + std::to_string(source->labels[start.corner]) + " to point " +
+                                  std::to_string(source->labels[start.next]);
+            if (finding.elements.size() >= listed_elements) continue;
+            finding.elements.push_back(start.id);
+            finding.index.push_back(&start - source->border_starts.data());
+            finding.polylines.push_back({source->points[start.corner], source->points[start.next]});
+        }
+        finding.element_kind = "border";
+        finding.message = counted(finding.count, "stated border", "stated borders") + " of " + quoted(source->info.name) +
+                          (finding.count == 1 ? " starts" : " start") + " along no edge of its triangles" + finding.message;
+        findings.push_back(std::move(finding));
+    }
 }
 
 void spread_errors(const ModelScope& scope, std::vector<Finding>& findings) {
