@@ -62,7 +62,7 @@ using SurfacePair = std::pair<std::uint32_t, std::uint32_t>;
 
 std::map<SurfacePair, Common> gather(const ModelScope& scope) {
     std::map<SurfacePair, Common> all;
-    const auto pairs = intersections(scope.brep().vertices, scope.triangles(), scope.monitor());
+    const auto pairs = intersections(scope.tree(), scope.monitor());
     if (pairs.empty()) return all;
     const LineEdges lines(scope);
     constexpr std::size_t most_segments = 100000;

@@ -52,6 +52,8 @@ constexpr std::array table = {
     of_model("B19", "a BORDER record names two points that no triangle of the surface has as an edge", check_stated_borders),
     of_model("B20", "triangles of two surfaces have an area in common; exact", check_intersections),
     of_model("B22", "triangles of two surfaces have single points in common that they do not share; exact", check_intersections),
+    of_model("B23", "an edge of a free border comes closer to a surface than the search length, without meeting it", check_near_misses),
+    of_model("B24", "two surfaces come closer than the search length away from what they share", check_near_misses),
     Check{"C01", "an array has another length than the dimensions ask for; nothing else is then checked"},
     Check{"C02", "a corner or pillar of an active cell is not finite, or 1e20 or more", check_coordinates},
     Check{"C03", "on a pillar the bottom lies above the top by more than the tolerance", check_inverted},
