@@ -14,6 +14,7 @@
 
 #include "base/parallel.h"
 #include "geometry/intersections.h"
+#include "geometry/near_misses.h"
 #include "peak_memory.h"
 #include "soup_models.h"
 #include "support/real_data.h"
@@ -62,7 +63,50 @@ void tree_only(benchmark::State& state) {
     tell(state, soup.triangles.size(), 0);
 }
 
+void borders(benchmark::State& state) {
+    const Soup& soup = model(state.range(0));
+    if (soup.triangles.empty()) return state.SkipWithError("no real data");
+    const Borders free = free_borders(soup);
+    const TriangleTree tree(soup.vertices, soup.triangles);
+    const ThreadBudget budget(static_cast<std::size_t>(state.range(1)));
+    std::size_t misses = 0;
+    for (auto _ : state) misses = near_misses(tree, soup.groups, free.edges, free.groups, near_length(soup)).size();
+    tell(state, soup.triangles.size(), misses);
+}
+
+void insides(benchmark::State& state) {
+    const Soup& soup = model(state.range(0));
+    if (soup.triangles.empty()) return state.SkipWithError("no real data");
+    const TriangleTree tree(soup.vertices, soup.triangles);
+    const ThreadBudget budget(static_cast<std::size_t>(state.range(1)));
+    std::size_t found = 0;
+    for (auto _ : state) found = closest_pairs(tree, soup.groups, near_length(soup)).size();
+    tell(state, soup.triangles.size(), found);
+}
+
 #ifdef GEOMEND_WITH_CGAL
+void say_near(const Soup& soup) {
+    const Borders free = free_borders(soup);
+    const TriangleTree tree(soup.vertices, soup.triangles);
+    for (const double part : {1.0, 5.0, 0.1}) {
+        const double near = part * near_length(soup);
+        const auto misses = near_misses(tree, soup.groups, free.edges, free.groups, near);
+        const auto close = closest_pairs(tree, soup.groups, near);
+        std::printf("  within %g: %zu of %zu free border edges, %zu pairs of surfaces\n", near, misses.size(), free.edges.size(),
+                    close.size());
+        for (std::size_t i = 0; i < std::min<std::size_t>(misses.size(), 5); ++i) {
+            const NearMiss& m = misses[i];
+            std::printf("    surface %u edge %u-%u, surface %u triangle %u: %g at %g %g %g\n", free.groups[m.border_edge],
+                        free.edges[m.border_edge][0], free.edges[m.border_edge][1], soup.groups[m.triangle], m.triangle, m.distance,
+                        m.on_edge[0], m.on_edge[1], m.on_edge[2]);
+        }
+        for (std::size_t i = 0; i < std::min<std::size_t>(close.size(), 5); ++i) {
+            const ClosePair& c = close[i];
+            std::printf("    surfaces %u and %u: %g at %g %g %g\n", c.group_a, c.group_b, c.distance, c.on_a[0], c.on_a[1], c.on_a[2]);
+        }
+    }
+}
+
 void cgal(benchmark::State& state) {
     const Soup& soup = model(state.range(0));
     if (soup.triangles.empty()) return state.SkipWithError("no real data");
@@ -106,6 +150,7 @@ int check(const char* path) {
                 path, soup.triangles.size(), mine.size(), kinds[1], kinds[2], kinds[3], kinds[4], wrong);
     std::printf("  CGAL's mesh: %zu pairs, %zu of them in more than vertices and edges of equal position; %zu only here, %zu only there\n",
                 all, theirs.size(), only_mine, only_theirs);
+    say_near(soup);
     return wrong == 0 && only_mine == 0 && only_theirs == 0 ? 0 : 1;
 }
 #endif
@@ -118,6 +163,8 @@ void sizes(benchmark::internal::Benchmark* b) {
     }
 }
 BENCHMARK(ours)->Apply(sizes);
+BENCHMARK(borders)->Unit(benchmark::kMillisecond)->UseRealTime()->Args({0, 0})->Args({0, 1});
+BENCHMARK(insides)->Unit(benchmark::kMillisecond)->UseRealTime()->Args({0, 0})->Args({0, 1});
 BENCHMARK(tree_only)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(0)->Arg(1000000);
 #ifdef GEOMEND_WITH_CGAL
 BENCHMARK(cgal)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(0)->Arg(10000)->Arg(100000)->Arg(1000000);

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "base/input.h"
 #include "formats/gocad/read_gocad.h"
+#include "geometry/vectors.h"
 #include "topology/weld.h"
 
 namespace geomend::bench {
@@ -30,6 +32,33 @@ void add_sheet(Soup& soup, std::uint32_t n, const Place& place) {
 }
 
 }  // namespace
+
+Borders free_borders(const Soup& soup) {
+    std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> uses;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [p, q] = std::minmax(soup.triangles[t][i], soup.triangles[t][(i + 1) % 3]);
+            uses.push_back({{p, q}, soup.groups[t]});
+        }
+    }
+    std::sort(uses.begin(), uses.end());
+    Borders borders;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const bool again = (i > 0 && uses[i - 1].first == uses[i].first) || (i + 1 < uses.size() && uses[i + 1].first == uses[i].first);
+        if (again) continue;
+        borders.edges.push_back(uses[i].first);
+        borders.groups.push_back(uses[i].second);
+    }
+    return borders;
+}
+
+double near_length(const Soup& soup) {
+    Vec3 centre{};
+    for (const Vec3& p : soup.vertices) centre = plus(centre, times(1.0 / double(soup.vertices.size()), p));
+    double largest = 0;
+    for (const Vec3& p : soup.vertices) largest = std::max(largest, dot(minus(p, centre), minus(p, centre)));
+    return 1e-3 * 2 * std::sqrt(largest);
+}
 
 Soup crossed_folds(std::size_t triangles) {
     Soup soup;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
@@ -20,54 +19,23 @@ constexpr std::size_t chunks_per_round = 64;   // between looks at the limit and
 /// Pairs of the triangles in one block with those that come after them in the tree's order.
 class BlockSearch {
 public:
-    BlockSearch(const TriangleTree& tree, std::vector<TriangleMeetingPair>& found) : tree_(tree), found_(found) {}
+    BlockSearch(const TriangleTree& tree, std::vector<TriangleMeetingPair>& found) : tree_(tree), near_(tree), found_(found) {}
 
     void run(std::size_t block) {
         const auto& fours = tree_.levels().front();
         const std::size_t first = block * fours_per_block, last = std::min(fours.size(), first + fours_per_block);
-        collect(first, last);
-        for (std::size_t four = first; four != last; ++four) {
-            for (std::size_t k = 0; k < 4 && 4 * four + k < tree_.size(); ++k) search(4 * four + k, fours[four].box(k));
-        }
+        near_.collect(outer_box(fours, first, last), [&](std::size_t four) { return four >= first; });
+        for (std::size_t i = 4 * first; i < std::min(4 * last, tree_.size()); ++i) search(i, fours[i / 4].box(i % 4));
     }
 
 private:
     const TriangleTree& tree_;
+    Neighbourhood near_;
     std::vector<TriangleMeetingPair>& found_;
-    std::vector<std::size_t> near_;      ///< fours whose outer box overlaps that of the block, none before it
-    std::vector<FourBoxes> near_boxes_;  ///< their outer boxes, four by four
-
-    void collect(std::size_t first, std::size_t last) {
-        const auto& fours = tree_.levels().front();
-        FourBoxes own;
-        for (std::size_t k = 0; k < 4; ++k) own.set(k, fours[std::min(first + k, last - 1)].around());
-        near_.clear();
-        near_boxes_.clear();
-        tree_.visit_fours(own.around(), [&](std::size_t four) {
-            if (four < first) return;
-            if (near_.size() % 4 == 0) near_boxes_.push_back(empty_boxes());
-            near_boxes_.back().set(near_.size() % 4, fours[four].around());
-            near_.push_back(four);
-        });
-    }
 
     void search(std::size_t i, const Box& box) {
-        const auto& fours = tree_.levels().front();
-        std::optional<Separator> own;
-        for (std::size_t group = 0; group < near_boxes_.size(); ++group) {
-            const unsigned hit = near_boxes_[group].overlapping(box);
-            for (std::size_t k = 0; hit >> k != 0; ++k) {
-                if ((hit >> k & 1u) == 0) continue;
-                const std::size_t four = near_[4 * group + k];
-                if (4 * four + 3 <= i) continue;
-                const unsigned pairs = fours[four].overlapping(box);
-                for (std::size_t m = 0; pairs >> m != 0; ++m) {
-                    if ((pairs >> m & 1u) == 0 || 4 * four + m <= i) continue;
-                    if (!own) own.emplace(corners(tree_.triangle(i)));
-                    test(i, 4 * four + m, *own);
-                }
-            }
-        }
+        const Separator own(corners(tree_.triangle(i)));
+        near_.visit_triangles(box, i + 1, [&](std::size_t j) { test(i, j, own); });
     }
 
     std::array<Vec3, 3> corners(const Triangle& t) const {
@@ -95,15 +63,6 @@ private:
         if (pair.how.kind == Meeting::none) return;
         if (!ascending) std::swap(pair.a, pair.b);
         found_.push_back(pair);
-    }
-
-    static FourBoxes empty_boxes() {
-        FourBoxes boxes;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            boxes.low[axis].fill(HUGE_VALF);
-            boxes.high[axis].fill(-HUGE_VALF);
-        }
-        return boxes;
     }
 };
 

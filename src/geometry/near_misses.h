@@ -37,7 +37,7 @@ struct NearMiss {
 /// \param monitor may stop the search: nothing is returned then
 /// \pre arrays agree in length, indices are in range, coordinates finite, fewer than 1.4e9 triangles
 /// Cost: linear where `near` is no longer than some edges; 16 bytes per triangle besides the tree.
-std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const Triangle> triangles, std::span<const std::uint32_t> groups,
+std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const std::uint32_t> groups,
                                   std::span<const std::array<std::uint32_t, 2>> border_edges, std::span<const std::uint32_t> border_groups,
                                   double near, const Monitor* monitor = nullptr);
 /// The same, with a tree of its own.
@@ -59,7 +59,10 @@ struct ClosePair {
 /// The search starts from vertices that are closer to the other group than their neighbours are: where no vertex of either
 /// surface comes within `near` of the other although two edges do, that is not found.
 /// Parameters and cost as for near_misses().
-std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const Triangle> triangles, std::span<const std::uint32_t> groups,
-                                     double near, const Monitor* monitor = nullptr);
+std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const std::uint32_t> groups, double near,
+                                     const Monitor* monitor = nullptr);
+/// The same, with a tree of its own.
+std::vector<ClosePair> closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                                     std::span<const std::uint32_t> groups, double near, const Monitor* monitor = nullptr);
 
 }  // namespace geomend

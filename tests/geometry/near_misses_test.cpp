@@ -76,9 +76,7 @@ Found search(const Soup& s, double near) {
     return f;
 }
 
-std::vector<ClosePair> pairs(const Soup& s, double near) {
-    return closest_pairs(TriangleTree(s.vertices, s.triangles), s.triangles, s.groups, near);
-}
+std::vector<ClosePair> pairs(const Soup& s, double near) { return closest_pairs(s.vertices, s.triangles, s.groups, near); }
 
 /// Takes equal positions for one vertex.
 Soup welded(const Soup& s) {
@@ -301,7 +299,7 @@ TEST(NearMisses, DoNotDependOnThreadsAndCanBeStopped) {
     Monitor monitor;
     monitor.stop = &stop;
     EXPECT_TRUE(near_misses(s.vertices, s.triangles, s.groups, b.edges, b.groups, 0.5, &monitor).empty());
-    EXPECT_TRUE(closest_pairs(TriangleTree(s.vertices, s.triangles), s.triangles, s.groups, 0.5, &monitor).empty());
+    EXPECT_TRUE(closest_pairs(s.vertices, s.triangles, s.groups, 0.5, &monitor).empty());
     EXPECT_TRUE(near_misses({}, {}, {}, {}, {}, 1).empty());
 }
 
