@@ -72,7 +72,7 @@ private:
         const std::uint32_t own = soup_.group(soup_.around(vertex).front());
         near_groups_.clear();
         find_groups_beside(vertex, own);
-        around_.visit_triangles(soup_.tree().box(point, point, near_), 0, [&](std::size_t i) {
+        around_.visit_triangles(soup_.tree().box(point, point, near_), [&](std::size_t i) {
             const auto t = static_cast<std::uint32_t>(i);
             const std::uint32_t group = soup_.group(t);
             if (group == own || std::find(beside_.begin(), beside_.end(), group) != beside_.end()) return;
@@ -122,7 +122,7 @@ private:
     /// Whether a triangle of the group, among those near the block, comes closer to the point than `distance`.
     bool has_closer(const Vec3& point, std::uint32_t group, double distance) const {
         bool found = false;
-        around_.visit_triangles(soup_.tree().box(point, point, distance), 0, [&](std::size_t i) {
+        around_.visit_triangles(soup_.tree().box(point, point, distance), [&](std::size_t i) {
             const auto t = static_cast<std::uint32_t>(i);
             if (found || soup_.group(t) != group || soup_.tree().is_farther(point, i, distance)) return;
             found = closest_points(point, soup_.corners(t)).distance < distance;
