@@ -64,34 +64,70 @@ private:
     const double near_;
     Neighbourhood around_;
     std::vector<NearGroup> near_groups_;
+    std::vector<std::uint32_t> beside_;
     std::vector<Start>& starts_;
 
     void look_about(std::uint32_t vertex) {
         const Vec3& point = soup_.position(vertex);
         const std::uint32_t own = soup_.group(soup_.around(vertex).front());
         near_groups_.clear();
-        around_.visit_triangles(soup_.tree().box(point, point, near_), 0, [&](std::size_t i) {
+        find_groups_beside(vertex, own);
+        around_.visit_triangles(soup_.tree().box(point, point, near_), [&](std::size_t i) {
             const auto t = static_cast<std::uint32_t>(i);
             const std::uint32_t group = soup_.group(t);
-            if (group == own) return;
+            if (group == own || std::find(beside_.begin(), beside_.end(), group) != beside_.end()) return;
             NearGroup* known = nullptr;
             for (NearGroup& n : near_groups_) {
                 if (n.group == group) known = &n;
             }
             if (known == nullptr) {
                 known = &near_groups_.emplace_back(NearGroup{group, t, {}});
-                known->closest.distance = soup_.on_group(vertex, group) ? 0 : near_;
+                known->closest.distance = near_;
             }
             if (soup_.tree().is_farther(point, i, known->closest.distance)) return;
             const Closest closest = closest_points(point, soup_.corners(t));
             if (closest.distance < known->closest.distance) *known = {group, t, closest};
         });
         for (const NearGroup& other : near_groups_) {
-            if (other.closest.distance == 0 || other.closest.distance >= near_) continue;
+            if (other.closest.distance == 0 || other.closest.distance >= near_ || joined(vertex, other)) continue;
             for (const std::uint32_t group : soup_.groups_at(vertex)) {
                 if (neighbours_are_farther(vertex, group, other)) starts_.push_back({group, vertex, other});
             }
         }
+    }
+
+    /// Groups that the vertex is on; those that its neighbours are on, too, where all of these are on its only group: they are
+    /// closer.
+    void find_groups_beside(std::uint32_t vertex, std::uint32_t own) {
+        beside_.clear();
+        const auto add_groups_at = [&](std::uint32_t v) {
+            for (const std::uint32_t t : soup_.around(v)) {
+                const std::uint32_t group = soup_.group(t);
+                if (group != own && (beside_.empty() || beside_.back() != group)) beside_.push_back(group);
+            }
+        };
+        add_groups_at(vertex);
+        if (!beside_.empty()) return;
+        for (const std::uint32_t t : soup_.around(vertex)) {
+            for (const std::uint32_t v : soup_.triangle(t)) add_groups_at(v);
+        }
+    }
+
+    /// A third group passes through both points.
+    bool joined(std::uint32_t vertex, const NearGroup& other) const {
+        const auto there = soup_.groups_around_part(other.triangle, other.closest.second_part);
+        return std::ranges::any_of(there, [&](std::uint32_t group) { return soup_.on_group(vertex, group); });
+    }
+
+    /// Whether a triangle of the group, among those near the block, comes closer to the point than `distance`.
+    bool has_closer(const Vec3& point, std::uint32_t group, double distance) const {
+        bool found = false;
+        around_.visit_triangles(soup_.tree().box(point, point, distance), [&](std::size_t i) {
+            const auto t = static_cast<std::uint32_t>(i);
+            if (found || soup_.group(t) != group || soup_.tree().is_farther(point, i, distance)) return;
+            found = closest_points(point, soup_.corners(t)).distance < distance;
+        });
+        return found;
     }
 
     bool neighbours_are_farther(std::uint32_t vertex, std::uint32_t own, const NearGroup& other) const {
@@ -103,12 +139,10 @@ private:
             });
         };
         const double distance = other.closest.distance;
-        std::uint32_t triangle = 0;
         // Nearly always a neighbour is closer to the same triangle already.
         return all_neighbours([&](std::uint32_t v) { return closest_points(soup_.position(v), closest).distance >= distance; }) &&
-               all_neighbours([&](std::uint32_t v) { return !soup_.on_group(v, other.group); }) && all_neighbours([&](std::uint32_t v) {
-                   return soup_.from_group(soup_.position(v), other.group, distance, triangle).distance >= distance;
-               });
+               all_neighbours([&](std::uint32_t v) { return !soup_.on_group(v, other.group); }) &&
+               all_neighbours([&](std::uint32_t v) { return !has_closer(soup_.position(v), other.group, distance); });
     }
 };
 

@@ -12,31 +12,31 @@ namespace geomend {
 
 namespace {
 
-constexpr std::size_t fours_per_block = 4;     // the triangles that walk through the tree together: 16
-constexpr std::size_t blocks_per_chunk = 256;  // what one thread does at a time
-constexpr std::size_t chunks_per_round = 64;   // between looks at the limit and at the monitor
+constexpr std::size_t chunk_level = 4;         // what one thread does at a time: a node of this level, 1024 triangles
+constexpr std::size_t chunks_per_round = 256;  // between looks at the limit and at the monitor
 
-/// Pairs of the triangles in one block with those that come after them in the tree's order.
-class BlockSearch {
+/// Pairs of the triangles in one node with these and those that come after them in the tree's order.
+class NodeSearch {
 public:
-    BlockSearch(const TriangleTree& tree, std::vector<TriangleMeetingPair>& found) : tree_(tree), near_(tree), found_(found) {}
+    NodeSearch(const TriangleTree& tree, std::size_t most) : tree_(tree), most_(most) {}
 
-    void run(std::size_t block) {
-        const auto& fours = tree_.levels().front();
-        const std::size_t first = block * fours_per_block, last = std::min(fours.size(), first + fours_per_block);
-        near_.collect(outer_box(fours, first, last), [&](std::size_t four) { return four >= first; });
-        for (std::size_t i = 4 * first; i < std::min(4 * last, tree_.size()); ++i) search(i, fours[i / 4].box(i % 4));
+    std::vector<TriangleMeetingPair> run(std::size_t level, std::size_t node) {
+        const auto with = [&](std::size_t other) {
+            if (other < node || found_.size() >= most_) return;
+            tree_.visit_pairs(level, node, other, [&](std::size_t i, std::size_t first, unsigned hits) {
+                const Separator own(corners(tree_.triangle(i)));
+                visit_bits(hits, [&](std::size_t k) { test(i, first + k, own); });
+            });
+        };
+        if (level + 1 == tree_.levels().size()) with(node);
+        else tree_.visit_nodes(level, tree_.outer_box(level, node), with);
+        return std::move(found_);
     }
 
 private:
     const TriangleTree& tree_;
-    Neighbourhood near_;
-    std::vector<TriangleMeetingPair>& found_;
-
-    void search(std::size_t i, const Box& box) {
-        const Separator own(corners(tree_.triangle(i)));
-        near_.visit_triangles(box, i + 1, [&](std::size_t j) { test(i, j, own); });
-    }
+    const std::size_t most_;
+    std::vector<TriangleMeetingPair> found_;
 
     std::array<Vec3, 3> corners(const Triangle& t) const {
         const auto vertices = tree_.vertices();
@@ -76,18 +76,13 @@ std::vector<TriangleMeetingPair> intersections(std::span<const Vec3> vertices, s
 std::vector<TriangleMeetingPair> intersections(const TriangleTree& tree, const Monitor* monitor, std::size_t most) {
     std::vector<TriangleMeetingPair> found;
     if (tree.size() == 0) return found;
-    const std::size_t fours = tree.levels().front().size();
-    const std::size_t blocks = (fours + fours_per_block - 1) / fours_per_block;
-    const std::size_t chunks = (blocks + blocks_per_chunk - 1) / blocks_per_chunk;
+    const std::size_t level = std::min(chunk_level, tree.levels().size() - 1);
+    const std::size_t chunks = tree.levels()[level].size();
     for (std::size_t round = 0; round < chunks && found.size() < most; round += chunks_per_round) {
         if (monitor != nullptr && monitor->stopped()) break;
         const std::size_t size = std::min(chunks_per_round, chunks - round);
         std::vector<std::vector<TriangleMeetingPair>> parts(size);
-        parallel_for_each_index(size, [&](std::size_t part) {
-            BlockSearch search(tree, parts[part]);
-            const std::size_t first = (round + part) * blocks_per_chunk, last = std::min(blocks, first + blocks_per_chunk);
-            for (std::size_t block = first; block != last && parts[part].size() < most; ++block) search.run(block);
-        });
+        parallel_for_each_index(size, [&](std::size_t part) { parts[part] = NodeSearch(tree, most).run(level, round + part); });
         for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
         if (monitor != nullptr) monitor->progress("intersections", static_cast<double>(round + size) / static_cast<double>(chunks));
     }

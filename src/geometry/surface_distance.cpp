@@ -76,7 +76,7 @@ Closest SurfaceDistance::from_group(const Vec3& point, std::uint32_t group, doub
     best.distance = HUGE_VAL;
     tree_.visit_triangles(tree_.box(point, point, near), [&](std::size_t i) {
         const auto t = static_cast<std::uint32_t>(i);
-        if (groups_[t] != group) return;
+        if (groups_[t] != group || tree_.is_farther(point, i, std::min(near, best.distance))) return;
         const Closest found = closest_points(point, corners(t));
         if (found.distance >= near || found.distance >= best.distance) return;
         best = found;

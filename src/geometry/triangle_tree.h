@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "base/vec3.h"
 #include "geometry/triangle_pair.h"
@@ -29,14 +33,30 @@ struct FourBoxes {
     Box around() const;
     /// Bit k is set where box k and the given one have a point in common, be it on their borders.
     unsigned overlapping(const Box& box) const {
-        std::array<std::int32_t, 4> hit;
+#ifdef __SSE2__
+        const auto all = [](float x) { return _mm_set1_ps(x); };
+        const auto four = [](const std::array<float, 4>& x) { return _mm_loadu_ps(x.data()); };
+        __m128 hit = _mm_and_ps(_mm_cmple_ps(four(low[0]), all(box.high[0])), _mm_cmpge_ps(four(high[0]), all(box.low[0])));
+        hit = _mm_and_ps(hit, _mm_and_ps(_mm_cmple_ps(four(low[1]), all(box.high[1])), _mm_cmpge_ps(four(high[1]), all(box.low[1]))));
+        hit = _mm_and_ps(hit, _mm_and_ps(_mm_cmple_ps(four(low[2]), all(box.high[2])), _mm_cmpge_ps(four(high[2]), all(box.low[2]))));
+        return static_cast<unsigned>(_mm_movemask_ps(hit));
+#else
+        unsigned hit = 0;
         for (std::size_t k = 0; k < 4; ++k) {
-            hit[k] = (low[0][k] <= box.high[0]) & (high[0][k] >= box.low[0]) & (low[1][k] <= box.high[1]) & (high[1][k] >= box.low[1]) &
-                     (low[2][k] <= box.high[2]) & (high[2][k] >= box.low[2]);
+            const bool one = low[0][k] <= box.high[0] && high[0][k] >= box.low[0] && low[1][k] <= box.high[1] && high[1][k] >= box.low[1] &&
+                             low[2][k] <= box.high[2] && high[2][k] >= box.low[2];
+            hit |= static_cast<unsigned>(one) << k;
         }
-        return static_cast<unsigned>(hit[0] | hit[1] << 1 | hit[2] << 2 | hit[3] << 3);
+        return hit;
+#endif
     }
 };
+
+/// Calls visit(k) for each bit k that is set, the lowest first.
+template <class Visit>
+void visit_bits(unsigned bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
 
 /// The smallest box around fours first to last - 1.
 Box outer_box(std::span<const FourBoxes> fours, std::size_t first, std::size_t last);
@@ -76,23 +96,44 @@ public:
         return square > distance * distance;
     }
 
-    /// Calls visit(i) for each i, ascending, such that the four triangles from 4 i on have an outer box that overlaps the given one.
+    /// The box around node i of a level (see levels()), which is not the last one.
+    Box outer_box(std::size_t level, std::size_t i) const { return levels_[level + 1][i / 4].box(i % 4); }
+
+    /// Calls visit(i) for each node i of a level, ascending, whose outer box overlaps the given one; for the last level with 0.
+    template <class Visit>
+    void visit_nodes(std::size_t level, const Box& box, const Visit& visit) const {
+        if (levels_.empty()) return;
+        visit_below(levels_.size() - 1, 0, level, box, visit);
+    }
+    /// Level 0: the four triangles from 4 i on.
     template <class Visit>
     void visit_fours(const Box& box, const Visit& visit) const {
-        if (levels_.empty()) return;
-        if (levels_.size() == 1) return visit(std::size_t{0});
-        visit_below(levels_.size() - 1, 0, box, visit);
+        visit_nodes(0, box, visit);
+    }
+
+    /// For nodes a <= b of one level: calls visit(i, first, hits) where the box of triangle i under a overlaps those of
+    /// triangles first + k under b for each bit k of hits. Each pair of triangles comes once, i before the other.
+    template <class Visit>
+    void visit_pairs(std::size_t level, std::size_t a, std::size_t b, const Visit& visit) const {
+        const FourBoxes &first = levels_[level][a], &second = levels_[level][b];
+        const unsigned near = a != b && level + 1 < levels_.size() ? first.overlapping(outer_box(level, b)) : 15u;
+        visit_bits(near, [&](std::size_t i) {
+            unsigned hits = second.overlapping(first.box(i));
+            if (level == 0) {
+                if (a == b) hits &= ~0u << (i + 1);
+                if (hits != 0) visit(4 * a + i, 4 * b, hits);
+            } else {
+                if (a == b) hits &= ~0u << i;
+                visit_bits(hits, [&](std::size_t j) { visit_pairs(level - 1, 4 * a + i, 4 * b + j, visit); });
+            }
+        });
     }
 
     /// Calls visit(i) for each triangle in the tree's order, ascending, whose box overlaps the given one.
     template <class Visit>
     void visit_triangles(const Box& box, const Visit& visit) const {
-        visit_fours(box, [&](std::size_t four) {
-            const unsigned hit = levels_[0][four].overlapping(box);
-            for (std::size_t k = 0; k < 4; ++k) {
-                if ((hit >> k & 1u) != 0) visit(4 * four + k);
-            }
-        });
+        visit_fours(box,
+                    [&](std::size_t four) { visit_bits(levels_[0][four].overlapping(box), [&](std::size_t k) { visit(4 * four + k); }); });
     }
 
 private:
@@ -107,13 +148,9 @@ private:
     void make_boxes();
 
     template <class Visit>
-    void visit_below(std::size_t level, std::size_t i, const Box& box, const Visit& visit) const {
-        const unsigned hit = levels_[level][i].overlapping(box);
-        for (std::size_t k = 0; k < 4; ++k) {
-            if ((hit >> k & 1u) == 0) continue;
-            if (level == 1) visit(4 * i + k);
-            else visit_below(level - 1, 4 * i + k, box, visit);
-        }
+    void visit_below(std::size_t level, std::size_t i, std::size_t target, const Box& box, const Visit& visit) const {
+        if (level == target) return visit(i);
+        visit_bits(levels_[level][i].overlapping(box), [&](std::size_t k) { visit_below(level - 1, 4 * i + k, target, box, visit); });
     }
 };
 
@@ -133,22 +170,16 @@ public:
     }
     bool empty() const { return fours_.empty(); }
 
-    /// Calls visit(i) for each triangle in the tree's order, ascending, from `first` on, whose box overlaps the given one and that is
-    /// in one of the fours taken.
+    /// Calls visit(i) for each triangle in the tree's order, ascending, whose box overlaps the given one and that is in one of the
+    /// fours taken.
     template <class Visit>
-    void visit_triangles(const Box& box, std::size_t first, const Visit& visit) const {
+    void visit_triangles(const Box& box, const Visit& visit) const {
         const std::vector<FourBoxes>& triangles = tree_.levels().front();
         for (std::size_t group = 0; group < boxes_.size(); ++group) {
-            const unsigned hit = boxes_[group].overlapping(box);
-            for (std::size_t k = 0; hit >> k != 0; ++k) {
-                if ((hit >> k & 1u) == 0) continue;
+            visit_bits(boxes_[group].overlapping(box), [&](std::size_t k) {
                 const std::size_t four = fours_[4 * group + k];
-                if (4 * four + 3 < first) continue;
-                const unsigned inside = triangles[four].overlapping(box);
-                for (std::size_t m = 0; inside >> m != 0; ++m) {
-                    if ((inside >> m & 1u) != 0 && 4 * four + m >= first) visit(4 * four + m);
-                }
-            }
+                visit_bits(triangles[four].overlapping(box), [&](std::size_t m) { visit(4 * four + m); });
+            });
         }
     }
 
