@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/near_misses.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
 
 #include "validators/found_cells.h"
@@ -38,10 +40,19 @@ std::vector<std::uint32_t> surface_of_triangles(const ModelScope& scope) {
     return surfaces;
 }
 
+/// Whether a finding about the two surfaces is there already that says how they meet.
+bool is_told(const std::vector<Finding>& findings, std::uint32_t a, std::uint32_t b) {
+    static constexpr std::array codes = {"B08", "B10", "B11", "B20", "B22", "B23"};
+    return std::ranges::any_of(findings, [&](const Finding& f) {
+        if (f.entities.size() != 2 || std::ranges::find(codes, f.code) == codes.end()) return false;
+        const std::int64_t x = f.entities[0].id, y = f.entities[1].id;
+        return (x == a && y == b) || (x == b && y == a);
+    });
+}
+
 void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfaces, std::vector<Finding>& findings) {
     const FreeBorders free = free_borders(scope);
-    const auto misses =
-        near_misses(scope.tree(), scope.triangles(), surfaces, free.edges, free.surfaces, scope.lengths().near, scope.monitor());
+    const auto misses = near_misses(scope.tree(), surfaces, free.edges, free.surfaces, scope.lengths().near, scope.monitor());
     struct Pair {
         double smallest = 0, largest = 0;
         Finding finding;
@@ -60,6 +71,18 @@ void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfac
     }
     for (auto& [surface, pair] : pairs) {
         const auto& [border, other] = surface;
+        if (pair.largest <= scope.lengths().tolerance) {
+            if (is_told(findings, border, other)) continue;
+            Finding touch =
+                finding_of("B11", quoted(scope.brep().surfaces[border].name) + " ends on " + quoted(scope.brep().surfaces[other].name) +
+                                      ", within the tolerance, without sharing vertices");
+            touch.entities = {surface_ref(scope, border), surface_ref(scope, other)};
+            touch.count = pair.finding.count;
+            touch.element_kind = "edge";
+            touch.points = std::move(pair.finding.points);
+            findings.push_back(std::move(touch));
+            continue;
+        }
         const std::string where = border == other ? "itself" : quoted(scope.brep().surfaces[other].name);
         Finding finding = finding_of("B23", "the border of " + quoted(scope.brep().surfaces[border].name) + " nearly meets " + where +
                                                 ": " + counted(pair.finding.count, "edge is ", "edges are ") + rounded(pair.smallest) +
@@ -76,7 +99,8 @@ void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfac
 }
 
 void tell_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfaces, std::vector<Finding>& findings) {
-    for (const ClosePair& close : closest_pairs(scope.tree(), scope.triangles(), surfaces, scope.lengths().near, scope.monitor())) {
+    for (const ClosePair& close : closest_pairs(scope.tree(), surfaces, scope.lengths().near, scope.monitor())) {
+        if (is_told(findings, close.group_a, close.group_b)) continue;
         const auto& a = scope.brep().surfaces[close.group_a];
         const auto& b = scope.brep().surfaces[close.group_b];
         Finding finding = finding_of("B24", quoted(a.name) + " and " + quoted(b.name) + " come within " + rounded(close.distance) +

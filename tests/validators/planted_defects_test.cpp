@@ -145,14 +145,19 @@ Expected surfaces_cross(LayeredModel& m, Random& random) {
 }
 
 Expected surface_meets_itself(LayeredModel& m, Random& random) {
-    // A triangle that stands on one of the sheet's edges and leans through the neighbours.
-    const Place at = place_in(m, random, flat_sheets);
+    // A triangle that hangs at an inner point and pierces the sheet beside it.
+    const Place at = place_in(m, random, flat_sheets, true);
     const auto inner = inner_points(at);
     const std::uint32_t v = inner[pick(random, inner.size())];
-    Vec3& p = at.surface->points[v];
-    p[0] += (p[0] < 1 || (p[0] > 2 && p[0] < 3) ? 1 : -1) * uniform(random, 0.8, 0.9);  // over the next node but one
-    p[1] += uniform(random, 0.1, 0.2);
-    p[2] += uniform(random, 0.001, 0.01);
+    const double turn = uniform(random, 0, 6);
+    Vec3 above = at.surface->points[v];
+    above[0] += 0.3 * std::cos(turn);
+    above[1] += 0.3 * std::sin(turn);
+    Vec3 below = above;
+    above[2] += 0.2;
+    below[2] -= 0.2;
+    const std::uint32_t a = add_point(*at.surface, above), b = add_point(*at.surface, below);
+    add_triangle(*at.surface, v, a, b);
     return {"B02", "surface", at.name()};
 }
 
