@@ -76,7 +76,7 @@ Soup crossed_folds(std::size_t triangles) {
     return soup;
 }
 
-Soup copies_of(const std::string& path, std::size_t copies) {
+Soup copies_of(const std::string& path, std::size_t copies, double spacing) {
     Soup once;
     const auto input = Input::open(path);
     if (!input) return once;
@@ -103,7 +103,7 @@ Soup copies_of(const std::string& path, std::size_t copies) {
     Soup all;
     for (std::size_t copy = 0; copy < copies; ++copy) {
         const auto first = static_cast<std::uint32_t>(all.vertices.size());
-        const double shift = 1.25 * (high - low) * double(copy);
+        const double shift = spacing * (high - low) * double(copy);
         for (const Vec3& p : once.vertices) all.vertices.push_back({p[0] + shift, p[1], p[2]});
         for (const Triangle& t : once.triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
         for (const std::uint32_t g : once.groups) all.groups.push_back(static_cast<std::uint32_t>(copy) * group + g);

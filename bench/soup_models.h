@@ -32,7 +32,7 @@ double near_length(const Soup& soup);
 Soup crossed_folds(std::size_t triangles);
 
 /// Copies side by side along x of all triangles of a file, welded where positions are equal, one group per part. Empty
-/// where the file cannot be read.
-Soup copies_of(const std::string& path, std::size_t copies);
+/// where the file cannot be read. \param spacing in lengths of the model: below 1 the copies cross each other
+Soup copies_of(const std::string& path, std::size_t copies, double spacing = 1.25);
 
 }  // namespace geomend::bench

@@ -2,6 +2,7 @@
 #include "geometry/near_misses.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -14,6 +15,9 @@ namespace geomend {
 namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
+
+/// A border that keeps near for so many times `near` belongs to no wedge, unless that is one of less than 6 degrees.
+constexpr double far_along = 10;
 
 /// The triangle of a group (by its place in the tree) that is closest to a border edge, without those that share a vertex with it.
 struct Candidate {
@@ -209,11 +213,12 @@ private:
     };
 
     /// Follows the border from a vertex on another group for as long as it keeps near that group: when it comes back to the
-    /// group or ends, the edges passed are the border of a hole.
+    /// group or ends, or has come far, the edges passed are the border of a hole.
     void follow(std::uint32_t edge, std::size_t start, std::uint32_t group) {
         std::vector<Step> path;
         std::uint32_t from = edges_[edge][start];
         Candidate before{group, 0, {}};
+        double length = 0;
         while (path.size() < edges_.size()) {
             const std::uint32_t to = edges_[edge][edges_[edge][0] == from ? 1 : 0];
             if (soup_.on_group(to, group)) {
@@ -223,7 +228,13 @@ private:
             }
             Candidate here{group, 0, {}};
             here.closest = soup_.from_group(soup_.position(to), group, near_, here.triangle);
-            if (here.closest.distance == 0 || here.closest.distance >= near_) return;
+            if (here.closest.distance == 0) return;
+            if (here.closest.distance >= near_) {
+                if (length > far_along * near_) keep(path);
+                return;
+            }
+            const Vec3 step = minus(soup_.position(to), soup_.position(from));
+            length += std::sqrt(dot(step, step));
             path.push_back({edge, here.closest.distance > before.closest.distance ? here : before});
             const std::vector<std::uint32_t> next = others(edge, to);
             if (next.empty()) return keep(path);

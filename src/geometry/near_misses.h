@@ -27,9 +27,9 @@ struct NearMiss {
 /// around them). A miss is one of
 /// - a place where the distance is smallest, as above, with the border edges next to it, up to where the distance stops growing
 ///   (edges with one end beyond `near` only where there are no others);
-/// - a run of edges, all of whose vertices are closer than `near`, from a vertex of the other group to another such vertex, or to
-///   the end of the border: a hole in a contact, or a strip narrower than `near`. Its edges are told with the distance at the
-///   end that is farther off.
+/// - a run of edges, all of whose vertices are closer than `near`, from a vertex of the other group to another such vertex, to
+///   the end of the border, or for more than 10 `near`: a hole in a contact, or a strip narrower than `near`. Its edges are told
+///   with the distance at the end that is farther off.
 /// At most one for each border edge and group of triangles: ascending by edge, then by group.
 /// \param groups the surface of each triangle; patches of one geological surface may share a group
 /// \param border_edges two vertex numbers each; \param border_groups the group of each, that of the triangle beside it
