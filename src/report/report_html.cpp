@@ -19,7 +19,6 @@ namespace geomend {
 
 namespace {
 
-constexpr std::size_t most_triangles = 250000;
 constexpr std::size_t most_marked_points = 1500000;  // in one file: some 24 MB of page
 
 // Positions relative to the origin, as single-precision words.
@@ -111,7 +110,8 @@ Json scene_json(const Scene& whole) {
     Scene scene;
     scene.parts = whole.parts;
     scene.origin = whole.origin;
-    thin(scene, most_triangles);
+    scene.simplified = whole.simplified;
+    thin(scene, page_triangles);
     std::size_t drawn = 0;
     Json parts = Json::array();
     for (const ScenePart& part : scene.parts) {

@@ -67,11 +67,12 @@ class Marks {
     if (onlyAnchor) return this.discs([one.anchor], matrix, colour, 3);
     c.strokeStyle = c.fillStyle = colour;
     const small = this.fillTriangles(one.mark.triangles, matrix, selected ? 0.55 : 0.3);
-    c.globalAlpha = selected ? 1 : 0.8;
     if (selected) {
+      c.globalAlpha = 0.5;
       this.strokeLines(one.mark.outlines, matrix, selectedColour, 3);
       this.strokeLines(one.mark.lines, matrix, selectedColour, 6);
     }
+    c.globalAlpha = selected ? 1 : 0.8;
     this.strokeLines(one.mark.outlines, matrix, colour, selected ? 1.5 : 1);
     this.strokeLines(one.mark.lines, matrix, colour, selected ? 3.5 : 2.5);
     c.globalAlpha = 1;

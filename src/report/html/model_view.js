@@ -73,7 +73,10 @@ class ModelView {
     const stretch = this.stretch();
     $('stretched').textContent = `×${stretch < 10 ? Number(stretch.toFixed(1)) : Math.round(stretch)}`;
     this.marks.stretch = stretch;
-    this.view.setLook({opacity: Number($('opacity').value) / 100, stretch, strong: this.strong, visible: (part) => !this.hidden.has(part.role)});
+    const opacity = Number($('opacity').value) / 100;
+    // The box around a model must not hide what is in it; what is chosen must be seen.
+    const opacityOf = (part, i) => this.strong.has(i) ? Math.max(opacity, 0.85) : part.role === 'boundary' ? opacity * opacity : opacity;
+    this.view.setLook({stretch, opacityOf, visible: (part) => !this.hidden.has(part.role)});
   }
 
   drawLegend() {
@@ -137,7 +140,11 @@ class ModelView {
   }
 
   drawMarks() {
-    if (this.marks && this.marks.width > 0 && this.view) this.marks.draw(this.view.matrix());
+    if (this.waiting || !this.marks || !this.view) return;
+    this.waiting = requestAnimationFrame(() => {
+      this.waiting = 0;
+      if (this.marks.width > 0) this.marks.draw(this.view.matrix());
+    });
   }
 
   // ---- choosing

@@ -50,12 +50,12 @@ const state = {file: report.files.length > 1 ? -1 : 0, text: '', code: '', entit
                sort: 'severity', down: false, limit: pageOfRows, chosen: null, shown: []};
 
 const columns = [
-  {key: 'severity', title: 'Severity', width: '92px', value: (r) => severities.indexOf(r.finding.severity)},
-  {key: 'code', title: 'Code', width: '62px', value: (r) => r.finding.code},
+  {key: 'severity', title: 'Severity', width: '96px', value: (r) => severities.indexOf(r.finding.severity)},
+  {key: 'code', title: 'Code', width: '56px', value: (r) => r.finding.code},
   {key: 'from', title: 'File', width: '20%', value: (r) => report.files[r.fileIndex].file},
-  {key: 'entity', title: 'Where', width: '24%', value: (r) => r.entity.toLowerCase()},
+  {key: 'entity', title: 'Where', width: '22%', value: (r) => r.entity.toLowerCase()},
   {key: 'message', title: 'What', width: 'auto', value: (r) => r.finding.message.toLowerCase()},
-  {key: 'count', title: 'Number', width: '76px', value: (r) => -r.count}];
+  {key: 'count', title: 'Number', width: '72px', value: (r) => -r.count}];
 const columnsShown = () => columns.filter((c) => c.key !== 'from' || state.file < 0 && report.files.length > 1);
 
 function matches(row, without) {
@@ -92,7 +92,7 @@ function drawHead() {
 function cellOf(column, row) {
   const f = row.finding;
   switch (column.key) {
-    case 'severity': return make('td', {}, make('span', {class: `dot ${f.severity}`}), severityWords[f.severity][0]);
+    case 'severity': return make('td', {class: 'severity'}, make('span', {class: `dot ${f.severity}`}), severityWords[f.severity][0]);
     case 'code': return make('td', {class: 'code'}, f.code);
     case 'from': return make('td', {class: 'from'}, shortName(report.files[row.fileIndex]));
     case 'entity': {
