@@ -90,9 +90,10 @@ Dataset objects_of(const Scene& scene, const SceneMark& mark, const Finding& f, 
 }
 
 Result<void> write_one(const Dataset& dataset, const std::filesystem::path& path) {
-    const Format* format = format_by_name(path.extension().string().substr(1));
+    const auto format = format_for_writing(path.string());
+    if (!format) return format.why();
     OutputSet output(path);
-    auto written = format->write(dataset, output, {});
+    auto written = (*format)->write(dataset, output, {});
     if (!written) return std::move(written).why();
     return output.commit();
 }

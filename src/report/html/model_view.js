@@ -61,6 +61,13 @@ class ModelView {
     this.view.reset();
   }
 
+  // Once the page around it has its size.
+  fit() {
+    if (!this.view) return;
+    this.resize();
+    this.view.reset();
+  }
+
   // The slider's right end: heights as large as half the width, at least tenfold.
   stretchLimit() {
     const b = this.bounds, wide = Math.hypot(b[3] - b[0], b[4] - b[1]), high = b[5] - b[2];

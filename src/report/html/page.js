@@ -281,6 +281,7 @@ function start() {
     step(by);
   });
   chooseFile(state.file);
+  model.fit();
   // For tests: what is shown and chosen, and where a mark stands on the screen.
   window.geomendReport = {state, rows, choose: (n) => choose(rows[n], true), view: () => model.kind(), at: (n) => model.placeOf(rows[n]),
                           settled: () => model.settled()};
