@@ -127,8 +127,7 @@ Json scene_json(const Scene& whole) {
 
 Json file_with_scene(const ReportedFile& file, std::size_t most) {
     Json j = file_json(file, most);
-    const auto sorted = worst_first(file.findings);
-    const auto listed = std::span(sorted).first(std::min(most, sorted.size()));
+    const auto listed = worst_first(file.findings, most);
     for (Json& finding : j["findings"]) {  // they are in the marks
         finding.erase("points");
         finding.erase("polylines");
