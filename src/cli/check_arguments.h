@@ -29,8 +29,8 @@ Result<validators::CheckOptions> check_options(const CommonOptions& common, cons
 bool fails(const CheckArguments& arguments, std::span<const Finding> findings);
 
 /// What is done with the findings of a file before its dataset is gone: with --report FILE.html the model is drawn, with
-/// --debris what they mark is written. Empty where there is nothing to do. `debris` must outlive it.
-Inspect inspection(const CheckArguments& arguments, DebrisFolder& debris);
+/// --debris what they mark is written. Empty where there is nothing to do. `debris` must outlive it. `files` is their number.
+Inspect inspection(const CheckArguments& arguments, DebrisFolder& debris, std::size_t files);
 
 /// Failure where --report or --debris could not be followed at the end: told before the work.
 Result<void> check_targets(const CheckArguments& arguments, const DebrisFolder& debris);

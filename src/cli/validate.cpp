@@ -42,10 +42,11 @@ Result<Report> judge(const ValidateOptions& o, const LoadOptions& load, const va
     Report all = empty_report(o);
     for (std::size_t number = 0; number < o.files.size(); ++number) {
         const std::string& path = o.files[number];
-        auto file = validate(path, load, checks, [&](const Dataset& dataset, ReportedFile& found) -> Result<void> {
-            if (earlier[number] != nullptr) leave_out_known(found, *earlier[number]);
-            return show ? show(dataset, found) : Result<void>();
-        });
+        auto file =
+            validate(path, load, checks, [&](const Dataset& dataset, std::span<const Brep> breps, ReportedFile& found) -> Result<void> {
+                if (earlier[number] != nullptr) leave_out_known(found, *earlier[number]);
+                return show ? show(dataset, breps, found) : Result<void>();
+            });
         if (!file) {
             const FailureKind kind = file.why().kind;
             if (kind == FailureKind::cancelled || kind == FailureKind::usage || kind == FailureKind::unwritable)
@@ -79,7 +80,7 @@ ExitStatus run(const ValidateOptions& o) {
     if (!checks) return report(checks.why());
     const LoadOptions load{o.from, std::move(*options), &monitor};
     ExitStatus status = ExitStatus::done;
-    const auto all = judge(o, load, *checks, earlier, inspection(o, debris), status);
+    const auto all = judge(o, load, *checks, earlier, inspection(o, debris, o.files.size()), status);
     if (!all) return report(all.why());
     if (!o.report.empty()) {
         if (auto written = write_report(*all, o.report); !written) status = worse(status, report(written.why()));

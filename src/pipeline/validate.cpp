@@ -64,7 +64,7 @@ Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_o
     try {
         auto file = validate(path, *dataset, options);
         if (!file || !inspect) return file;
-        auto inspected = inspect(*dataset, *file);
+        auto inspected = inspect(*dataset, dataset->breps, *file);
         if (!inspected) return std::move(inspected).why();
         return file;
     } catch (const std::bad_alloc&) {

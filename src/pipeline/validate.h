@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "base/result.h"
 #include "model/dataset.h"
@@ -16,9 +17,9 @@ namespace geomend {
 /// Failure: a code of the options is of no check (usage), or stopped (cancelled).
 Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options);
 
-/// Looks at a dataset and at what was found in it before the dataset is gone: to draw it, to write debris. May change the
-/// report; its failure ends the work.
-using Inspect = std::function<Result<void>(const Dataset&, ReportedFile&)>;
+/// Looks at a dataset, the B-Reps that were judged and what was found in them before they are gone: to draw them, to write
+/// debris. May change the report; its failure ends the work.
+using Inspect = std::function<Result<void>(const Dataset&, std::span<const Brep>, ReportedFile&)>;
 
 /// Reads a file and validates it. Failure as of load().
 Result<ReportedFile> validate(const std::string& path, const LoadOptions& load, const validators::CheckOptions& options,
