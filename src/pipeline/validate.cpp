@@ -67,12 +67,17 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
     return file;
 }
 
-Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_options, const validators::CheckOptions& options) {
+Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_options, const validators::CheckOptions& options,
+                              const Inspect& inspect) {
     if (auto known = validators::known_codes(options); !known) return std::move(known).why();
     auto dataset = load(path, load_options);
     if (!dataset) return std::move(dataset).why();
     try {
-        return validate(path, *dataset, options);
+        auto file = validate(path, *dataset, options);
+        if (!file || !inspect) return file;
+        auto inspected = inspect(*dataset, dataset->breps, *file);
+        if (!inspected) return std::move(inspected).why();
+        return file;
     } catch (const std::bad_alloc&) {
         return failure(FailureKind::limit, "F023", {path}, "there is not enough memory for the checks");
     }
