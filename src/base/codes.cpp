@@ -65,6 +65,8 @@ constexpr std::array catalogue = {
     CodeInfo{"F023", error, "a time or memory limit was hit", "raise the limit"},
     CodeInfo{"F024", error, "the numbers of cells of a grid are not stated",
              "give them with --option dims=NX,NY,NZ, or read the whole deck"},
+    CodeInfo{"F025", error, "the process that checked the file crashed",
+             "report it with the file; the other files were checked all the same"},
     CodeInfo{"F101", warning, "the last object has no END", "--accept-unterminated, after checking that nothing is missing"},
     CodeInfo{"F102", info, "a record is not known", ""},
     CodeInfo{"F103", warning, "degenerate element: the same node twice", "repair"},

@@ -9,12 +9,13 @@
 #include "cli/check_arguments.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/validate_many.h"
 
 namespace geomend::cli {
 
 namespace {
 
-struct ValidateOptions : CommonOptions, CheckArguments {
+struct ValidateOptions : CommonOptions, CheckArguments, WorkerArguments {
     std::vector<std::string> files;
 };
 
@@ -26,7 +27,7 @@ Result<Report> judge(const ValidateOptions& o, const LoadOptions& load, const va
         if (!file) {
             const FailureKind kind = file.why().kind;
             if (kind == FailureKind::cancelled || kind == FailureKind::usage) return std::move(file).why();
-            status = worse(status, report(file.why()));
+            status = worse(status, o.is_worker ? exit_status(kind) : report(file.why()));
             all.files.push_back(unreadable_file(path, file.why()));
             continue;
         }
@@ -36,7 +37,31 @@ Result<Report> judge(const ValidateOptions& o, const LoadOptions& load, const va
     return all;
 }
 
-ExitStatus run(const ValidateOptions& o) {
+// Files that workers judged.
+Result<Report> judge_many(const CLI::App& command, const ValidateOptions& o, const FoundFiles& files, const Monitor& monitor,
+                          ExitStatus& status) {
+    auto all = judge_in_workers(command, files, o, o.threads, &monitor, status);
+    if (!all) return all;
+    const Report with_head = empty_report(o);
+    all->tool = with_head.tool;
+    all->most_findings = with_head.most_findings;
+    for (const ReportedFile& file : all->files) {
+        if (file.outcome == FileOutcome::judged && fails(o, file.findings)) status = worse(status, ExitStatus::findings);
+    }
+    return all;
+}
+
+// The whole of what a worker says goes to standard output, also where it is not done.
+ExitStatus work(const ValidateOptions& o, const Result<Report>& all, ExitStatus status) {
+    Report said = empty_report(o);
+    if (all) said = *all;
+    else said.files.push_back(unreadable_file(o.files.front(), all.why()));
+    said.most_findings = static_cast<std::size_t>(-1);
+    return worse(all ? status : exit_status(all.why().kind), print(report_json(said)));
+}
+
+ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
+    settle_worker(o, o.threads);
     auto options = format_options(o.options);
     if (!options) return report(options.why());
     if (!o.report.empty()) {
@@ -48,7 +73,10 @@ ExitStatus run(const ValidateOptions& o) {
     if (!checks) return report(checks.why());
     const LoadOptions load{o.from, std::move(*options), &monitor};
     ExitStatus status = ExitStatus::done;
-    const auto all = judge(o, load, *checks, status);
+    const FoundFiles files = o.is_worker ? FoundFiles() : find_files(o.files);
+    const auto all =
+        o.files.size() > 1 || need_workers(files, o) ? judge_many(command, o, files, monitor, status) : judge(o, load, *checks, status);
+    if (o.is_worker) return work(o, all, status);
     if (!all) return report(all.why());
     if (!o.report.empty()) {
         if (auto written = write_report(*all, o.report); !written) status = worse(status, report(written.why()));
@@ -63,10 +91,11 @@ ExitStatus run(const ValidateOptions& o) {
 void add_validate(CLI::App& program, ExitStatus& status) {
     auto* command = program.add_subcommand("validate", "Check models; nothing is written but the report");
     auto o = std::make_shared<ValidateOptions>();
-    command->add_option("FILE", o->files, "Files to check; - is standard input")->required();
+    command->add_option("FILE", o->files, "Files, folders and patterns to check; - is standard input")->required();
     add_check_arguments(*command, *o);
+    add_worker_arguments(*command, *o);
     add_common_options(*command, *o, false);
-    command->callback([o, &status] { status = run(*o); });
+    command->callback([o, command, &status] { status = run(*command, *o); });
 }
 
 }  // namespace geomend::cli

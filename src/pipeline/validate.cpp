@@ -58,10 +58,13 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
 
 Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_options, const validators::CheckOptions& options) {
     if (auto known = validators::known_codes(options); !known) return std::move(known).why();
-    auto dataset = load(path, load_options);
+    std::vector<std::string> companions;
+    auto dataset = load(path, load_options, &companions);
     if (!dataset) return std::move(dataset).why();
     try {
-        return validate(path, *dataset, options);
+        auto file = validate(path, *dataset, options);
+        if (file) file->companions = std::move(companions);
+        return file;
     } catch (const std::bad_alloc&) {
         return failure(FailureKind::limit, "F023", {path}, "there is not enough memory for the checks");
     }
@@ -71,6 +74,9 @@ ReportedFile unreadable_file(const std::string& path, const Failure& why) {
     ReportedFile file;
     file.file = path;
     file.valid = false;
+    file.outcome = why.kind == FailureKind::limit      ? FileOutcome::limit
+                   : why.kind == FailureKind::internal ? FileOutcome::crashed
+                                                       : FileOutcome::unreadable;
     file.findings.push_back(why.error);
     file.findings.insert(file.findings.end(), why.also.begin(), why.also.end());
     return file;

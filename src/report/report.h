@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "report/run_summary.h"
 
 namespace geomend {
 
@@ -17,19 +18,32 @@ struct ReportedStep {
     Finding what;
 };
 
+/// What became of one file of a run.
+enum class FileOutcome : std::uint8_t {
+    judged,      ///< read and checked
+    unreadable,  ///< what stopped the reader is among its findings, as for the next two
+    limit,       ///< a time or memory limit was hit
+    crashed      ///< our own fault
+};
+/// "judged", "unreadable", "limit", "crashed".
+const char* to_string(FileOutcome outcome);
+
 /// What was found in one file.
 struct ReportedFile {
     std::string file;
+    FileOutcome outcome = FileOutcome::judged;
     std::optional<bool> valid;  ///< no error; nothing where not all of the file could be judged and no error was found
     double tolerance = 0, near = 0;
     std::vector<Finding> findings;
-    std::vector<ReportedStep> steps;  ///< of a repair
+    std::vector<ReportedStep> steps;      ///< of a repair
+    std::vector<std::string> companions;  ///< paths of further files that were read for it, ascending
 };
 
 struct Report {
     std::string tool;  ///< "geomend 0.1.0"
     std::vector<ReportedFile> files;
     std::size_t most_findings = static_cast<std::size_t>(-1);  ///< listed for each file; all are counted
+    std::optional<RunSummary> summary;                         ///< of a run over many files
 };
 
 /// Numbers of findings by severity.
