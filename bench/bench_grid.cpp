@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "grid/cell_geometry.h"
+#include "grid/cell_mesh.h"
 #include "grid/connections.h"
 #include "grid/faces.h"
 #include "grid/transmissibility.h"
@@ -16,7 +17,8 @@ namespace {
 
 using namespace geomend;
 
-CornerPointGrid make_grid() {
+// Layers of every other fault block dip the other way where edges are to cross off the pillars.
+CornerPointGrid make_grid(bool crossing) {
     CornerPointGrid grid;
     const char* layers = std::getenv("GEOMEND_BENCH_LAYERS");
     grid.dims = {200, 200, static_cast<std::uint32_t>(layers != nullptr ? std::atoi(layers) : 250)};
@@ -33,7 +35,8 @@ CornerPointGrid make_grid() {
                 for (unsigned c = 0; c < 8; ++c) {
                     const double x = i + (c & 1u), y = j + ((c >> 1) & 1u);
                     grid.depths[corner_index(grid.dims, i, j, k, c)] =
-                        1500 + 2.0 * (k + (c >> 2)) + 30 * std::sin(0.03 * x) + 0.2 * y + 7.3 * (i / 20);
+                        1500 + 2.0 * (k + (c >> 2)) + 30 * std::sin(0.03 * x) + 0.2 * y + 7.3 * (i / 20) +
+                        (crossing && (i / 20) % 2 == 1 ? 1.3 * (j % 5 + ((c >> 1) & 1u)) - 0.8 * y : 0.0);
                 }
             }
         }
@@ -47,7 +50,7 @@ CornerPointGrid make_grid() {
 }
 
 const CornerPointGrid& faulted() {
-    static const CornerPointGrid grid = make_grid();
+    static const CornerPointGrid grid = make_grid(false);
     return grid;
 }
 
@@ -89,6 +92,24 @@ void faces(benchmark::State& state) {
     tell(state);
 }
 BENCHMARK(faces)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void faces_with_crossings(benchmark::State& state) {
+    const CornerPointGrid grid = make_grid(true);
+    for (auto _ : state) {
+        const grid::GridFaces found = grid::conforming_faces(grid);
+        state.counters["faces"] = double(found.faces.size());
+        state.counters["points"] = double(found.points.size());
+    }
+    tell(state);
+}
+BENCHMARK(faces_with_crossings)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void polyhedra(benchmark::State& state) {
+    const CornerPointGrid& grid = faulted();
+    for (auto _ : state) benchmark::DoNotOptimize(grid::conforming_cells(grid));
+    tell(state);
+}
+BENCHMARK(polyhedra)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 

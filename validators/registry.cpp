@@ -4,13 +4,54 @@
 #include <algorithm>
 #include <array>
 
+#include "validators/cell_checks.h"
 #include "validators/corner_point.h"
+#include "validators/model_checks.h"
 
 namespace geomend::validators {
 
 namespace {
 
+/// A row of a check of boundary representations.
+constexpr Check of_model(std::string_view code, std::string_view condition, void (*run)(const ModelScope&, std::vector<Finding>&)) {
+    return {code, condition, nullptr, false, run, nullptr};
+}
+/// A row of a check of cell meshes.
+constexpr Check of_cells(std::string_view code, std::string_view condition, void (*run)(const CellScope&, std::vector<Finding>&)) {
+    return {code, condition, nullptr, false, nullptr, run};
+}
+
+// Rows with the same function: it tells all of their codes.
 constexpr std::array table = {
+    of_model("B01", "a triangle or polygon has the same vertex twice, once points within the tolerance are one", check_degenerate),
+    of_model("B02", "two triangles of one surface have more in common than the vertices and edges that they share; exact",
+             check_intersections),
+    of_model("B03",
+             "more than two triangles of one surface at an edge; or, away from lines, triangles at a vertex that make no single ring",
+             check_manifold),
+    of_model("B04", "a surface of a stated model has parts that share no point", check_pieces),
+    of_model("B05", "along a line the stated sides of a region do not cancel out", check_region_closed),
+    of_model("B06", "regions are stated, but walking along the surfaces finds none", check_model_closed),
+    of_model("B07", "a line that only one surface uses, from two sides; a warning for loose surfaces", check_seams),
+    of_model("B08", "triangles of two surfaces pass through each other; exact", check_intersections),
+    of_model("B09", "a horizon, unconformity, topography or intrusion with a free border has one region on both sides", check_free_ends),
+    of_model("B10", "B08 of two different horizons or unconformities", check_intersections),
+    of_model("B11", "a border of one surface lies on another one, or on a border of it, without the same vertices; exact",
+             check_intersections),
+    of_model(
+        "B12",
+        "walking along surfaces, both sides of one bound the same region: an error where it is stratigraphic or a boundary or where the "
+        "file's lists differ, else information",
+        check_leaks),
+    of_model("B13", "a closed region as stated has other sides than the region found by walking", check_stated_regions),
+    of_model("B14", "two stated regions have the same side of a surface", check_region_overlap),
+    of_model("B15", "twice the volume of a region over the area around it is below the search length", check_thin_regions),
+    of_model("B16", "neither side of a surface bounds a region, in a model that has regions", check_outside_surfaces),
+    of_model("B17", "two polygons at a line lie in the same half-plane; exact", check_radial_order),
+    Check{"B18", "a surface with a finding B01 to B04, B07, M04 or M05 that is an error bounds the region"},
+    of_model("B19", "a BORDER record names two points that no triangle of the surface has as an edge", check_stated_borders),
+    of_model("B20", "triangles of two surfaces have an area in common; exact", check_intersections),
+    of_model("B22", "triangles of two surfaces have single points in common that they do not share; exact", check_intersections),
     Check{"C01", "an array has another length than the dimensions ask for; nothing else is then checked"},
     Check{"C02", "a corner or pillar of an active cell is not finite, or 1e20 or more", check_coordinates},
     Check{"C03", "on a pillar the bottom lies above the top by more than the tolerance", check_inverted},
@@ -43,6 +84,32 @@ constexpr std::array table = {
           true},
     Check{"C21", "an active cell touches no other; a column of them touches no other column", check_isolated},
     Check{"C22", "the longest mean edge is more than 1000 times the shortest", check_flat_cells},
+    of_model("G01", "two regions of one model have the same name", check_region_names),
+    of_model("G02", "a stated layer or fault block lists no region that exists", check_region_lists),
+    of_model("G03", "at each contact of a fault with a horizon the horizon comes up from both sides", check_fault_displacement),
+    of_model("G04", "of two stratigraphic surfaces each is roof of a region whose floor is the other", check_horizon_order),
+    of_model("M01", "points of a model are nearer than the tolerance, and not equal", check_near_points),
+    of_model("M02", "points of a surface belong to none of its triangles", check_isolated_points),
+    of_model("M03", "the height of a triangle over its longest side is at most the tolerance", check_flat_triangles),
+    of_model("M04", "two triangles of a surface have the same three vertices", check_repeats),
+    of_model("M05", "neighbours run through their common edge in the same sense; a warning for loose surfaces", check_winding),
+    of_model("M06", "going round, a surface comes back turned over", check_winding),
+    of_model("M07", "a loop of free borders inside a surface", check_holes),
+    of_cells("M20", "the volume of a cell is zero, or of the sign that fewer cells have", check_cell_volumes),
+    of_cells("M21", "the Jacobian of a hexahedron, wedge or pyramid is not positive at a corner, after the sign of the majority",
+             check_cell_jacobians),
+    of_cells("M22", "a cell has the same node twice", check_cell_nodes),
+    of_cells("M23", "a face is on more than two cells", check_cell_faces),
+    of_cells("M24", "outer faces of cells have an area in common without being the same; exact", check_cell_matching),
+    of_cells("M25", "an edge of a polyhedron is not on two of its faces", check_polyhedra),
+    of_cells("M26", "two cells of one kind have the same nodes", check_cell_repeats),
+    of_cells("M27", "nodes that cells use are nearer than the tolerance, but not one node", check_cell_points),
+    of_cells("M28", "nodes that no cell uses", check_cell_points),
+    of_model("Q01", "the smallest angle of a triangle is below 1 degree", check_triangle_angles),
+    of_model("Q02", "an edge is shorter than the search length", check_short_edges),
+    of_model("Q03", "two neighbours enclose less than 10 degrees", check_folds),
+    of_model("Q04", "two surfaces leave a line at less than 5 degrees from each other", check_contact_angles),
+    of_cells("Q10", "a corner of a face lies farther than the tolerance from the plane through the face", check_face_planes),
 };
 
 Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "the checks were stopped"); }
@@ -64,6 +131,52 @@ Result<void> known_codes(const CheckOptions& options) {
 bool wanted(const CheckOptions& options, std::string_view code) {
     const auto names = [&](const std::vector<std::string>& list) { return std::ranges::find(list, code) != list.end(); };
     return (options.only.empty() || names(options.only)) && !names(options.skip);
+}
+
+namespace {
+
+/// Runs each function of the table once where one of its codes is wanted, and keeps what is.
+template <class Scope>
+void run_all(const Scope& scope, const CheckOptions& options, void (*Check::*member)(const Scope&, std::vector<Finding>&),
+             std::vector<Finding>& findings) {
+    std::vector<void (*)(const Scope&, std::vector<Finding>&)> done;
+    for (const Check& row : table) {
+        const auto run = row.*member;
+        if (run == nullptr || !wanted(options, row.code) || std::ranges::find(done, run) != done.end() || scope.stopped()) continue;
+        done.push_back(run);
+        run(scope, findings);
+        if (options.monitor != nullptr)
+            options.monitor->progress("checking", static_cast<double>(&row - table.data() + 1) / static_cast<double>(table.size()));
+    }
+}
+
+}  // namespace
+
+Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options) {
+    Checked result;
+    result.lengths = lengths_of(dataset, options);
+    auto models = topology::models_to_judge(dataset, result.lengths.tolerance);
+    if (!models) return std::move(models).why();
+    for (auto& model : *models) {
+        std::vector<Finding> findings;
+        const ModelScope scope(dataset, model, result.lengths, options);
+        run_all(scope, options, &Check::model, findings);
+        if (wanted(options, "B18")) spread_errors(scope, findings);
+        std::ranges::move(model.findings, std::back_inserter(result.findings));
+        std::ranges::move(findings, std::back_inserter(result.findings));
+        if (scope.stopped()) return stopped();
+    }
+    for (const Object& object : dataset.objects) {
+        const auto* mesh = std::get_if<CellMesh>(&object);
+        if (mesh == nullptr) continue;
+        const CellScope scope(*mesh, result.lengths, options);
+        run_all(scope, options, &Check::cells, result.findings);
+        if (scope.stopped()) return stopped();
+    }
+    std::erase_if(result.findings, [&](const Finding& f) {
+        return std::ranges::find(table, std::string_view(f.code), &Check::code) != table.end() && !wanted(options, f.code);
+    });
+    return result;
 }
 
 Result<Checked> check(const CornerPointGrid& grid, const CheckOptions& options) {

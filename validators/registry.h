@@ -8,16 +8,20 @@
 
 #include "base/result.h"
 #include "model/dataset.h"
+#include "validators/cell_scope.h"
 #include "validators/grid_scope.h"
+#include "validators/model_scope.h"
 
 namespace geomend::validators {
 
 /// One row of the table of checks.
 struct Check {
     std::string_view code;
-    std::string_view condition;                                      ///< when it finds something, with its thresholds; one line
-    void (*run)(const GridScope&, std::vector<Finding>&) = nullptr;  ///< nullptr: told by the reader, or before the others
-    bool of_records = false;                                         ///< needs no geometry
+    std::string_view condition;                                         ///< when it finds something, with its thresholds; one line
+    void (*run)(const GridScope&, std::vector<Finding>&) = nullptr;     ///< of corner-point grids; nullptr: told elsewhere
+    bool of_records = false;                                            ///< needs no geometry
+    void (*model)(const ModelScope&, std::vector<Finding>&) = nullptr;  ///< of boundary representations
+    void (*cells)(const CellScope&, std::vector<Finding>&) = nullptr;   ///< of cell meshes
 };
 
 /// All checks, in the order of their codes.
@@ -35,6 +39,11 @@ struct Checked {
     Lengths lengths;
     bool geometry = true;  ///< false: there is none, only records were checked (F161 tells)
 };
+
+/// Runs all wanted checks of the surfaces and cells of a Dataset: of each model that it states, of all other surfaces
+/// together, and of each cell mesh. Never changes it. What the file's claims disagree with is told, too. Cost: near-linear.
+/// Failure (cancelled) when the monitor stops it.
+Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options);
 
 /// Runs all wanted checks of a corner-point grid. Never changes it. Cost: linear in cells but for columns whose cells
 /// overlap. Failure (cancelled) when the monitor stops it.

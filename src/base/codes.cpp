@@ -12,6 +12,31 @@ using enum Severity;
 
 // F0xx: the file cannot be read or written. F1xx: it was read, and this is what stands in it.
 constexpr std::array catalogue = {
+    // Boundary representation. B01 to B11 are the validity conditions V1 to V11 of Botella 2016, section 4.3.3.
+    CodeInfo{"B01", error, "an element of an entity has no interior: it uses a vertex twice", "repair"},
+    CodeInfo{"B02", error, "elements of one surface cross or overlap each other", "repair"},
+    CodeInfo{"B03", error, "a surface is not manifold where no line is: more than two of its triangles at an edge, or fans that meet in a point",
+             "repair"},
+    CodeInfo{"B04", error, "an entity does not hang together", "repair"},
+    CodeInfo{"B05", error, "the surfaces that are stated to bound a region do not close", "close the holes: see B07, B11, B23"},
+    CodeInfo{"B06", error, "the surfaces of a model close around no volume", "close the holes: see B07, B11, B23"},
+    CodeInfo{"B07", error, "a surface is open along a seam where nothing meets it: its points there are not joined", "repair"},
+    CodeInfo{"B08", error, "two surfaces cross where they share no line", "repair"},
+    CodeInfo{"B09", error, "a surface that is neither fault nor fracture ends inside a region", "extend it to a surface, or state it as a fault"},
+    CodeInfo{"B10", error, "two stratigraphic surfaces cross", "correct one of them, or state an unconformity"},
+    CodeInfo{"B11", error, "a surface ends on another one without sharing its vertices", "repair"},
+    CodeInfo{"B12", error, "a region leaks: it lies on both sides of a surface that should separate it", "close the hole that the finding shows"},
+    CodeInfo{"B13", error, "a region as stated is not what its surfaces bound", "correct the region's list"},
+    CodeInfo{"B14", error, "regions overlap: they are stated on the same side of a surface", "correct the regions' lists"},
+    CodeInfo{"B15", warning, "a region is thinner on average than the search length for near misses", "repair"},
+    CodeInfo{"B16", warning, "both sides of a surface lie outside of all regions", "remove it, or close its region"},
+    CodeInfo{"B17", warning, "surfaces coincide along a line, so that their order around it is not known", "repair"},
+    CodeInfo{"B18", error, "an entity is not valid because one that bounds it is not", "mend the entity that is named"},
+    CodeInfo{"B19", error, "a stated border of a surface is no edge of its mesh", "repair"},
+    CodeInfo{"B20", error, "two surfaces lie on each other", "repair"},
+    CodeInfo{"B22", warning, "two surfaces touch in a point that they do not share", "repair"},
+    CodeInfo{"B23", warning, "the border of a surface nearly meets another surface", "repair --tolerance with more than the gap"},
+    CodeInfo{"B24", info, "two surfaces come close to each other without meeting", ""},
     // Corner-point grids, numbered as in the rules that they come from.
     CodeInfo{"C01", error, "the length of an array does not fit the dimensions", "correct SPECGRID or the array"},
     CodeInfo{"C02", error, "a coordinate is not finite or as large as 1e20", "export the grid again, or make the cells inactive"},
@@ -102,6 +127,34 @@ constexpr std::array catalogue = {
     CodeInfo{"F152", info, "volumes of polyhedra beside those of trilinear cells", ""},
     CodeInfo{"F160", info, "no check exists yet for objects of this kind", ""},
     CodeInfo{"F161", info, "a grid has no geometry: only its records were checked", "give the file that holds COORD and ZCORN"},
+    // Geology.
+    CodeInfo{"G01", warning, "a name is used for more than one region", "rename one of them"},
+    CodeInfo{"G02", warning, "a layer or a fault block has no region", "correct its list"},
+    CodeInfo{"G03", info, "a fault displaces no horizon", ""},
+    CodeInfo{"G04", error, "two horizons follow one another in both orders", "correct the horizon that is crossed or folded over"},
+    // Meshes of surfaces and cells.
+    CodeInfo{"M01", warning, "points are nearer to each other than the tolerance, but not equal", "repair"},
+    CodeInfo{"M02", info, "points belong to no triangle", "repair"},
+    CodeInfo{"M03", warning, "a triangle is flatter than the tolerance", "repair"},
+    CodeInfo{"M04", error, "a triangle is there more than once", "repair"},
+    CodeInfo{"M05", error, "neighbouring triangles of a surface are wound in opposite senses", "repair"},
+    CodeInfo{"M06", warning, "a surface has one side only, as a Moebius strip has", "cut it"},
+    CodeInfo{"M07", info, "a surface has free borders within: holes", ""},
+    CodeInfo{"M20", error, "a cell is turned inside out against the others, or has no volume", "repair"},
+    CodeInfo{"M21", error, "a cell is folded: its Jacobian is not positive at a corner", ""},
+    CodeInfo{"M22", error, "a cell uses a node twice", "repair"},
+    CodeInfo{"M23", error, "more than two cells share a face", ""},
+    CodeInfo{"M24", warning, "faces of cells lie on each other without matching", ""},
+    CodeInfo{"M25", error, "the faces of a polyhedron do not close", ""},
+    CodeInfo{"M26", error, "a cell is there more than once", "repair"},
+    CodeInfo{"M27", warning, "nodes of cells are nearer to each other than the tolerance, but not one node", "repair"},
+    CodeInfo{"M28", info, "nodes belong to no cell", ""},
+    // Quality.
+    CodeInfo{"Q01", info, "a triangle has an angle below 1 degree", "remesh"},
+    CodeInfo{"Q02", info, "an edge is shorter than the search length for near misses", "remesh"},
+    CodeInfo{"Q03", warning, "a surface is folded back sharply: neighbouring triangles enclose less than 10 degrees", "remesh"},
+    CodeInfo{"Q04", info, "surfaces meet at an angle below 5 degrees", ""},
+    CodeInfo{"Q10", info, "a face of a polyhedron is not plane", ""},
 };
 
 }  // namespace

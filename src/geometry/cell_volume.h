@@ -5,15 +5,10 @@
 #include <cstdint>
 #include <span>
 
-#include "base/vec3.h"
+#include "geometry/vectors.h"
 
 namespace geomend {
 
-inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 /// Six times the volume between a triangle and the origin, positive when the triangle's normal points away from it.
 inline double flux6(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
 /// The same for the bilinear patch over a quadrangle: exactly the mean of its two splits into triangles.

@@ -8,6 +8,7 @@
 #include "base/number_text.h"
 #include "grid/cell_mesh.h"
 #include "grid/connections.h"
+#include "grid/face_triangles.h"
 
 namespace geomend::grid {
 
@@ -53,7 +54,9 @@ public:
     }
 
 private:
-    using Key = std::tuple<Feature, std::uint32_t, std::uint32_t>;  // feature, region behind, region in front or nobody
+    // Feature, region behind, region in front or nobody, and which way open faces look: two that look at each other may
+    // be alike, and one surface would hold them twice.
+    using Key = std::tuple<Feature, std::uint32_t, std::uint32_t, unsigned>;
     struct Member {
         std::uint32_t face;
         bool turned;  // its normal leaves the region in front
@@ -98,8 +101,9 @@ private:
         const std::uint32_t back = region_[face.first], front = face.second == nobody ? nobody : region_[face.second];
         Feature feature;
         if (!feature_of(face, back == front, feature)) return;
-        if (back <= front) groups_[{std::move(feature), back, front}].push_back({f, false});
-        else groups_[{std::move(feature), front, back}].push_back({f, true});
+        const unsigned way = face.second == nobody ? static_cast<unsigned>(face.side) & 1u : 0u;
+        if (back <= front) groups_[{std::move(feature), back, front, way}].push_back({f, false});
+        else groups_[{std::move(feature), front, back, way}].push_back({f, true});
     }
 
     bool feature_of(const GridFaces::Face& face, bool within, Feature& feature) const {
@@ -188,28 +192,13 @@ private:
     }
 
     void add_surface(const Key& key, const std::vector<Member>& members, Dataset& model, StatedModel& stated) const {
-        const auto& [feature, back, front] = key;
+        const auto& [feature, back, front, way] = key;
         Surface surface;
         surface.info.name = feature.name;
         surface.info.role = feature.role;
         surface.info.crs = grid_.info.crs;
-        std::vector<std::uint32_t> nodes;
-        for (const Member& m : members) {
-            const auto polygon = faces_.polygon(m.face);
-            nodes.insert(nodes.end(), polygon.begin(), polygon.end());
-        }
-        std::ranges::sort(nodes);
-        nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-        for (const std::uint32_t n : nodes) surface.points.push_back(faces_.points[n]);
-        std::vector<std::uint32_t> corners;
-        for (const Member& m : members) {
-            corners.clear();
-            for (const std::uint32_t n : faces_.polygon(m.face))
-                corners.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(nodes, n) - nodes.begin()));
-            // Normals point to the front: out of the region behind.
-            if (outward_ == m.turned) std::ranges::reverse(corners);
-            surface.polygons.push_back(corners);
-        }
+        take_triangles(members, surface);
+        if (surface.polygons.corners.empty()) return;  // faces without any area
         StatedModel::Face face;
         face.number = static_cast<std::int64_t>(stated.faces.size() + 1);
         face.object = static_cast<std::uint32_t>(model.objects.size());
@@ -220,6 +209,27 @@ private:
         if (front != nobody) stated.regions[front].sides.push_back({number, true});
         stated.faces.push_back(std::move(face));
         model.objects.emplace_back(std::move(surface));
+    }
+
+    void take_triangles(const std::vector<Member>& members, Surface& surface) const {
+        std::vector<std::array<std::uint32_t, 3>> triangles, all;
+        std::vector<std::uint32_t> nodes;
+        for (const Member& m : members) {
+            face_triangles(faces_.polygon(m.face), faces_.points, triangles);
+            // Normals point to the front: out of the region behind.
+            if (outward_ == m.turned) {
+                for (auto& t : triangles) std::swap(t[1], t[2]);
+            }
+            all.insert(all.end(), triangles.begin(), triangles.end());
+        }
+        for (const auto& t : all) nodes.insert(nodes.end(), t.begin(), t.end());
+        std::ranges::sort(nodes);
+        nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+        for (const std::uint32_t n : nodes) surface.points.push_back(faces_.points[n]);
+        for (const auto& t : all) {
+            for (const std::uint32_t n : t)
+                surface.polygons.corners.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(nodes, n) - nodes.begin()));
+        }
     }
 
     const CornerPointGrid& grid_;

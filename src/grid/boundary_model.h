@@ -19,7 +19,8 @@ struct ModelRequest {
 /// The boundary representation of a grid, as surfaces and a model stated over them: the outside of the grid (one surface
 /// per side), faults (named by FAULTS records, else "unnamed throw"), horizons below the chosen layers and what else
 /// divides two regions. Regions are the values of an attribute, cut at horizons where those are given. Surfaces are
-/// made of the faces of conforming_faces(), as polygons, so that they share their points where they meet.
+/// made of the faces of conforming_faces(), as triangles (face_triangles()): they share their points where they meet, and a
+/// region holds exactly what the polyhedra of its cells hold. Open faces that look opposite ways are surfaces apart.
 /// Failure (usage) where the attribute is missing or a layer is not in the grid.
 Result<Dataset> boundary_model(const CornerPointGrid& grid, const ModelRequest& request);
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
+#include "base/parallel.h"
 #include "geometry/cell_volume.h"
 #include "grid/cell_geometry.h"
 #include "grid/pillar_nodes.h"
@@ -67,19 +69,72 @@ struct FacesOfCells {
     }
 };
 
+// Lengths first, so that all cells can be filled at the same time.
+void add_cell_faces(const GridFaces& faces, const FacesOfCells& own, bool turn_first, Cells& cells) {
+    CellMesh& mesh = cells.mesh;
+    mesh.cell_faces.reserve(cells.source.size() + 1);
+    mesh.cell_faces.push_back(0);
+    for (const std::uint32_t c : cells.source) mesh.cell_faces.push_back(mesh.cell_faces.back() + own.first[c + 1] - own.first[c]);
+    mesh.face_offsets.reserve(mesh.cell_faces.back() + 1);
+    mesh.face_offsets.push_back(0);
+    for (const std::uint32_t c : cells.source) {
+        for (std::uint64_t f = own.first[c]; f < own.first[c + 1]; ++f)
+            mesh.face_offsets.push_back(mesh.face_offsets.back() + faces.polygon(own.faces[f]).size());
+    }
+    mesh.face_nodes.resize(mesh.face_offsets.back());
+    parallel_blocks(cells.source.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t s = first; s < last; ++s) {
+            const std::uint32_t c = cells.source[s];
+            auto to = mesh.face_nodes.begin() + static_cast<std::ptrdiff_t>(mesh.face_offsets[mesh.cell_faces[s]]);
+            for (std::uint64_t f = own.first[c]; f < own.first[c + 1]; ++f) {
+                const auto polygon = faces.polygon(own.faces[f]);
+                const bool turn = (faces.faces[own.faces[f]].first == c) == turn_first;
+                to = turn ? std::ranges::reverse_copy(polygon, to).out : std::ranges::copy(polygon, to).out;
+            }
+        }
+    });
+}
+
+// The distinct corners of the faces of each cell, ascending.
+void add_cell_nodes(CellMesh& mesh) {
+    constexpr std::size_t at_once = 8192;
+    const std::size_t cells = mesh.types.size(), blocks = (cells + at_once - 1) / at_once;
+    std::vector<std::vector<std::uint32_t>> nodes(blocks);
+    mesh.offsets.resize(cells + 1);
+    mesh.offsets[0] = 0;
+    parallel_for_each_index(blocks, [&](std::size_t block) {
+        std::vector<std::uint32_t> distinct;
+        for (std::size_t c = block * at_once; c < std::min(cells, (block + 1) * at_once); ++c) {
+            const auto* const corners = mesh.face_nodes.data();
+            distinct.assign(corners + mesh.face_offsets[mesh.cell_faces[c]], corners + mesh.face_offsets[mesh.cell_faces[c + 1]]);
+            std::ranges::sort(distinct);
+            distinct.erase(std::ranges::unique(distinct).begin(), distinct.end());
+            nodes[block].insert(nodes[block].end(), distinct.begin(), distinct.end());
+            mesh.offsets[c + 1] = distinct.size();
+        }
+    });
+    for (std::size_t c = 0; c < cells; ++c) mesh.offsets[c + 1] += mesh.offsets[c];
+    mesh.nodes.reserve(mesh.offsets.back());
+    for (auto& part : nodes) {
+        mesh.nodes.insert(mesh.nodes.end(), part.begin(), part.end());
+        part = {};
+    }
+}
+
 }  // namespace
 
 bool right_handed(const CornerPointGrid& grid) {
-    std::int64_t votes = 0;
-    for (std::uint32_t k = 0; k < grid.dims[2]; ++k) {
-        for (std::uint32_t j = 0; j < grid.dims[1]; ++j) {
-            for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
-                if (!grid.is_active(grid.cell(i, j, k))) continue;
-                const double v = cell_volume(grid, i, j, k);
-                votes += v > 0 ? 1 : v < 0 ? -1 : 0;
-            }
+    std::atomic<std::int64_t> votes{0};
+    parallel_blocks(grid.cell_count(), 4096, [&](std::size_t first, std::size_t last) {
+        std::int64_t own = 0;
+        for (std::size_t cell = first; cell < last; ++cell) {
+            if (!grid.is_active(cell)) continue;
+            const auto [i, j, k] = grid.ijk(cell);
+            const double v = cell_volume(grid, i, j, k);
+            own += v > 0 ? 1 : v < 0 ? -1 : 0;
         }
-    }
+        votes += own;
+    });
     return votes >= 0;
 }
 
@@ -142,33 +197,15 @@ Cells conforming_cells(const CornerPointGrid& grid) { return conforming_cells(gr
 
 Cells conforming_cells(const CornerPointGrid& grid, const GridFaces& faces) {
     Cells cells;
-    CellMesh& mesh = cells.mesh;
-    mesh.points = faces.points;
-    const FacesOfCells own(faces, grid.cell_count());
-    // Elevation turns the hand round: what leaves the cell in (I,J,K) enters it where the grid is right-handed.
-    const bool turn_first = right_handed(grid);
-    std::vector<std::uint32_t> distinct;
-    mesh.cell_faces.push_back(0);
-    mesh.face_offsets.push_back(0);
     for (std::uint32_t c = 0; c < grid.cell_count(); ++c) {
-        if (faces.present[c] == 0) continue;
-        distinct.clear();
-        for (std::uint64_t f = own.first[c]; f < own.first[c + 1]; ++f) {
-            const auto polygon = faces.polygon(own.faces[f]);
-            const bool turn = (faces.faces[own.faces[f]].first == c) == turn_first;
-            if (turn) mesh.face_nodes.insert(mesh.face_nodes.end(), polygon.rbegin(), polygon.rend());
-            else mesh.face_nodes.insert(mesh.face_nodes.end(), polygon.begin(), polygon.end());
-            mesh.face_offsets.push_back(mesh.face_nodes.size());
-            distinct.insert(distinct.end(), polygon.begin(), polygon.end());
-        }
-        std::ranges::sort(distinct);
-        distinct.erase(std::ranges::unique(distinct).begin(), distinct.end());
-        mesh.types.push_back(CellType::polyhedron);
-        mesh.nodes.insert(mesh.nodes.end(), distinct.begin(), distinct.end());
-        mesh.offsets.push_back(mesh.nodes.size());
-        mesh.cell_faces.push_back(mesh.face_offsets.size() - 1);
-        cells.source.push_back(c);
+        if (faces.present[c] != 0) cells.source.push_back(c);
     }
+    const FacesOfCells own(faces, grid.cell_count());
+    cells.mesh.points = faces.points;
+    cells.mesh.types.assign(cells.source.size(), CellType::polyhedron);
+    // Elevation turns the hand round: what leaves the cell in (I,J,K) enters it where the grid is right-handed.
+    add_cell_faces(faces, own, right_handed(grid), cells);
+    add_cell_nodes(cells.mesh);
     cells.unmatched_columns = faces.unmatched_columns;
     list_collapsed(grid, faces.present, cells);
     take_info(grid, cells);

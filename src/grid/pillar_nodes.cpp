@@ -66,14 +66,6 @@ std::uint32_t PillarNodes::id(std::size_t pillar, double depth) const {
     return static_cast<std::uint32_t>(first_[pillar] + static_cast<std::size_t>(std::ranges::lower_bound(all, depth) - all.begin()));
 }
 
-PillarNodes::Between PillarNodes::between(std::size_t pillar, double upper, double lower) const {
-    const auto all = on(pillar);
-    const auto from = std::ranges::upper_bound(all, upper), to = std::ranges::lower_bound(all, lower);
-    if (from >= to) return {0, 0};
-    return {static_cast<std::uint32_t>(first_[pillar] + static_cast<std::size_t>(from - all.begin())),
-            static_cast<std::uint32_t>(to - from)};
-}
-
 std::vector<Vec3> PillarNodes::points(const CornerPointGrid& grid) const {
     std::vector<Vec3> all(depths_.size());
     parallel_blocks(first_.size() - 1, 256, [&](std::size_t first, std::size_t last) {

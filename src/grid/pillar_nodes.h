@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,7 +15,7 @@ namespace geomend::grid {
 std::vector<std::uint8_t> present_cells(const CornerPointGrid& grid);
 
 /// The points of a grid, one for each depth at which a present cell has a corner on a pillar. Numbered pillar by
-/// pillar, downwards; corners at bit-equal depths share a point.
+/// pillar, downwards and without holes; corners at bit-equal depths share a point.
 class PillarNodes {
 public:
     /// \param present one value per cell, as present_cells() gives it
@@ -22,11 +23,14 @@ public:
 
     /// \pre a present cell has a corner there
     std::uint32_t id(std::size_t pillar, double depth) const;
-    /// Points strictly between two of a pillar's depths: ids first, first+1, ... \pre upper <= lower
-    struct Between {
-        std::uint32_t first, count;
-    };
-    Between between(std::size_t pillar, double upper, double lower) const;
+    /// The same, quicker where the point is `near` (a number, of whatever pillar) or one of the next few below it.
+    std::uint32_t id(std::size_t pillar, double depth, std::uint32_t near) const {
+        const std::uint64_t last = std::min<std::uint64_t>(first_[pillar + 1], std::uint64_t{near} + 4);
+        for (std::uint64_t at = near; at < last && at >= first_[pillar]; ++at) {
+            if (depths_[at] == depth) return static_cast<std::uint32_t>(at);
+        }
+        return id(pillar, depth);
+    }
     std::size_t size() const { return depths_.size(); }
     std::span<const double> on(std::size_t pillar) const { return {depths_.data() + first_[pillar], depths_.data() + first_[pillar + 1]}; }
 

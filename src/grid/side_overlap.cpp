@@ -2,12 +2,19 @@
 #include "grid/side_overlap.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace geomend::grid {
 
 namespace {
 
 using Edge = std::array<double, 2>;
+
+// Where the difference of two edges is 0 that has these values, of either sign, on the pillars; never on a pillar.
+double fraction(double at_a, double at_b) {
+    constexpr double most = 1 - std::numeric_limits<double>::epsilon() / 2;
+    return std::min(at_a / (at_a - at_b), most);
+}
 
 // Fractions between which an upper edge lies above a lower one, and the edges that end them (nullptr: the pillar).
 struct Range {
@@ -25,7 +32,7 @@ struct Range {
             empty = true;
             return;
         }
-        const double u = at_a / (at_a - at_b);
+        const double u = fraction(at_a, at_b);
         if (at_a < 0 && u > low) {
             low = u;
             low_upper = &upper;
@@ -39,22 +46,16 @@ struct Range {
     }
 };
 
-double at(const Edge& edge, double u) { return edge[0] + u * (edge[1] - edge[0]); }
-
-// The lower (for tops) or the upper (for bottoms) of two edges near the end u of a range.
-const Edge& inner(const Edge& p, const Edge& q, double u, double other_end, bool deeper) {
-    double a = u == 0 ? p[0] : u == 1 ? p[1] : at(p, u), b = u == 0 ? q[0] : u == 1 ? q[1] : at(q, u);
-    if (a == b) {
-        a = at(p, other_end);
-        b = at(q, other_end);
-    }
-    return (a >= b) == deeper ? p : q;
+// The lower (for tops) or the upper (for bottoms) of two edges where they leave a pillar.
+const Edge& inner(const Edge& p, const Edge& q, unsigned pillar, bool deeper) {
+    const unsigned at = p[pillar] == q[pillar] ? 1 - pillar : pillar;
+    return (p[at] >= q[at]) == deeper ? p : q;
 }
 
 bool cross_within(const Edge& p, const Edge& q, double low, double high, double& u) {
     const double at_a = p[0] - q[0], at_b = p[1] - q[1];
     if ((at_a > 0) == (at_b > 0) || at_a == 0 || at_b == 0) return false;
-    u = at_a / (at_a - at_b);
+    u = fraction(at_a, at_b);
     return u > low && u < high;
 }
 
@@ -94,20 +95,20 @@ Overlap overlap(const Side& a, const Side& b) {
     Overlap result;
     const Range range = shared_range(top1, top2, bottom1, bottom2);
     if (range.empty) return result;
-    const Edge& top_low = inner(top1, top2, range.low, range.high, true);
-    const Edge& top_high = inner(top1, top2, range.high, range.low, true);
-    const Edge& bottom_low = inner(bottom1, bottom2, range.low, range.high, false);
-    const Edge& bottom_high = inner(bottom1, bottom2, range.high, range.low, false);
+    const Edge& top_low = inner(top1, top2, 0, true);
+    const Edge& top_high = inner(top1, top2, 1, true);
+    const Edge& bottom_low = inner(bottom1, bottom2, 0, false);
+    const Edge& bottom_high = inner(bottom1, bottom2, 1, false);
     double u = 0;
     if (range.low_upper != nullptr) add(result, range.low, *range.low_upper, *range.low_lower);
     else add(result, 0, top_low, top_low);
-    if (&top_low != &top_high && cross_within(top1, top2, range.low, range.high, u)) add(result, u, top1, top2);
+    if (cross_within(top1, top2, range.low, range.high, u)) add(result, u, top1, top2);
     if (range.high_upper != nullptr) add(result, range.high, *range.high_upper, *range.high_lower);
     else {
         add(result, 1, top_high, top_high);
         add(result, 1, bottom_high, bottom_high);
     }
-    if (&bottom_low != &bottom_high && cross_within(bottom1, bottom2, range.low, range.high, u)) add(result, u, bottom1, bottom2);
+    if (cross_within(bottom1, bottom2, range.low, range.high, u)) add(result, u, bottom1, bottom2);
     if (range.low_upper == nullptr && bottom_low[0] != top_low[0]) add(result, 0, bottom_low, bottom_low);
     if (result.count < 3) result.count = 0;
     return result;

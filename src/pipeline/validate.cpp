@@ -13,18 +13,22 @@ bool has_errors(const std::vector<Finding>& findings) {
     return std::ranges::any_of(findings, [](const Finding& f) { return f.severity == Severity::error; });
 }
 
+bool has_model_checks(const Object& object) { return std::holds_alternative<Surface>(object) || std::holds_alternative<CellMesh>(object); }
+
+bool has_checks(const Object& object) { return has_model_checks(object) || std::holds_alternative<CornerPointGrid>(object); }
+
 // One finding for each kind of object that cannot be judged yet.
 void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
     std::map<std::string, Finding> kinds;
     for (const Object& object : dataset.objects) {
-        if (std::holds_alternative<CornerPointGrid>(object)) continue;
+        if (has_checks(object)) continue;
         Finding& f = kinds[kind_name(object)];
         ++f.count;
         if (f.entities.size() < 100) f.entities.push_back({kind_name(object), info_of(object).name});
     }
     for (auto& [kind, f] : kinds) {
         f.code = "F160";
-        f.message = "no check exists yet for objects of kind " + kind + ": " + std::to_string(f.count) +
+        f.message = "there is no check for objects of kind " + kind + ": " + std::to_string(f.count) +
                     (f.count == 1 ? " was read, but not judged" : " were read, but not judged");
         findings.push_back(std::move(f));
     }
@@ -38,17 +42,24 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
     file.file = path;
     std::ranges::copy_if(dataset.findings, std::back_inserter(file.findings),
                          [&](const Finding& f) { return !f.code.starts_with('C') || validators::wanted(options, f.code); });
-    bool all_judged = !dataset.objects.empty();
+    const auto take = [&](validators::Checked& checked) {
+        file.tolerance = std::max(file.tolerance, checked.lengths.tolerance);
+        file.near = std::max(file.near, checked.lengths.near);
+        std::ranges::move(checked.findings, std::back_inserter(file.findings));
+    };
+    bool all_judged = std::ranges::any_of(dataset.objects, has_checks);
     for (const Object& object : dataset.objects) {
         const auto* grid = std::get_if<CornerPointGrid>(&object);
-        all_judged = all_judged && grid != nullptr;
         if (grid == nullptr) continue;
         auto checked = validators::check(*grid, options);
         if (!checked) return std::move(checked).why();
         all_judged = all_judged && checked->geometry;
-        file.tolerance = std::max(file.tolerance, checked->lengths.tolerance);
-        file.near = std::max(file.near, checked->lengths.near);
-        std::ranges::move(checked->findings, std::back_inserter(file.findings));
+        take(*checked);
+    }
+    if (std::ranges::any_of(dataset.objects, has_model_checks)) {
+        auto checked = validators::check_models(dataset, options);
+        if (!checked) return std::move(checked).why();
+        take(*checked);
     }
     tell_unchecked(dataset, file.findings);
     if (has_errors(file.findings)) file.valid = false;

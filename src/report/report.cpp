@@ -7,6 +7,7 @@
 
 #include "base/output.h"
 #include "report/json.h"
+#include "report/report_parts.h"
 #include "report/worst_first.h"
 
 namespace geomend {
@@ -19,14 +20,18 @@ struct Form {
     std::string_view extension;
     std::string (*make)(const Report&);
 };
-constexpr std::array forms{Form{".json", report_json}, Form{".sarif", report_sarif}, Form{".xml", report_junit}, Form{".txt", plain_text}};
+constexpr std::array forms{Form{".json", report_json}, Form{".sarif", report_sarif}, Form{".xml", report_junit}, Form{".html", report_html},
+                           Form{".txt", plain_text}};
 
 Result<const Form*> form_of(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension().string();
     const auto form = std::ranges::find(forms, extension, &Form::extension);
     if (form != forms.end()) return &*form;
-    return failure(FailureKind::usage, "F018", {}, "--report " + path + ": expected a name that ends with .json, .sarif, .xml or .txt");
+    return failure(FailureKind::usage, "F018", {},
+                   "--report " + path + ": expected a name that ends with .json, .sarif, .xml, .html or .txt");
 }
+
+}  // namespace
 
 Json file_json(const ReportedFile& file, std::size_t most) {
     Json j{{"file", file.file}};
@@ -35,11 +40,16 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     if (!file.companions.empty()) j["companions"] = file.companions;
     const SeverityCounts counts = count_by_severity(file.findings);
     j["counts"] = {{"error", counts.error}, {"warning", counts.warning}, {"info", counts.info}};
+    if (file.known) j["known"] = {{"error", file.known->error}, {"warning", file.known->warning}, {"info", file.known->info}};
     j["tolerance"] = file.tolerance;
     j["near"] = file.near;
     Json findings = Json::array();
     const auto sorted = worst_first(file.findings);
-    for (const Finding* f : std::span(sorted).first(std::min(most, sorted.size()))) findings.push_back(finding_json(*f));
+    for (const Finding* f : std::span(sorted).first(std::min(most, sorted.size()))) {
+        findings.push_back(finding_json(*f));
+        const auto number = static_cast<std::size_t>(f - file.findings.data());
+        if (number < file.debris.size() && !file.debris[number].empty()) findings.back()["debris"] = file.debris[number];
+    }
     if (sorted.size() > most) j["not_listed"] = sorted.size() - most;
     j["findings"] = std::move(findings);
     if (file.steps.empty()) return j;
@@ -55,8 +65,6 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     j["steps"] = std::move(steps);
     return j;
 }
-
-}  // namespace
 
 const char* to_string(FileOutcome outcome) {
     constexpr const char* words[] = {"judged", "unreadable", "limit", "crashed"};

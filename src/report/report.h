@@ -9,6 +9,7 @@
 
 #include "base/result.h"
 #include "report/run_summary.h"
+#include "report/scene.h"
 
 namespace geomend {
 
@@ -28,6 +29,12 @@ enum class FileOutcome : std::uint8_t {
 /// "judged", "unreadable", "limit", "crashed".
 const char* to_string(FileOutcome outcome);
 
+/// Numbers of findings by severity.
+struct SeverityCounts {
+    std::uint64_t error = 0, warning = 0, info = 0;
+};
+SeverityCounts count_by_severity(std::span<const Finding> findings);
+
 /// What was found in one file.
 struct ReportedFile {
     std::string file;
@@ -35,8 +42,11 @@ struct ReportedFile {
     std::optional<bool> valid;  ///< no error; nothing where not all of the file could be judged and no error was found
     double tolerance = 0, near = 0;
     std::vector<Finding> findings;
-    std::vector<ReportedStep> steps;      ///< of a repair
-    std::vector<std::string> companions;  ///< paths of further files that were read for it, ascending
+    std::vector<ReportedStep> steps;               ///< of a repair
+    std::vector<std::string> companions;           ///< paths of further files that were read for it, ascending
+    std::optional<SeverityCounts> known;           ///< findings that an earlier report has, too, and that are left out here
+    std::vector<std::vector<std::string>> debris;  ///< files written for each finding; empty where none were
+    std::optional<Scene> scene;                    ///< for pages; its marks are those of `findings`, in the same order
 };
 
 struct Report {
@@ -45,12 +55,6 @@ struct Report {
     std::size_t most_findings = static_cast<std::size_t>(-1);  ///< listed for each file; all are counted
     std::optional<RunSummary> summary;                         ///< of a run over many files
 };
-
-/// Numbers of findings by severity.
-struct SeverityCounts {
-    std::uint64_t error = 0, warning = 0, info = 0;
-};
-SeverityCounts count_by_severity(std::span<const Finding> findings);
 
 /// The schema that INTERFACE states (1): files with findings, worst first.
 std::string report_json(const Report& report);
@@ -61,7 +65,11 @@ std::string report_junit(const Report& report);
 /// SARIF 2.1.0.
 std::string report_sarif(const Report& report);
 
-/// Writes by extension: .json, .sarif, .xml (JUnit), .txt. Failure (usage) for others, (unwritable) where it cannot.
+/// One page that needs no network: the findings in a table that can be filtered, the text of each, and the model of each
+/// file that has a scene, with the findings marked where they are. Text of files never becomes markup.
+std::string report_html(const Report& report);
+
+/// Writes by extension: .json, .sarif, .xml (JUnit), .html, .txt. Failure (usage) for others, (unwritable) where it cannot.
 Result<void> write_report(const Report& report, const std::string& path);
 /// Failure (usage) where write_report() would refuse the extension.
 Result<void> report_form(const std::string& path);

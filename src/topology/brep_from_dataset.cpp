@@ -14,6 +14,8 @@
 #include "topology/faces_from_surfaces.h"
 #include "topology/geology.h"
 #include "topology/keys.h"
+#include "topology/near_weld.h"
+#include "topology/pieces.h"
 #include "topology/regions.h"
 #include "topology/weld.h"
 
@@ -28,14 +30,26 @@ class ModelBuilder {
 public:
     /// \param model the file's claims; null for a mesh whose entities say it all
     /// \param mesh_object the mesh that a null `model` is about
-    ModelBuilder(const Dataset& dataset, const StatedModel* model, std::uint32_t mesh_object)
-        : dataset_(dataset), model_(model), welder_(0), mesh_object_(mesh_object) {
+    /// \param tolerance nearer points are one vertex; 0: equal ones only
+    ModelBuilder(const Dataset& dataset, const StatedModel* model, std::uint32_t mesh_object, double tolerance)
+        : dataset_(dataset), model_(model), welder_(0), mesh_object_(mesh_object), tolerance_(tolerance) {
         choose_objects();
+    }
+    /// \param loose surfaces that belong to no model
+    ModelBuilder(const Dataset& dataset, std::vector<std::uint32_t> loose, double tolerance)
+        : dataset_(dataset), model_(nullptr), objects_(std::move(loose)), welder_(0), tolerance_(tolerance), loose_(true) {
+        for (const std::uint32_t o : objects_) {
+            const auto& info = info_of(dataset_.objects[o]);
+            const auto parts = static_cast<std::uint32_t>(part_count(std::get<Surface>(dataset_.objects[o])));
+            for (std::uint32_t part = 0; part < parts; ++part) faces_.push_back({o, part, info.name, {}, info.role, info.role_text});
+        }
     }
 
     /// False when nothing is there to build from.
     bool worthwhile() const { return !faces_.empty() || has_volume_entities(); }
     Result<Brep> build();
+    /// The same with what checks need besides.
+    Result<JudgedModel> build_to_judge();
     std::vector<Finding>& findings() { return a_.findings; }
 
 private:
@@ -55,7 +69,12 @@ private:
     void choose_mesh_faces();
     void weld();
     void weld_points(std::uint32_t object, const std::vector<Vec3>& points, const std::vector<std::uint32_t>& alias);
+    void weld_near();
+    std::uint32_t vertex_at(const Vec3& position) const;
+    void assemble();
     void make_surfaces();
+    void make_interfaces();
+    void take_apart();
     void make_lines();
     void name_corners();
     StatedLines stated() const;
@@ -81,6 +100,12 @@ private:
     std::vector<std::vector<std::uint32_t>> entity_cells_;
     std::optional<Twins> twins_;              // as the mesh states them
     std::vector<std::uint8_t> key_reversed_;  // per face
+    double tolerance_ = 0;
+    bool loose_ = false;
+    std::vector<std::uint32_t> near_;  // per position of welder_ the vertex that stands for it; empty: itself
+    std::uint64_t points_welded_ = 0;
+    std::vector<Vec3> welded_positions_;
+    std::vector<std::vector<std::uint32_t>> source_polygons_;
     Assembly a_;
 };
 
@@ -182,8 +207,9 @@ void ModelBuilder::weld() {
             weld_points(o, surface.points, surface.alias);
         }
     }
+    weld_near();
     const std::uint64_t welded = points_ - welder_.positions().size();
-    if (welded == 0) return;
+    if (welded == 0 || loose_) return;
     Finding finding;
     finding.code = "F111";
     finding.severity = Severity::info;
@@ -193,6 +219,54 @@ void ModelBuilder::weld() {
     finding.count = welded;
     finding.element_kind = "point";
     a_.findings.push_back(std::move(finding));
+}
+
+/// Gives vertices that are nearer than the tolerance to others the number of the first of them.
+void ModelBuilder::weld_near() {
+    if (tolerance_ <= 0) return;
+    near_ = clusters_within(welder_.positions(), tolerance_);
+    for (std::uint32_t v = 0; v < near_.size(); ++v) {
+        if (near_[v] == v) continue;
+        ++points_welded_;
+        if (welded_positions_.size() < most_elements) welded_positions_.push_back(welder_.positions()[v]);
+    }
+    if (points_welded_ == 0) {
+        near_.clear();
+        return;
+    }
+    for (auto& [object, vertices] : vertex_of_) {
+        for (std::uint32_t& v : vertices) v = near_[v];
+    }
+}
+
+/// The vertex at a position, or no_index.
+std::uint32_t ModelBuilder::vertex_at(const Vec3& position) const {
+    const std::uint32_t v = welder_.find(position);
+    return v == no_index || near_.empty() ? v : near_[v];
+}
+
+/// Loose surfaces: a surface for each piece that hangs together between lines.
+void ModelBuilder::take_apart() {
+    std::vector<Face> faces;
+    std::vector<BrepData::Surface> surfaces;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        for (auto& piece : pieces_of(a_.brep.surfaces[f], a_.faces[f])) {
+            faces.push_back(faces_[f]);
+            source_polygons_.push_back(std::move(piece.polygons));
+            surfaces.push_back(std::move(piece.surface));
+        }
+    }
+    if (surfaces.size() == faces_.size()) {
+        source_polygons_.clear();
+        return;
+    }
+    faces_ = std::move(faces);
+    a_.brep.surfaces = std::move(surfaces);
+    a_.brep.lines.clear();
+    a_.brep.corners.clear();
+    a_.faces.resize(faces_.size());
+    parallel_for_each_index(faces_.size(), [&](std::size_t f) { a_.faces[f] = connect_polygons(a_.brep.surfaces[f]); });
+    a_.graph = build_lines(a_.brep, a_.faces, stated());
 }
 
 void ModelBuilder::make_surfaces() {
@@ -216,6 +290,9 @@ void ModelBuilder::make_surfaces() {
         surfaces[f].source_part = face.part;
         a_.faces[f] = connect_polygons(surfaces[f]);
     });
+}
+
+void ModelBuilder::make_interfaces() {
     InterfaceBook book(a_.brep);
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
         auto& interface = book.enter(SurfaceId(f), faces_[f].interface_name);
@@ -248,7 +325,7 @@ StatedLines ModelBuilder::stated() const {
     }
     if (model_ == nullptr) return lines;
     for (const auto& corner : model_->corners) {
-        const std::uint32_t v = welder_.find(corner.position);
+        const std::uint32_t v = vertex_at(corner.position);
         if (v != no_index) lines.corners.push_back(v);
     }
     return lines;
@@ -270,7 +347,7 @@ void ModelBuilder::make_lines() {
 void ModelBuilder::name_corners() {
     std::map<std::uint32_t, std::string> names;
     if (model_ != nullptr) {
-        for (const auto& corner : model_->corners) names.emplace(welder_.find(corner.position), corner.name);
+        for (const auto& corner : model_->corners) names.emplace(vertex_at(corner.position), corner.name);
     }
     if (mesh_object_ != no_index) {
         const CellMesh& mesh = *mesh_of(mesh_object_);
@@ -307,7 +384,9 @@ void ModelBuilder::report_once(const char* code, std::string message, const std:
 std::vector<std::uint8_t> ModelBuilder::reversed_keys() {
     std::vector<KeyMatch> match(faces_.size(), KeyMatch::same);
     parallel_for_each_index(faces_.size(), [&](std::size_t f) {
-        if (faces_[f].key != nullptr && faces_[f].key->has_value()) match[f] = match_key(a_.brep.surfaces[f], **faces_[f].key, welder_);
+        if (faces_[f].key == nullptr || !faces_[f].key->has_value()) return;
+        const auto& key = **faces_[f].key;
+        match[f] = match_key(a_.brep.surfaces[f], {vertex_at(key[0]), vertex_at(key[1]), vertex_at(key[2])});
     });
     std::vector<std::uint32_t> reversed, absent;
     std::vector<std::uint8_t> result(faces_.size(), 0);
@@ -502,7 +581,7 @@ void ModelBuilder::make_regions() {
     settle_universe(a_);
 }
 
-Result<Brep> ModelBuilder::build() {
+void ModelBuilder::assemble() {
     const auto& first = info_of(dataset_.objects[objects_.front()]);
     a_.brep.name = model_ != nullptr && !model_->name.empty() ? model_->name : first.name;
     a_.brep.crs = model_ != nullptr && model_->crs.stated ? model_->crs : first.crs;
@@ -511,6 +590,8 @@ Result<Brep> ModelBuilder::build() {
     a_.brep.vertices = welder_.positions();
     make_surfaces();
     make_lines();
+    if (loose_) take_apart();
+    make_interfaces();
     make_regions();
     make_contacts(a_.brep);
     count_internal_lines(a_.brep);
@@ -528,36 +609,95 @@ Result<Brep> ModelBuilder::build() {
             a_.brep.features.push_back(std::move(made));
         }
     }
+}
+
+Result<Brep> ModelBuilder::build() {
+    assemble();
     return Brep::make(std::move(a_.brep));
 }
 
-void add(Dataset& dataset, ModelBuilder builder) {
-    if (!builder.worthwhile()) return;
-    auto brep = builder.build();
-    for (auto& finding : builder.findings()) dataset.findings.push_back(std::move(finding));
-    if (brep) {
-        dataset.breps.push_back(std::move(*brep));
-    } else {
-        dataset.findings.push_back(brep.why().error);
+Result<JudgedModel> ModelBuilder::build_to_judge() {
+    assemble();
+    const bool found = !a_.found.region_of_side.empty() || a_.brep.surfaces.empty();
+    if (!found) a_.found = find_regions(a_.brep, a_.graph, a_.cones);
+    std::vector<std::uint64_t> first_polygon;
+    for (const Face& face : faces_) {
+        const auto* surface = std::get_if<Surface>(&dataset_.objects[face.object]);
+        first_polygon.push_back(surface == nullptr || surface->parts.empty() ? 0 : surface->parts[face.part].first_polygon);
     }
+    auto brep = Brep::make(std::move(a_.brep));
+    if (!brep) return std::move(brep).why();
+    return JudgedModel{std::move(brep).value(),
+                       std::move(a_.faces),
+                       std::move(a_.graph),
+                       std::move(a_.found),
+                       !loose_,
+                       !found,
+                       tolerance_,
+                       points_welded_,
+                       std::move(welded_positions_),
+                       std::move(source_polygons_),
+                       std::move(first_polygon),
+                       std::move(a_.findings)};
+}
+
+/// Calls make(builder) for each model that the file states, and gives the surfaces that belong to none.
+template <class Make>
+std::vector<std::uint32_t> each_stated_model(const Dataset& dataset, double tolerance, const Make& make) {
+    std::vector<std::uint8_t> claimed(dataset.objects.size(), 0);
+    for (const StatedModel& model : dataset.models) {
+        for (const auto& face : model.faces) {
+            if (face.object < claimed.size()) claimed[face.object] = 1;
+        }
+        ModelBuilder builder(dataset, &model, no_index, tolerance);
+        if (builder.worthwhile()) make(builder);
+    }
+    std::vector<std::uint32_t> loose;
+    for (std::uint32_t o = 0; o < dataset.objects.size(); ++o) {
+        if (claimed[o] != 0) continue;
+        if (std::holds_alternative<Surface>(dataset.objects[o])) loose.push_back(o);
+        const auto* mesh = std::get_if<CellMesh>(&dataset.objects[o]);
+        if (mesh == nullptr || mesh->entities.empty()) continue;
+        ModelBuilder builder(dataset, nullptr, o, tolerance);
+        if (builder.worthwhile()) make(builder);
+    }
+    return loose;
 }
 
 }  // namespace
 
 void build_breps(Dataset& dataset) {
     dataset.breps.clear();
-    std::vector<std::uint8_t> claimed(dataset.objects.size(), 0);
-    for (const StatedModel& model : dataset.models) {
-        for (const auto& face : model.faces) {
-            if (face.object < claimed.size()) claimed[face.object] = 1;
+    each_stated_model(dataset, 0, [&](ModelBuilder& builder) {
+        auto brep = builder.build();
+        std::ranges::move(builder.findings(), std::back_inserter(dataset.findings));
+        if (brep) {
+            dataset.breps.push_back(std::move(brep).value());
+        } else {
+            dataset.findings.push_back(brep.why().error);
         }
-        add(dataset, ModelBuilder(dataset, &model, no_index));
+    });
+}
+
+Result<std::vector<JudgedModel>> models_to_judge(const Dataset& dataset, double tolerance) {
+    std::vector<JudgedModel> models;
+    std::optional<Failure> failed;
+    const auto add = [&](ModelBuilder& builder) {
+        if (failed) return;
+        auto model = builder.build_to_judge();
+        if (model) {
+            models.push_back(std::move(model).value());
+        } else {
+            failed = std::move(model).why();
+        }
+    };
+    auto loose = each_stated_model(dataset, tolerance, add);
+    if (!loose.empty()) {
+        ModelBuilder builder(dataset, std::move(loose), tolerance);
+        add(builder);
     }
-    for (std::uint32_t o = 0; o < dataset.objects.size(); ++o) {
-        const auto* mesh = std::get_if<CellMesh>(&dataset.objects[o]);
-        if (mesh == nullptr || mesh->entities.empty() || claimed[o] != 0) continue;
-        add(dataset, ModelBuilder(dataset, nullptr, o));
-    }
+    if (failed) return std::move(*failed);
+    return models;
 }
 
 }  // namespace geomend::topology

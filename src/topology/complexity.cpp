@@ -108,7 +108,7 @@ void count_locally(const MeasuredModel& model, const ComplexityOptions& o, Compl
     }
     cells.resolution = std::cbrt(model.volume / static_cast<double>(cells.sites.size()));
     cells.counts = counts_in_cells(model, cells.sites, o.monitor);
-    for (Vec3& s : cells.sites) s = plus(s, model.origin);
+    for (Vec3& s : cells.sites) s = moved(s, model.origin);
     sum_up(cells);
     if (!stopped(o)) out.cells = std::move(cells);
 }

@@ -133,7 +133,7 @@ double clipped_area(const Neighbours& around, std::uint32_t s, const std::array<
                 const double at_p = nearer(p, site, around.site(n)), at_q = nearer(q, site, around.site(n));
                 if (at_p >= 0) next.push_back(p);
                 else cut = true;
-                if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) next.push_back(plus(p, minus(q, p), at_p / (at_p - at_q)));
+                if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) next.push_back(moved(p, minus(q, p), at_p / (at_p - at_q)));
             }
             if (!cut) return;
             if (next.size() < 3) next.clear();
@@ -142,7 +142,7 @@ double clipped_area(const Neighbours& around, std::uint32_t s, const std::array<
         });
     Vec3 twice{};
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-        twice = plus(twice, cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0])));
+        twice = moved(twice, cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0])));
     return length(twice) / 2;
 }
 
@@ -191,7 +191,7 @@ public:
         std::vector<std::pair<double, std::uint32_t>> parts;
         for (std::size_t i = 0; i + 1 < line.vertices.size(); ++i) {
             const Vec3 &a = model_.points[line.vertices[i].value], &b = model_.points[line.vertices[i + 1].value];
-            const Vec3 half = plus(a, minus(b, a), 0.5);
+            const Vec3 half = moved(a, minus(b, a), 0.5);
             sites_near(around_, half, length(minus(half, a)), near);
             parts.clear();
             for (const std::uint32_t s : near) {

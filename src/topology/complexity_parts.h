@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/vectors.h"
 #include "topology/complexity.h"
 
 // What the files complexity_*.cpp share.
@@ -38,12 +39,9 @@ struct MeasuredModel {
     Vec3 area_vector(const std::array<std::uint32_t, 3>& triangle) const;  ///< normal times area
 };
 
-Vec3 minus(const Vec3& a, const Vec3& b);
-Vec3 cross(const Vec3& a, const Vec3& b);
-double dot(const Vec3& a, const Vec3& b);
 double length(const Vec3& a);
 /// a + t b
-Vec3 plus(const Vec3& a, const Vec3& b, double t = 1);
+Vec3 moved(const Vec3& a, const Vec3& b, double t = 1);
 
 /// Eigenvectors of a symmetric matrix xx xy xz yy yz zz, by ascending eigenvalue (Jacobi).
 std::array<Vec3, 3> principal_axes(const std::array<double, 6>& moments);

@@ -146,7 +146,7 @@ void even_out(std::span<const Vec3> points, std::vector<Vec3>& sites) {
     std::vector<std::uint32_t> counts(sites.size());
     for (std::size_t p = 0; p < points.size(); ++p) {
         ++counts[owner[p]];
-        sums[owner[p]] = plus(sums[owner[p]], points[p]);
+        sums[owner[p]] = moved(sums[owner[p]], points[p]);
     }
     for (std::size_t s = 0; s < sites.size(); ++s) {
         if (counts[s] > 0) sites[s] = {sums[s][0] / counts[s], sums[s][1] / counts[s], sums[s][2] / counts[s]};

@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "base/parallel.h"
-#include "geometry/segment_search.h"
+#include "geometry/triangle_tree.h"
 #include "topology/complexity_parts.h"
 
 // Thickness: how far it is from the boundary of a region or surface, straight inwards, to the boundary again.
@@ -22,6 +23,22 @@ std::array<Vec3, 4> looking_points(const MeasuredModel& model, const std::array<
     return {at(1. / 3, 1. / 3, 1. / 3), at(2. / 3, 1. / 6, 1. / 6), at(1. / 6, 2. / 3, 1. / 6), at(1. / 6, 1. / 6, 2. / 3)};
 }
 
+// Whether the segment from + t direction, 0 < t <= 1, passes through a triangle. (Moeller and Trumbore 1997: solves
+// from + t direction = a + u (b-a) + v (c-a).)
+bool passes(const Vec3& from, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = minus(b, a), ac = minus(c, a), p = cross(direction, ac);
+    const double determinant = dot(ab, p);
+    if (determinant == 0) return false;
+    const Vec3 to = minus(from, a);
+    const double u = dot(to, p) / determinant;
+    if (!(u >= 0 && u <= 1)) return false;
+    const Vec3 q = cross(to, ab);
+    const double v = dot(direction, q) / determinant;
+    if (!(v >= 0 && u + v <= 1)) return false;
+    const double t = dot(ac, q) / determinant;
+    return t > 0 && t <= 1;
+}
+
 }  // namespace
 
 std::vector<double> thin_parts_of_regions(const MeasuredModel& model, double h) {
@@ -32,7 +49,7 @@ std::vector<double> thin_parts_of_regions(const MeasuredModel& model, double h) 
         triangles.insert(triangles.end(), model.surfaces[s].triangles.begin(), model.surfaces[s].triangles.end());
         surface_of.resize(triangles.size(), s);
     }
-    const SegmentSearch tree(model.points, triangles);
+    const TriangleTree tree(model.points, triangles);
     // Quarters of each triangle that are thin: behind it, and in front.
     std::vector<std::array<std::uint8_t, 2>> thin(triangles.size());
     parallel_for_each_index(triangles.size(), [&](std::size_t t) {
@@ -43,12 +60,18 @@ std::vector<double> thin_parts_of_regions(const MeasuredModel& model, double h) 
         for (std::size_t side = 0; side < 2; ++side) {
             const RegionId region = brep.surfaces[surface_of[t]].regions[side];
             if (!region.valid()) continue;
-            const Vec3 inwards = side == 1 ? normal : Vec3{-normal[0], -normal[1], -normal[2]};
+            const Vec3 inwards = times(side == 1 ? h : -h, normal);
             for (const Vec3& from : looking_points(model, triangles[t])) {
+                const Vec3 to = moved(from, inwards);
+                Vec3 low, high;
+                for (std::size_t a = 0; a < 3; ++a) std::tie(low[a], high[a]) = std::minmax(from[a], to[a]);
                 bool met = false;
-                tree.along(from, inwards, h, [&](std::uint32_t other, double) {
+                tree.visit_triangles(tree.box(low, high), [&](std::size_t i) {
+                    const std::uint32_t other = tree.number(i);
                     const auto& beside = brep.surfaces[surface_of[other]].regions;
-                    met = met || (other != t && (beside[0] == region || beside[1] == region));
+                    if (met || other == t || (beside[0] != region && beside[1] != region)) return;
+                    const Triangle& c = triangles[other];
+                    met = passes(from, inwards, model.points[c[0]], model.points[c[1]], model.points[c[2]]);
                 });
                 thin[t][side] += met;
             }

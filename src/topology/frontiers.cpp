@@ -6,8 +6,8 @@
 #include <numeric>
 #include <optional>
 
+#include "geometry/predicates.h"
 #include "topology/face_volume.h"
-#include "topology/orientation.h"
 
 namespace geomend::topology {
 
@@ -103,9 +103,9 @@ std::uint32_t longest_edge(const BrepData& brep, const LineGraph& graph, std::ui
     return best;
 }
 
-/// Joins the sides that face each other around a line. False when two polygons coincide.
+/// Lists the sides that face each other around a line. False when two polygons coincide.
 bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const PolygonEdges> all_edges, std::uint32_t line,
-                 UnionFind& sides) {
+                 std::vector<FoundRegions::Join>& joins) {
     const auto uses = graph.edge_uses(graph.edges[longest_edge(brep, graph, line)]);
     const Vec3& a = brep.vertices[uses[0].low];
     const Vec3& b = brep.vertices[uses[0].high];
@@ -124,7 +124,7 @@ bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const P
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const Leaf& here = leaves[i];
         const Leaf& next = leaves[(i + 1) % leaves.size()];
-        sides.join(side_index(here.surface, here.front_first), side_index(next.surface, !next.front_first));
+        joins.push_back({side_index(here.surface, here.front_first), side_index(next.surface, !next.front_first), line});
     }
     return true;
 }
@@ -225,7 +225,7 @@ FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::spa
     std::vector<PolygonEdges> all_edges;
     for (const auto& surface : brep.surfaces) all_edges.emplace_back(surface.polygons);
     for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
-        if (!join_around(brep, graph, all_edges, l, sides)) found.uncertain_lines.emplace_back(l);
+        if (!join_around(brep, graph, all_edges, l, found.joins)) found.uncertain_lines.emplace_back(l);
         std::uint32_t first = no_index;
         for (const EdgeUse& use : graph.edge_uses(graph.edges[graph.line_edges[graph.line_first_edge[l]]])) {
             if (use.surface == no_index) continue;
@@ -233,6 +233,7 @@ FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::spa
             groups.join(first, use.surface);
         }
     }
+    for (const auto& join : found.joins) sides.join(join.first, join.second);
     const auto shells = make_shells(brep, cones, sides, groups);
     std::vector<std::size_t> region_of(shells.size(), SIZE_MAX);
     for (std::size_t s = 0; s < shells.size(); ++s) {
@@ -245,6 +246,10 @@ FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::spa
         const auto around = shell_around(brep, shells, shell);
         auto& target = around ? found.regions[region_of[*around]] : found.universe;
         target.insert(target.end(), shell.sides.begin(), shell.sides.end());
+    }
+    found.region_of_side.assign(2 * brep.surfaces.size(), no_index);
+    for (std::uint32_t r = 0; r < found.regions.size(); ++r) {
+        for (const auto& side : found.regions[r]) found.region_of_side[side_index(side.surface.value, side.front)] = r;
     }
     return found;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,13 @@ struct FoundRegions {
     std::vector<std::vector<BrepData::Side>> regions;  ///< ordered by their lowest side
     std::vector<BrepData::Side> universe;
     std::vector<LineId> uncertain_lines;  ///< two polygons coincide there, so their order around the line is not known
+    /// Per side (2 x surface, + 1 for its front) the region that it bounds, or no_index for the Universe.
+    std::vector<std::uint32_t> region_of_side;
+    /// Two sides that face each other around a line; of the same surface where nothing else ends there.
+    struct Join {
+        std::uint32_t first, second, line;
+    };
+    std::vector<Join> joins;
 };
 
 /// Finds the regions that surfaces bound: around each line the surfaces are put in order (exactly, at its longest

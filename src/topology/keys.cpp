@@ -3,11 +3,9 @@
 
 namespace geomend::topology {
 
-KeyMatch match_key(const BrepData::Surface& surface, const std::array<Vec3, 3>& key, const Welder& welder) {
-    std::array<std::uint32_t, 3> wanted{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        wanted[i] = welder.find(key[i]);
-        if (wanted[i] == no_index) return KeyMatch::absent;
+KeyMatch match_key(const BrepData::Surface& surface, const std::array<std::uint32_t, 3>& wanted) {
+    for (const std::uint32_t vertex : wanted) {
+        if (vertex == no_index) return KeyMatch::absent;
     }
     for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
         const auto polygon = surface.polygons[p];

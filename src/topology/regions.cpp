@@ -93,17 +93,18 @@ std::vector<RegionId> add_stated_regions(Assembly& a, const std::vector<StatedRe
 }
 
 void add_found_regions(Assembly& a) {
-    auto found = find_regions(a.brep, a.graph, a.cones);
-    for (auto& sides : found.regions) {
+    a.found = find_regions(a.brep, a.graph, a.cones);
+    const FoundRegions& found = a.found;
+    for (const auto& sides : found.regions) {
         BrepData::Region region;
         region.name = "Region_" + std::to_string(a.brep.regions.size() + 1);
         const Enclosed e = enclosed(sides, a.cones, a.graph);
-        region.sides = std::move(sides);
+        region.sides = sides;
         region.volume_known = e.closed;
         region.volume = e.closed ? e.volume : std::numeric_limits<double>::quiet_NaN();
         a.brep.regions.push_back(std::move(region));
     }
-    a.brep.universe = std::move(found.universe);
+    a.brep.universe = found.universe;
     if (found.uncertain_lines.empty()) return;
     Finding finding;
     finding.code = "F113";

@@ -7,6 +7,7 @@
 
 #include "model/dataset.h"
 #include "topology/face_edges.h"
+#include "topology/frontiers.h"
 #include "topology/line_graph.h"
 
 namespace geomend::topology {
@@ -17,6 +18,7 @@ struct Assembly {
     std::vector<FaceEdges> faces;
     LineGraph graph;
     std::vector<double> cones;  ///< see cone_volumes
+    FoundRegions found;         ///< where the surfaces were walked along
     std::vector<Finding> findings;
 };
 

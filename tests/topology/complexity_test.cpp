@@ -119,7 +119,7 @@ TEST(Complexity, CellsDivideTheVolumeEvenly) {
     // In an even cover no two sites are much nearer than the cell's size, and none is far from the walls' first layer.
     double nearest = 1e9;
     for (std::size_t a = 0; a < sites.size(); ++a) {
-        for (std::size_t b = 0; b < a; ++b) nearest = std::min(nearest, topology::length(topology::minus(sites[a], sites[b])));
+        for (std::size_t b = 0; b < a; ++b) nearest = std::min(nearest, topology::length(minus(sites[a], sites[b])));
     }
     EXPECT_GT(nearest, 0.6 * 250);
 }
@@ -350,7 +350,7 @@ TEST(ComplexityOfRealModels, CellsHoldWhatIsSeenInThem) {
     const auto nearest = [&](const Vec3& p) {
         std::size_t best = 0;
         for (std::size_t s = 1; s < sites.size(); ++s) {
-            if (topology::length(topology::minus(sites[s], p)) < topology::length(topology::minus(sites[best], p))) best = s;
+            if (topology::length(minus(sites[s], p)) < topology::length(minus(sites[best], p))) best = s;
         }
         return best;
     };
@@ -358,8 +358,9 @@ TEST(ComplexityOfRealModels, CellsHoldWhatIsSeenInThem) {
     std::vector<std::set<std::uint32_t>> regions(sites.size());
     for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
         for (const auto& t : model.surfaces[s].triangles) {
-            const Vec3 middle = topology::plus(topology::plus({}, model.points[t[0]], 1. / 3),
-                                               topology::plus(topology::plus({}, model.points[t[1]], 1. / 3), model.points[t[2]], 1. / 3));
+            const Vec3 middle =
+                topology::moved(topology::moved({}, model.points[t[0]], 1. / 3),
+                                topology::moved(topology::moved({}, model.points[t[1]], 1. / 3), model.points[t[2]], 1. / 3));
             const std::size_t site = nearest(middle);
             if (model.surface_in_box[s] == 0) surfaces[site].insert(s);
             for (const RegionId r : model.brep.surfaces[s].regions) {

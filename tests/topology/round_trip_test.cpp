@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <random>
 
+#include "geometry/predicates.h"
 #include "topology/brep_from_dataset.h"
 #include "topology/model_from_brep.h"
 #include "topology/model_maker.h"
-#include "topology/orientation.h"
 #include "topology/weld.h"
 
 namespace geomend {
@@ -199,11 +199,11 @@ TEST(Orientation, IsExactWhereRoundingWouldDecide) {
         Vec3 d{0.5 + 1e9, 0.5 + 1e9, 0.5 + 1e9};
         d[0] = std::nextafter(d[0], i < 0 ? 0 : 1e10);
         if (i == 0) d[0] = d[1];
-        const int sign = topology::orientation(a, b, c, d);
-        EXPECT_EQ(sign, -topology::orientation(b, a, c, d));
+        const int sign = orientation(a, b, c, d);
+        EXPECT_EQ(sign, -orientation(b, a, c, d));
         EXPECT_EQ(sign == 0, i == 0);
     }
-    EXPECT_EQ(topology::orientation({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1);
+    EXPECT_EQ(orientation({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1);
 }
 
 TEST(Weld, GrowsBeyondWhatWasExpected) {

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/surface_distance.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "geometry/predicates.h"
+#include "geometry/vectors.h"
+
+namespace geomend {
+
+namespace {
+
+bool has(const Triangle& t, std::uint32_t vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
+
+/// The first and the last corner of a part: the same one twice for a corner.
+std::array<std::uint32_t, 2> ends_of(const Triangle& t, unsigned part) {
+    const auto first = static_cast<std::size_t>(std::countr_zero(part)), last = static_cast<std::size_t>(std::bit_width(part) - 1);
+    return {t[first], t[last]};
+}
+
+}  // namespace
+
+bool SurfaceDistance::on_group(std::uint32_t vertex, std::uint32_t group) const {
+    return std::ranges::any_of(around_.at(vertex), [&](std::uint32_t t) { return groups_[t] == group; });
+}
+
+std::vector<std::uint32_t> SurfaceDistance::groups_at(std::uint32_t vertex) const {
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t t : around_.at(vertex)) {
+        if (std::find(found.begin(), found.end(), groups_[t]) == found.end()) found.push_back(groups_[t]);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::vector<std::uint32_t> SurfaceDistance::around_part(std::uint32_t t, unsigned part, std::uint32_t group) const {
+    const auto [p, q] = ends_of(triangles_[t], part);
+    if (part == 7) return {t};
+    return around_edge(p, q, group);
+}
+
+std::vector<std::uint32_t> SurfaceDistance::groups_around_part(std::uint32_t t, unsigned part) const {
+    if (part == 7) return {groups_[t]};
+    const auto [p, q] = ends_of(triangles_[t], part);
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t other : around_.at(p)) {
+        if (has(triangles_[other], q)) found.push_back(groups_[other]);
+    }
+    return found;
+}
+
+std::vector<std::uint32_t> SurfaceDistance::around_edge(std::uint32_t p, std::uint32_t q, std::uint32_t group) const {
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t t : around_.at(p)) {
+        const Triangle& v = triangles_[t];
+        if (groups_[t] == group && has(v, q) && !in_line(vertices_[v[0]], vertices_[v[1]], vertices_[v[2]])) found.push_back(t);
+    }
+    return found;
+}
+
+bool SurfaceDistance::none_closer(const Vec3& point, std::span<const std::uint32_t> list, double distance) const {
+    const double least = distance - rounding(point);
+    return std::ranges::none_of(list, [&](std::uint32_t t) { return closest_points(point, corners(t)).distance < least; });
+}
+
+Closest SurfaceDistance::from_group(const Vec3& point, std::uint32_t group, double near, std::uint32_t& triangle) const {
+    Closest best;
+    best.distance = HUGE_VAL;
+    tree_.visit_triangles(tree_.box(point, point, near), [&](std::size_t i) {
+        const std::uint32_t t = tree_.number(i);
+        if (groups_[t] != group) return;
+        const Closest found = closest_points(point, corners(t));
+        if (found.distance >= near || found.distance >= best.distance) return;
+        best = found;
+        triangle = t;
+    });
+    return best;
+}
+
+bool SurfaceDistance::common_vertex_within(double distance, const Vec3& point, std::uint32_t group_a, std::uint32_t group_b) const {
+    bool found = false;
+    tree_.visit_triangles(tree_.box(point, point, distance), [&](std::size_t i) {
+        if (found || groups_[tree_.number(i)] != group_b) return;
+        for (const std::uint32_t v : tree_.triangle(i)) {
+            const Vec3 d = minus(vertices_[v], point);
+            found = found || (dot(d, d) <= distance * distance && on_group(v, group_a));
+        }
+    });
+    return found;
+}
+
+double SurfaceDistance::rounding(const Vec3& point) const {
+    return 1e-15 * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+}
+
+}  // namespace geomend

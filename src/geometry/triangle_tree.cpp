@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/triangle_tree.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/parallel.h"
+#include "geometry/predicates.h"
+
+namespace geomend {
+
+namespace {
+
+constexpr std::size_t grain = 4096;
+constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr Box empty_box{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};
+
+struct Extent {
+    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+};
+
+Extent extent_of(std::span<const Vec3> points) {
+    std::vector<Extent> parts((points.size() + grain - 1) / grain);
+    parallel_for_each_index(parts.size(), [&](std::size_t part) {
+        const std::size_t last = std::min(points.size(), (part + 1) * grain);
+        for (std::size_t i = part * grain; i < last; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                parts[part].low[k] = std::min(parts[part].low[k], points[i][k]);
+                parts[part].high[k] = std::max(parts[part].high[k], points[i][k]);
+            }
+        }
+    });
+    Extent all;
+    for (const Extent& part : parts) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            all.low[k] = std::min(all.low[k], part.low[k]);
+            all.high[k] = std::max(all.high[k], part.high[k]);
+        }
+    }
+    return all;
+}
+
+/// Place of a cell on the Hilbert curve through a cube of 2^bits cells a side (J. Skilling, "Programming the Hilbert
+/// curve", 2004).
+std::uint64_t hilbert_place(std::array<std::uint32_t, 3> x, unsigned bits) {
+    const std::uint32_t top = 1u << (bits - 1);
+    for (std::uint32_t q = top; q > 1; q >>= 1) {
+        const std::uint32_t below = q - 1;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if ((x[k] & q) != 0) {
+                x[0] ^= below;
+            } else {
+                const std::uint32_t swapped = (x[0] ^ x[k]) & below;
+                x[0] ^= swapped;
+                x[k] ^= swapped;
+            }
+        }
+    }
+    x[1] ^= x[0];
+    x[2] ^= x[1];
+    std::uint32_t flips = 0;
+    for (std::uint32_t q = top; q > 1; q >>= 1) {
+        if ((x[2] & q) != 0) flips ^= q - 1;
+    }
+    std::uint64_t place = 0;
+    for (unsigned b = bits; b-- > 0;) {
+        for (std::size_t k = 0; k < 3; ++k) place = place << 1 | ((x[k] ^ flips) >> b & 1u);
+    }
+    return place;
+}
+
+/// Sorts by the bits from `first_bit` on, keeping the order of equals: digit by digit, the lowest first.
+void radix_sort(std::vector<std::uint64_t>& keys, unsigned first_bit) {
+    constexpr unsigned digit_bits = 11;
+    std::vector<std::uint64_t> sorted(keys.size());
+    for (unsigned shift = first_bit; shift < 64; shift += digit_bits) {
+        std::array<std::size_t, (std::size_t{1} << digit_bits) + 1> start{};
+        const auto digit = [&](std::uint64_t key) { return key >> shift & ((1u << digit_bits) - 1); };
+        for (const std::uint64_t key : keys) ++start[digit(key) + 1];
+        for (std::size_t d = 1; d < start.size(); ++d) start[d] += start[d - 1];
+        for (const std::uint64_t key : keys) sorted[start[digit(key)]++] = key;
+        keys.swap(sorted);
+    }
+}
+
+bool degenerate(std::span<const Vec3> vertices, const Triangle& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || in_line(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+}
+
+void enclose(Box& box, const Box& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = std::min(box.low[k], other.low[k]);
+        box.high[k] = std::max(box.high[k], other.high[k]);
+    }
+}
+
+}  // namespace
+
+void FourBoxes::set(std::size_t k, const Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis][k] = box.low[axis];
+        high[axis][k] = box.high[axis];
+    }
+}
+
+Box FourBoxes::around() const {
+    Box all = empty_box;
+    for (std::size_t k = 0; k < 4; ++k) enclose(all, box(k));
+    return all;
+}
+
+TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) : vertices_(vertices) {
+    sort_triangles(triangles);
+    make_boxes();
+}
+
+Box TriangleTree::box(const Vec3& low, const Vec3& high, double distance) const {
+    Box box{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = static_cast<float>(low[k] - distance - origin_[k]);
+        box.high[k] = static_cast<float>(high[k] + distance - origin_[k]);
+    }
+    return box;
+}
+
+void TriangleTree::sort_triangles(std::span<const Triangle> triangles) {
+    const std::size_t count = triangles.size();
+    if (count == 0) return;
+    const Extent extent = extent_of(vertices_);
+    double side = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        origin_[k] = extent.low[k] + 0.5 * (extent.high[k] - extent.low[k]);
+        side = std::max(side, extent.high[k] - extent.low[k]);
+    }
+    // A key is the place of the centre on the curve, followed by the number of the triangle; those left out come last.
+    const auto number_bits = static_cast<unsigned>(std::bit_width(count));
+    const unsigned bits = std::min(16u, (63 - number_bits) / 3);
+    const std::uint32_t cells = 1u << bits;
+    const double scale = side > 0 ? cells / side / 3 : 0;
+    std::vector<std::uint64_t> keys(count);
+    parallel_blocks(count, grain, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i != to; ++i) {
+            const Triangle& t = triangles[i];
+            if (degenerate(vertices_, t)) {
+                keys[i] = std::uint64_t{1} << 63 | i;
+                continue;
+            }
+            std::array<std::uint32_t, 3> cell{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double sum =
+                    (vertices_[t[0]][k] - extent.low[k]) + (vertices_[t[1]][k] - extent.low[k]) + (vertices_[t[2]][k] - extent.low[k]);
+                cell[k] = static_cast<std::uint32_t>(std::clamp(sum * scale, 0.0, cells - 1.0));
+            }
+            keys[i] = hilbert_place(cell, bits) << number_bits | i;
+        }
+    });
+    radix_sort(keys, number_bits);
+    const std::uint64_t number_mask = (std::uint64_t{1} << number_bits) - 1;
+    while (!keys.empty() && keys.back() >> 63 != 0) keys.pop_back();
+    order_.resize(keys.size());
+    triangles_.resize(keys.size());
+    parallel_blocks(keys.size(), grain, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i != to; ++i) {
+            order_[i] = static_cast<std::uint32_t>(keys[i] & number_mask);
+            triangles_[i] = triangles[order_[i]];
+        }
+    });
+}
+
+void TriangleTree::make_boxes() {
+    const auto fours = [](std::size_t count) { return (count + 3) / 4; };
+    const auto make_level = [&](std::size_t count, const auto& box_of) {
+        std::vector<FourBoxes>& level = levels_.emplace_back(fours(count));
+        parallel_blocks(level.size(), grain / 4, [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = from; i != to; ++i) {
+                for (std::size_t k = 0; k < 4; ++k) level[i].set(k, 4 * i + k < count ? box_of(4 * i + k) : empty_box);
+            }
+        });
+    };
+    if (triangles_.empty()) return;
+    levels_.reserve(18);  // 4^17 triangles and more than 32 bits can number: references stay valid
+    make_level(triangles_.size(), [&](std::size_t i) {
+        Box all = empty_box;
+        for (const std::uint32_t v : triangles_[i]) enclose(all, box(vertices_[v], vertices_[v]));
+        return all;
+    });
+    while (levels_.back().size() > 1) {
+        const std::vector<FourBoxes>& below = levels_.back();
+        make_level(below.size(), [&](std::size_t i) { return below[i].around(); });
+    }
+}
+
+}  // namespace geomend

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The table of findings, its filters, the text of the chosen one, and what joins them with the view.
+// Every text comes from a file and goes into the page as text, never as markup.
+
+const report = JSON.parse(document.getElementById('report').textContent);
+const $ = (id) => document.getElementById(id);
+const severities = ['error', 'warning', 'info'];
+const severityWords = {error: ['error', 'errors'], warning: ['warning', 'warnings'], info: ['note', 'notes']};
+const roleColours = {
+  fault: [0.75, 0.36, 0.26], fracture: [0.60, 0.42, 0.66], horizon: [0.87, 0.68, 0.30], unconformity: [0.46, 0.58, 0.36],
+  intrusion: [0.74, 0.47, 0.55], boundary: [0.56, 0.65, 0.72], topography: [0.38, 0.58, 0.44], unknown: [0.62, 0.62, 0.60]};
+const pageOfRows = 500;
+
+// ---- small helpers
+
+// An element with text and children; null children are left out.
+function make(tag, attributes, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes || {})) {
+    if (name === 'class') element.className = value;
+    else element.setAttribute(name, value);
+  }
+  element.append(...children.filter((child) => child !== null && child !== undefined));
+  return element;
+}
+const grouped = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, '\u202f');
+const counted = (n, [one, many]) => `${grouped(n)} ${n === 1 ? one : many}`;
+const figure = (x) => typeof x === 'number' ? String(Number(x.toPrecision(6))) : String(x);
+const entityName = (e) => e.name !== '' ? e.name : e.id !== undefined ? `${e.kind} ${e.id}` : e.kind;
+const baseName = (path) => path.replace(/^.*\//, '');
+// Without its folder, where no other file has the same name.
+const shortName = (file) => report.files.some((f) => f !== file && baseName(f.file) === baseName(file.file)) ? file.file : baseName(file.file);
+const elementText = (e) => Array.isArray(e) ? `(${e.join(',')})` : String(e);
+
+// ---- rows
+
+// One for each finding of each file.
+const rows = [];
+report.files.forEach((file, fileIndex) => {
+  for (const finding of file.findings) {
+    const entity = finding.entities.length ? entityName(finding.entities[0]) : '';
+    const words = [finding.code, finding.message, finding.fix, file.file, finding.element_kind,
+                   ...finding.entities.flatMap((e) => [e.kind, e.name]), ...(finding.elements || []).map(elementText)];
+    rows.push({number: rows.length, fileIndex, finding, entity, count: finding.count || 0,
+               words: words.filter((w) => w).join('\n').toLowerCase()});
+  }
+});
+
+const state = {file: report.files.length > 1 ? -1 : 0, text: '', code: '', entity: '', severities: new Set(severities),
+               sort: 'severity', down: false, limit: pageOfRows, chosen: null, shown: []};
+
+const columns = [
+  {key: 'severity', title: 'Severity', width: '92px', value: (r) => severities.indexOf(r.finding.severity)},
+  {key: 'code', title: 'Code', width: '62px', value: (r) => r.finding.code},
+  {key: 'from', title: 'File', width: '20%', value: (r) => report.files[r.fileIndex].file},
+  {key: 'entity', title: 'Where', width: '24%', value: (r) => r.entity.toLowerCase()},
+  {key: 'message', title: 'What', width: 'auto', value: (r) => r.finding.message.toLowerCase()},
+  {key: 'count', title: 'Number', width: '76px', value: (r) => -r.count}];
+const columnsShown = () => columns.filter((c) => c.key !== 'from' || state.file < 0 && report.files.length > 1);
+
+function matches(row, without) {
+  const f = row.finding;
+  return (state.file < 0 || row.fileIndex === state.file) && (without === 'severity' || state.severities.has(f.severity)) &&
+         (without === 'code' || state.code === '' || f.code === state.code) &&
+         (without === 'entity' || state.entity === '' || f.entities.some((e) => entityName(e) === state.entity)) &&
+         state.text.toLowerCase().split(/\s+/).every((word) => row.words.includes(word));
+}
+
+function sorted(list) {
+  const value = columns.find((c) => c.key === state.sort).value, way = state.down ? -1 : 1;
+  return list.map((row) => [value(row), row])
+             .sort(([a, r], [b, s]) => way * (a < b ? -1 : a > b ? 1 : 0) || r.number - s.number).map(([, row]) => row);
+}
+
+// ---- the table
+
+function drawHead() {
+  $('columns').replaceChildren(...columnsShown().map((column) => {
+    const mark = column.key === state.sort ? (state.down ? ' ▾' : ' ▴') : '';
+    const button = make('button', {type: 'button'}, column.title + mark);
+    button.addEventListener('click', () => {
+      state.down = column.key === state.sort && !state.down;
+      state.sort = column.key;
+      update();
+    });
+    const head = make('th', {scope: 'col', style: `width:${column.width}`}, button);
+    if (mark) head.setAttribute('aria-sort', state.down ? 'descending' : 'ascending');
+    return head;
+  }));
+}
+
+function cellOf(column, row) {
+  const f = row.finding;
+  switch (column.key) {
+    case 'severity': return make('td', {}, make('span', {class: `dot ${f.severity}`}), severityWords[f.severity][0]);
+    case 'code': return make('td', {class: 'code'}, f.code);
+    case 'from': return make('td', {class: 'from'}, shortName(report.files[row.fileIndex]));
+    case 'entity': {
+      const more = f.entities.length - 1;
+      return make('td', {class: 'entity'}, row.entity || '–',
+                  f.entities.length ? make('small', {}, f.entities[0].kind + (more > 0 ? ` and ${grouped(more)} more` : '')) : null);
+    }
+    case 'message': return make('td', {class: 'message'}, make('div', {}, f.message));
+    default: return make('td', {class: 'number'}, row.count > 0 ? grouped(row.count) : '');
+  }
+}
+
+function drawRows() {
+  const shown = columnsShown(), some = state.shown.slice(0, state.limit);
+  $('rows').replaceChildren(...some.map((row) => {
+    const line = make('tr', {'data-row': row.number, 'aria-selected': row === state.chosen}, ...shown.map((c) => cellOf(c, row)));
+    line.addEventListener('click', () => choose(row, true));
+    return line;
+  }));
+  const total = rows.filter((row) => state.file < 0 || row.fileIndex === state.file).length;
+  $('none').hidden = state.shown.length > 0;
+  $('none').textContent = total === 0 ? 'Nothing was found.' : 'No finding passes the filters.';
+  $('more').hidden = state.shown.length <= state.limit;
+  $('more').textContent = `Show ${grouped(Math.min(pageOfRows, state.shown.length - state.limit))} more`;
+  $('shown').textContent = footnote(total);
+}
+
+function footnote(total) {
+  const files = report.files.filter((_, i) => state.file < 0 || i === state.file);
+  const sum = (of) => files.reduce((n, file) => n + (of(file) || 0), 0);
+  const parts = [`${grouped(state.shown.length)} of ${counted(total, ['finding', 'findings'])}`];
+  const known = sum((file) => file.known && file.known.error + file.known.warning + file.known.info);
+  if (known) parts.push(`${grouped(known)} known from the baseline left out`);
+  const hidden = sum((file) => file.not_listed);
+  if (hidden) parts.push(`${grouped(hidden)} more not listed`);
+  return parts.join(' · ');
+}
+
+// ---- head and filters
+
+function drawVerdict() {
+  const file = report.files[state.file], verdict = $('verdict');
+  if (!file) {
+    const bad = report.files.filter((f) => f.valid === false).length;
+    verdict.replaceChildren(make('span', {class: `badge ${bad ? 'invalid' : ''}`}, `${grouped(bad)} of ${counted(report.files.length, ['file', 'files'])} not valid`));
+    return;
+  }
+  const [word, look] = file.valid === undefined ? ['not fully checked', ''] : file.valid ? ['valid', 'valid'] : ['not valid', 'invalid'];
+  const length = (name, value) => value > 0 ? make('span', {}, `${name} `, make('b', {}, figure(value))) : null;
+  verdict.replaceChildren(...[make('span', {class: `badge ${look}`}, word), length('tolerance', file.tolerance), length('near', file.near)].filter((e) => e));
+}
+
+function drawSeverities() {
+  const files = report.files.filter((_, i) => state.file < 0 || i === state.file);
+  $('severities').replaceChildren(...severities.map((severity) => {
+    const n = files.reduce((sum, file) => sum + file.counts[severity], 0);
+    const button = make('button', {type: 'button', 'data-severity': severity, 'aria-pressed': state.severities.has(severity)},
+                        make('span', {class: `dot ${severity}`}), counted(n, severityWords[severity]));
+    button.addEventListener('click', () => {
+      if (!state.severities.delete(severity)) state.severities.add(severity);
+      update();
+    });
+    return button;
+  }));
+}
+
+function fill(select, first, values, chosen) {
+  const options = [make('option', {value: ''}, first), ...values.map(([value, n]) => make('option', {value}, `${value} (${grouped(n)})`))];
+  select.replaceChildren(...options);
+  select.value = chosen;
+}
+
+function tally(list, keysOf) {
+  const found = new Map();
+  for (const row of list) for (const key of new Set(keysOf(row.finding))) found.set(key, (found.get(key) || 0) + 1);
+  return [...found].sort(([a], [b]) => a < b ? -1 : 1);
+}
+
+function drawFilters() {
+  const codes = tally(rows.filter((row) => matches(row, 'code')), (f) => [f.code]);
+  const entities = tally(rows.filter((row) => matches(row, 'entity')), (f) => f.entities.map(entityName));
+  if (state.code && !codes.some(([code]) => code === state.code)) codes.push([state.code, 0]);
+  if (state.entity && !entities.some(([entity]) => entity === state.entity)) entities.push([state.entity, 0]);
+  fill($('code'), 'All codes', codes, state.code);
+  fill($('entity'), 'All entities', entities, state.entity);
+}
+
+// ---- the chosen finding
+
+function listing(items, most, total) {
+  const text = items.slice(0, most).join(' ');
+  return total > Math.min(most, items.length) ? `${text} and ${grouped(total - Math.min(most, items.length))} more` : text;
+}
+
+function drawDetail() {
+  const box = $('detail'), row = state.chosen;
+  box.hidden = !row;
+  if (!row) return;
+  const f = row.finding, list = make('dl', {});
+  const line = (title, content, look) => {
+    if (content) list.append(make('dt', {}, title), make('dd', look ? {class: look} : {}, content));
+  };
+  line('To mend it', f.fix, 'fix');
+  line('Where', f.entities.map((e) => `${e.kind} ${e.name}${e.id !== undefined ? ` (${e.id})` : ''}`).join(', '));
+  if (f.elements) line(f.element_kind || 'Elements', listing(f.elements.map(elementText), 24, f.count || f.elements.length));
+  else if (f.count) line('Number', grouped(f.count));
+  line('Measures', Object.entries(f.measures || {}).map(([name, value]) => `${name} ${figure(value)}`).join(' · '));
+  if (f.location) line('In the file', `${f.location.file}${f.location.line > 0 ? `:${f.location.line}` : ''}${f.location.column ? `:${f.location.column}` : ''}`);
+  else if (report.files.length > 1) line('File', report.files[row.fileIndex].file);
+  line('Debris', (f.debris || []).join(', '));
+  const fly = make('button', {type: 'button'}, 'Fly there');
+  fly.addEventListener('click', () => model.flyTo(row));
+  box.replaceChildren(make('h2', {}, make('span', {class: `dot ${f.severity}`}), f.code, make('small', {}, report.meanings[f.code] || severityWords[f.severity][0]),
+                           model.canFlyTo(row) ? fly : null),
+                      make('p', {class: 'message'}, f.message), list);
+  box.scrollTop = 0;
+}
+
+function choose(row, fly) {
+  state.chosen = row;
+  const at = state.shown.indexOf(row);
+  if (at >= state.limit) {
+    state.limit = at + 1;
+    drawRows();
+  }
+  for (const line of $('rows').children) line.setAttribute('aria-selected', Number(line.dataset.row) === (row ? row.number : -1));
+  drawDetail();
+  model.choose(row, fly);
+  const line = row && $('rows').querySelector(`[data-row="${row.number}"]`);
+  if (line) line.scrollIntoView({block: 'nearest'});
+}
+
+function step(by) {
+  if (!state.shown.length) return;
+  const at = state.shown.indexOf(state.chosen);
+  choose(state.shown[at < 0 ? 0 : Math.min(state.shown.length - 1, Math.max(0, at + by))], true);
+}
+
+// ---- all of it
+
+function update() {
+  state.shown = sorted(rows.filter((row) => matches(row)));
+  if (state.chosen && !state.shown.includes(state.chosen)) state.chosen = null;
+  drawHead();
+  drawVerdict();
+  drawSeverities();
+  drawFilters();
+  drawRows();
+  drawDetail();
+  model.showMarks(state.shown);
+}
+
+function chooseFile(index) {
+  state.file = index;
+  state.entity = state.code = '';
+  state.limit = pageOfRows;
+  model.showFile(index >= 0 ? index : Math.max(0, report.files.findIndex((file) => file.scene)));
+  update();
+}
+
+const model = new ModelView(report, rows, (row) => choose(row, false));
+
+function start() {
+  const names = report.files.map((file, i) => make('option', {value: i, title: file.file}, shortName(file)));
+  if (report.files.length > 1) names.unshift(make('option', {value: -1}, `All ${grouped(report.files.length)} files`));
+  $('file').replaceChildren(...names);
+  $('file').value = String(state.file);
+  $('file').addEventListener('change', (event) => chooseFile(Number(event.target.value)));
+  if (report.files.length === 1) $('from').replaceChildren(make('b', {title: report.files[0].file}, shortName(report.files[0])));
+  const listen = (id, key, event) => $(id).addEventListener(event, () => {
+    state[key] = $(id).value;
+    state.limit = pageOfRows;
+    update();
+  });
+  listen('text', 'text', 'input');
+  listen('code', 'code', 'change');
+  listen('entity', 'entity', 'change');
+  $('more').addEventListener('click', () => {
+    state.limit += pageOfRows;
+    drawRows();
+  });
+  $('scroller').addEventListener('keydown', (event) => {
+    const by = {ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10}[event.key];
+    if (by === undefined) return;
+    event.preventDefault();
+    step(by);
+  });
+  chooseFile(state.file);
+  // For tests: what is shown and chosen, and where a mark stands on the screen.
+  window.geomendReport = {state, rows, choose: (n) => choose(rows[n], true), view: () => model.kind(), at: (n) => model.placeOf(rows[n]),
+                          settled: () => model.settled()};
+  document.documentElement.dataset.ready = model.kind();
+}
+
+start();

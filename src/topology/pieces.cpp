@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/pieces.h"
+
+#include <algorithm>
+
+namespace geomend::topology {
+
+std::uint32_t number_pieces(const BrepData::Surface& surface, const FaceEdges& face, std::vector<std::uint32_t>& piece_of) {
+    const std::size_t count = surface.polygons.size();
+    piece_of.assign(count, no_index);
+    for (const std::uint32_t p : face.degenerate) piece_of[p] = 0;
+    for (const std::uint32_t p : face.duplicate) piece_of[p] = 0;
+    const auto first_corner = [&](std::size_t p) { return surface.polygons.all_triangles() ? 3 * p : surface.polygons.offsets[p]; };
+    std::uint32_t pieces = 0;
+    std::vector<std::uint32_t> stack;
+    for (std::uint32_t start = 0; start < count; ++start) {
+        if (piece_of[start] != no_index) continue;
+        piece_of[start] = pieces;
+        stack.push_back(start);
+        while (!stack.empty()) {
+            const std::uint32_t p = stack.back();
+            stack.pop_back();
+            for (std::size_t c = first_corner(p); c < first_corner(p) + surface.polygons[p].size(); ++c) {
+                const std::uint32_t q = surface.neighbours[c];
+                if (q == no_index || piece_of[q] != no_index) continue;
+                piece_of[q] = pieces;
+                stack.push_back(q);
+            }
+        }
+        ++pieces;
+    }
+    return std::max(pieces, 1u);
+}
+
+std::vector<Piece> pieces_of(const BrepData::Surface& surface, const FaceEdges& face) {
+    std::vector<std::uint32_t> piece_of;
+    std::vector<Piece> pieces(number_pieces(surface, face, piece_of));
+    std::vector<std::uint32_t> node_here(surface.nodes.size(), no_index), owner(surface.nodes.size(), no_index);
+    for (std::uint32_t k = 0; k < pieces.size(); ++k) {
+        pieces[k].surface.name = surface.name;
+        pieces[k].surface.role = surface.role;
+        pieces[k].surface.role_text = surface.role_text;
+        pieces[k].surface.source_object = surface.source_object;
+        pieces[k].surface.source_part = surface.source_part;
+    }
+    for (std::uint32_t p = 0; p < piece_of.size(); ++p) pieces[piece_of[p]].polygons.push_back(p);
+    std::vector<std::uint32_t> polygon;
+    for (std::uint32_t k = 0; k < pieces.size(); ++k) {
+        auto& made = pieces[k].surface;
+        for (const std::uint32_t p : pieces[k].polygons) {
+            polygon.clear();
+            for (const std::uint32_t node : surface.polygons[p]) {
+                if (owner[node] != k) {
+                    owner[node] = k;
+                    node_here[node] = static_cast<std::uint32_t>(made.nodes.size());
+                    made.nodes.push_back(surface.nodes[node]);
+                }
+                polygon.push_back(node_here[node]);
+            }
+            made.polygons.push_back(polygon);
+        }
+    }
+    return pieces;
+}
+
+}  // namespace geomend::topology

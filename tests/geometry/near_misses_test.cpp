@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/near_misses.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include "base/parallel.h"
+#include "geometry/vectors.h"
+#include "soups.h"
+
+namespace geomend {
+namespace {
+
+using test::Soup;
+using Edge = std::array<std::uint32_t, 2>;
+
+/// The free borders: edges of one triangle only.
+struct Borders {
+    std::vector<Edge> edges;
+    std::vector<std::uint32_t> groups;
+};
+
+Borders borders_of(const Soup& s) {
+    std::map<Edge, std::vector<std::uint32_t>> uses;
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [p, q] = std::minmax(s.triangles[t][i], s.triangles[t][(i + 1) % 3]);
+            uses[{p, q}].push_back(s.groups[t]);
+        }
+    }
+    Borders b;
+    for (const auto& [edge, groups] : uses) {
+        if (groups.size() > 1) continue;
+        b.edges.push_back(edge);
+        b.groups.push_back(groups[0]);
+    }
+    return b;
+}
+
+struct Found {
+    Borders borders;
+    std::vector<NearMiss> misses;
+
+    /// Ends of the edges of one group that were told, ascending without repetition.
+    std::vector<std::uint32_t> vertices(std::uint32_t group) const {
+        std::vector<std::uint32_t> found;
+        for (const NearMiss& m : misses) {
+            if (borders.groups[m.border_edge] == group)
+                found.insert(found.end(), borders.edges[m.border_edge].begin(), borders.edges[m.border_edge].end());
+        }
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        return found;
+    }
+    double smallest() const {
+        double d = 1e9;
+        for (const NearMiss& m : misses) d = std::min(d, m.distance);
+        return d;
+    }
+};
+
+Found search(const Soup& s, double near) {
+    Found f{borders_of(s), {}};
+    f.misses = near_misses(s.vertices, s.triangles, s.groups, f.borders.edges, f.borders.groups, near);
+    for (const NearMiss& m : f.misses) {
+        EXPECT_GT(m.distance, 0);
+        EXPECT_LT(m.distance, near);
+        const Vec3 d = minus(m.on_edge, m.on_triangle);
+        EXPECT_NEAR(std::sqrt(dot(d, d)), m.distance, 1e-6 * near);
+    }
+    return f;
+}
+
+std::vector<ClosePair> pairs(const Soup& s, double near) {
+    return closest_pairs(TriangleTree(s.vertices, s.triangles), s.triangles, s.groups, near);
+}
+
+/// Takes equal positions for one vertex.
+Soup welded(const Soup& s) {
+    Soup w;
+    w.groups = s.groups;
+    std::map<Vec3, std::uint32_t> known;
+    for (const Triangle& t : s.triangles) {
+        Triangle u{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [at, added] = known.try_emplace(s.vertices[t[i]], static_cast<std::uint32_t>(w.vertices.size()));
+            if (added) w.vertices.push_back(s.vertices[t[i]]);
+            u[i] = at->second;
+        }
+        w.triangles.push_back(u);
+    }
+    return w;
+}
+
+/// A flat horizon, 0..20 each way, and a fault from z = gap(y) upwards in the plane x = 10.5.
+template <class Gap>
+Soup fault_above_horizon(const Gap& gap) {
+    Soup s;
+    s.add_sheet(20, 20, [](double i, double j) { return Vec3{i, j, 0}; });
+    s.add_sheet(10, 8, [&](double i, double j) { return Vec3{10.5, 5.25 + i, gap(i) + j}; });
+    return s;
+}
+constexpr std::uint32_t fault = 1, fault_start = 21 * 21;
+
+std::vector<std::uint32_t> lowest_row() {
+    std::vector<std::uint32_t> row;
+    for (std::uint32_t i = 0; i <= 10; ++i) row.push_back(fault_start + i);
+    return row;
+}
+
+TEST(NearMisses, AFaultThatEndsAboveAHorizonIsFoundAlongItsBorder) {
+    const Found f = search(fault_above_horizon([](double) { return 0.3; }), 0.5);
+    EXPECT_EQ(f.vertices(fault), lowest_row());
+    EXPECT_EQ(f.misses.size(), 10u);
+    for (const NearMiss& m : f.misses) EXPECT_DOUBLE_EQ(m.distance, 0.3);
+    EXPECT_TRUE(search(fault_above_horizon([](double) { return 0.3; }), 0.29).misses.empty()) << "farther than near";
+}
+
+TEST(NearMisses, ASlopingGapIsFoundAsFarAsItIsNear) {
+    const Found f = search(fault_above_horizon([](double i) { return 0.1 + 0.1 * i; }), 0.55);
+    EXPECT_DOUBLE_EQ(f.smallest(), 0.1);
+    EXPECT_EQ(f.vertices(fault).size(), 5u) << "0.1 to 0.5";
+    const Found wavy = search(fault_above_horizon([](double i) { return 0.3 + 0.1 * std::cos(2 * i); }), 0.5);
+    EXPECT_EQ(wavy.vertices(fault), lowest_row()) << "from each smallest distance up to the largest";
+}
+
+TEST(NearMisses, ALongEdgeThatIsNearWithOneEndIsFound) {
+    Soup s;
+    s.vertices = {{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}, {0, 0, 0.25}, {5, 0, 5}, {-5, 1, 5}};
+    s.triangles = {{0, 1, 2}, {3, 4, 5}};
+    s.groups = {0, 1};
+    const Found f = search(s, 0.5);
+    EXPECT_EQ(f.misses.size(), 2u) << "both edges at the corner";
+    EXPECT_EQ(f.smallest(), 0.25);
+}
+
+TEST(NearMisses, TouchingAndCrossingIsNotNear) {
+    EXPECT_TRUE(search(fault_above_horizon([](double) { return 0; }), 0.5).misses.empty()) << "on the horizon";
+    EXPECT_TRUE(search(fault_above_horizon([](double) { return -0.3; }), 0.25).misses.empty()) << "0.3 beyond it";
+}
+
+// The lower border passes through the horizon between two of its vertices.
+TEST(NearMisses, ABorderThatCrossesIsNotNearBesideTheCrossing) {
+    const Found f = search(fault_above_horizon([](double i) { return 0.3 * (i - 4.5); }), 0.25);
+    EXPECT_TRUE(f.vertices(fault).empty());
+}
+
+/// A horizon and a fault that meet in a line of common vertices; the fault rises at an angle.
+Soup wedge(double degrees, double roughness = 0) {
+    const double c = std::cos(degrees * std::numbers::pi / 180), h = std::sin(degrees * std::numbers::pi / 180);
+    const auto rough = [=](double i, double j) { return roughness * std::sin(12.9898 * i + 78.233 * j); };
+    Soup s;
+    s.add_sheet(20, 20, [&](double i, double j) { return Vec3{i, j, i == 6 ? 0 : rough(i, j)}; });
+    s.add_sheet(8, 8, [&](double i, double j) { return Vec3{6 + c * i, 5 + j, h * i + (i == 0 ? 0 : rough(i + 30, j))}; });
+    return welded(s);
+}
+
+TEST(NearMisses, SurfacesThatMeetInALineAreNoMissBesideIt) {
+    for (const double degrees : {1.0, 5.0, 30.0, 90.0, 150.0}) {
+        for (const double near : {0.01, 0.2, 0.9, 3.0}) {
+            const Soup s = wedge(degrees);
+            if (8 * std::sin(degrees * std::numbers::pi / 180) > near) {  // else all of it is a narrow strip
+                EXPECT_TRUE(search(s, near).misses.empty()) << degrees << " degrees, near " << near;
+            }
+            EXPECT_TRUE(pairs(s, near).empty()) << degrees << " degrees, near " << near;
+        }
+    }
+    EXPECT_TRUE(search(wedge(20, 0.02), 0.9).misses.empty()) << "rough surfaces";
+    EXPECT_TRUE(pairs(wedge(20, 0.02), 0.9).empty());
+}
+
+TEST(NearMisses, AHoleInAContactIsFound) {
+    for (const std::uint32_t pulled : {1u, 2u, 3u}) {
+        Soup s;
+        s.add_sheet(20, 20, [](double i, double j) { return Vec3{i, j, 0}; });
+        s.add_sheet(8, 8, [&](double i, double j) {
+            return Vec3{6, 5 + i, j + (j == 0 && i >= 3 && i < 3 + pulled ? 0.1 * (i - 2) : 0.0)};
+        });
+        const Found f = search(welded(s), 0.5);
+        EXPECT_EQ(f.vertices(fault).size(), pulled + 2) << "the vertices pulled off, and the ends of the hole";
+        EXPECT_EQ(f.misses.size(), pulled + 1);
+        double largest = 0;
+        for (const NearMiss& m : f.misses) largest = std::max(largest, m.distance);
+        EXPECT_DOUBLE_EQ(largest, 0.1 * pulled);
+    }
+}
+
+TEST(NearMisses, AContactThatComesApartTowardsTheEndOfTheBorderIsFound) {
+    // A wall at y = 13 closes the model: the fault is joined to it, and the horizon is, too.
+    Soup s;
+    s.add_sheet(8, 13, [](double i, double j) { return Vec3{i, j, 0}; });
+    s.add_sheet(8, 8, [](double i, double j) { return Vec3{6, 5 + i, j > 0 ? j : i > 4 ? 0.1 * (i - 4) : 0.0}; });
+    s.add_sheet(8, 8, [](double i, double j) { return Vec3{i, 13, i == 6 && j == 0 ? 0.0 : j}; });
+    Soup w = welded(s);
+    // The wall has the fault's border as well: one more vertex on its line x = 6.
+    const auto at = [&](const Vec3& p) {
+        return static_cast<std::uint32_t>(std::find(w.vertices.begin(), w.vertices.end(), p) - w.vertices.begin());
+    };
+    const std::uint32_t low = at({6, 13, 0}), gap = at({6, 13, 0.4}), top = at({6, 13, 1});
+    ASSERT_LT(std::max({low, gap, top}), w.vertices.size());
+    for (std::size_t t = 0, count = w.triangles.size(); t < count; ++t) {
+        if (w.groups[t] != 2) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            Triangle& v = w.triangles[t];
+            if ((v[i] == low && v[(i + 1) % 3] == top) || (v[i] == top && v[(i + 1) % 3] == low)) {
+                Triangle other = v;
+                v[i] = gap;
+                other[(i + 1) % 3] = gap;
+                w.triangles.push_back(other);
+                w.groups.push_back(2);
+                break;
+            }
+        }
+    }
+    const Found f = search(w, 0.5);
+    EXPECT_EQ(f.vertices(fault).size(), 5u) << "from the last common vertex to the wall";
+}
+
+TEST(NearMisses, ASurfaceIsNoMissOfItself) {
+    Soup s;
+    s.add_sheet(30, 30, [](double i, double j) { return Vec3{0.1 * i, 0.1 * j, 0.05 * std::sin(0.3 * i)}; });
+    for (const double near : {0.05, 0.25, 0.7}) EXPECT_TRUE(search(s, near).misses.empty()) << "many edges shorter than " << near;
+}
+
+TEST(NearMisses, ABorderThatNearlyMeetsItsOwnSurfaceIsFound) {
+    Soup s;  // a pipe that does not quite close
+    s.add_sheet(40, 5, [](double i, double j) {
+        const double angle = i / 40 * 0.99 * 2 * std::numbers::pi;
+        return Vec3{10 * std::cos(angle), 10 * std::sin(angle), j};
+    });
+    const double gap = 2 * 10 * std::sin(0.01 * std::numbers::pi);
+    const Found f = search(s, 1);
+    EXPECT_EQ(f.vertices(0).size(), 12u) << "both lips";
+    EXPECT_NEAR(f.smallest(), gap, 0.01 * gap);
+    EXPECT_TRUE(search(s, 0.5).misses.empty());
+}
+
+TEST(NearMisses, AnOpenSlitIsNone) {
+    for (const double half_width : {0.002, 0.05, 0.3}) {
+        Soup s;  // the row j = 5 is doubled for i > 4, and spread
+        s.add_sheet(12, 5, [&](double i, double j) { return Vec3{i, j - (j == 5 && i > 4 ? half_width * (i - 4) : 0), 0}; });
+        s.add_sheet(12, 5, [&](double i, double j) { return Vec3{i, 5 + j + (j == 0 && i > 4 ? half_width * (i - 4) : 0), 0}; });
+        std::fill(s.groups.begin(), s.groups.end(), 0);
+        EXPECT_TRUE(search(welded(s), 0.7).misses.empty()) << half_width;
+    }
+}
+
+/// The same under another order of triangles, vertices and corners, elsewhere and at another size.
+TEST(NearMisses, AreTheSameInAnyOrderAndFrame) {
+    std::mt19937 random(4);
+    const Soup s = fault_above_horizon([](double i) { return 0.3 + 0.05 * std::sin(3 * i); });
+    const Found expected = search(s, 0.5);
+    ASSERT_EQ(expected.misses.size(), 10u);
+    for (const auto& [scale, offset] :
+         {std::pair{1.0, Vec3{}}, std::pair{1.0, Vec3{451234.5, 6812345.25, -1200}}, std::pair{1e-3, Vec3{}}, std::pair{1e3, Vec3{}}}) {
+        std::vector<std::uint32_t> rename(s.vertices.size());
+        for (std::uint32_t i = 0; i < rename.size(); ++i) rename[i] = i;
+        std::shuffle(rename.begin(), rename.end(), random);
+        Soup moved;
+        moved.vertices.resize(s.vertices.size());
+        for (std::size_t v = 0; v < rename.size(); ++v) {  // turned about the vertical axis, too
+            const Vec3& p = s.vertices[v];
+            moved.vertices[rename[v]] = plus(offset, times(scale, {0.6 * p[0] - 0.8 * p[1], 0.8 * p[0] + 0.6 * p[1], p[2]}));
+        }
+        std::vector<std::size_t> order(s.triangles.size());
+        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+        std::shuffle(order.begin(), order.end(), random);
+        for (const std::size_t t : order) {
+            Triangle v{rename[s.triangles[t][0]], rename[s.triangles[t][1]], rename[s.triangles[t][2]]};
+            std::shuffle(v.begin(), v.end(), random);
+            moved.triangles.push_back(v);
+            moved.groups.push_back(s.groups[t]);
+        }
+        const Found f = search(moved, 0.5 * scale);
+        EXPECT_EQ(f.misses.size(), 10u);
+        EXPECT_NEAR(f.smallest(), scale * expected.smallest(), 1e-8 * scale);
+    }
+}
+
+TEST(NearMisses, DoNotDependOnThreadsAndCanBeStopped) {
+    const Soup s = fault_above_horizon([](double i) { return 0.3 + 0.05 * std::sin(3 * i); });
+    const Borders b = borders_of(s);
+    std::vector<NearMiss> first;
+    for (const std::size_t threads : {std::size_t{1}, std::size_t{0}}) {
+        const ThreadBudget budget(threads);
+        const auto found = near_misses(s.vertices, s.triangles, s.groups, b.edges, b.groups, 0.5);
+        if (first.empty()) first = found;
+        ASSERT_EQ(found.size(), first.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            EXPECT_EQ(found[i].border_edge, first[i].border_edge);
+            EXPECT_EQ(found[i].triangle, first[i].triangle);
+            EXPECT_EQ(found[i].distance, first[i].distance);
+        }
+    }
+    const std::atomic<bool> stop = true;
+    Monitor monitor;
+    monitor.stop = &stop;
+    EXPECT_TRUE(near_misses(s.vertices, s.triangles, s.groups, b.edges, b.groups, 0.5, &monitor).empty());
+    EXPECT_TRUE(closest_pairs(TriangleTree(s.vertices, s.triangles), s.triangles, s.groups, 0.5, &monitor).empty());
+    EXPECT_TRUE(near_misses({}, {}, {}, {}, {}, 1).empty());
+}
+
+TEST(ClosestPairs, AreFoundInsideSurfaces) {
+    Soup s;
+    s.add_sheet(20, 20, [](double i, double j) { return Vec3{i, j, 0}; });
+    s.add_sheet(20, 20, [](double i, double j) {
+        return Vec3{0.97 * i, 0.97 * j, 0.25 + 0.05 * ((i - 9) * (i - 9) + (j - 12) * (j - 12))};
+    });
+    s.add_sheet(20, 20, [](double i, double j) { return Vec3{i, j, 40}; });
+    const auto found = pairs(s, 0.5);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].group_a, 0u);
+    EXPECT_EQ(found[0].group_b, 1u);
+    EXPECT_DOUBLE_EQ(found[0].distance, 0.25);
+    EXPECT_EQ(s.groups[found[0].triangle_a], 0u);
+    EXPECT_EQ(s.groups[found[0].triangle_b], 1u);
+    EXPECT_EQ(found[0].on_b, (Vec3{0.97 * 9, 0.97 * 12, 0.25}));
+    EXPECT_TRUE(pairs(s, 0.2).empty());
+}
+
+TEST(ClosestPairs, GoOnFromVerticesToWhereEdgesAreClosest) {
+    Soup s;  // two roofs, ridge across ridge, with vertices beside the crossing
+    s.add_sheet(11, 2, [](double i, double j) { return Vec3{i - 5.4, j - 1, j == 1 ? 0.0 : -1.0}; });
+    s.add_sheet(2, 11, [](double i, double j) { return Vec3{i - 1, j - 5.3, i == 1 ? 0.2 : 1.2}; });
+    const auto found = pairs(s, 0.6);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].distance, 0.2, 1e-12);
+    EXPECT_NEAR(found[0].on_a[0], 0, 1e-12);
+    EXPECT_NEAR(found[0].on_a[1], 0, 1e-12);
+}
+
+TEST(ClosestPairs, SurfacesThatCrossOrTouchAreNone) {
+    Soup s;
+    s.add_sheet(20, 20, [](double i, double j) { return Vec3{i, j, 0}; });
+    s.add_sheet(20, 20, [](double i, double j) { return Vec3{i + 0.3, 5.2 + 0.3 * j, j - 9.7}; });
+    EXPECT_TRUE(pairs(s, 0.6).empty());
+    EXPECT_TRUE(search(s, 0.29).vertices(1).empty());
+}
+
+// Two horizons end on one fault, a step apart: the fault joins them, they are no near miss of each other.
+TEST(ClosestPairs, ContactsOfOneSurfaceAreNone) {
+    Soup s;
+    s.add_sheet(8, 20, [](double i, double j) { return Vec3{0, i, 0.125 * j - 1}; });
+    s.add_sheet(8, 8, [](double i, double j) { return Vec3{j, i, 0}; });
+    s.add_sheet(8, 8, [](double i, double j) { return Vec3{-j, i, 0.125}; });
+    const Soup w = welded(s);
+    EXPECT_TRUE(pairs(w, 0.3).empty());
+    EXPECT_TRUE(search(w, 0.05).misses.empty());
+}
+
+}  // namespace
+}  // namespace geomend

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/cell_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/parallel.h"
+#include "geometry/cell_volume.h"
+#include "geometry/intersections.h"
+#include "geometry/measures.h"
+#include "topology/near_weld.h"
+#include "validators/found_cells.h"
+#include "validators/model_scope.h"
+
+namespace geomend::validators {
+
+namespace {
+
+/// Signed volumes of the volume cells. A wedge counts as VTK's own reader does not: see cell_volume().
+std::vector<double> signed_volumes(const CellScope& scope) {
+    std::vector<double> volumes(scope.volume_cells().size());
+    parallel_blocks(volumes.size(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) volumes[i] = cell_volume(scope.mesh(), scope.volume_cells()[i]);
+    });
+    return volumes;
+}
+
+bool polyhedron(const CellScope& scope, std::uint32_t cell) { return scope.mesh().types[cell] == CellType::polyhedron; }
+
+/// +1 or -1: the sign that most cells have whose corner order tells one; by type, since conventions differ by type.
+std::map<CellType, double> majority_signs(const CellScope& scope, std::span<const double> volumes) {
+    std::map<CellType, std::int64_t> votes;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        votes[scope.mesh().types[scope.volume_cells()[i]]] += volumes[i] > 0 ? 1 : volumes[i] < 0 ? -1 : 0;
+    }
+    std::map<CellType, double> signs;
+    for (const auto& [type, vote] : votes) signs[type] = vote < 0 ? -1 : 1;
+    return signs;
+}
+
+/// Three times the edges from a corner, as rows; six volumes of their tetrahedron.
+double corner_jacobian(const CellMesh& mesh, std::span<const std::uint32_t> nodes, std::array<unsigned, 4> corner) {
+    const Vec3& o = mesh.points[nodes[corner[0]]];
+    return dot(minus(mesh.points[nodes[corner[1]]], o),
+               cross(minus(mesh.points[nodes[corner[2]]], o), minus(mesh.points[nodes[corner[3]]], o)));
+}
+
+std::span<const std::array<unsigned, 4>> corner_frames(CellType type) {
+    static constexpr std::array<std::array<unsigned, 4>, 8> hexahedron = {
+        {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
+    // With the normal of (0,1,2) out of the cell, as VTK documents it.
+    static constexpr std::array<std::array<unsigned, 4>, 6> wedge = {
+        {{0, 2, 1, 3}, {1, 0, 2, 4}, {2, 1, 0, 5}, {3, 4, 5, 0}, {4, 5, 3, 1}, {5, 3, 4, 2}}};
+    static constexpr std::array<std::array<unsigned, 4>, 4> pyramid = {{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
+    switch (type) {
+        case CellType::hexahedron:
+            return hexahedron;
+        case CellType::wedge:
+            return wedge;
+        case CellType::pyramid:
+            return pyramid;
+        default:
+            return {};
+    }
+}
+
+std::string in_mesh(const CellScope& scope) {
+    const std::string& name = scope.mesh().info.name;
+    return name.empty() ? "" : " of " + quoted(name);
+}
+
+}  // namespace
+
+void check_cell_volumes(const CellScope& scope, std::vector<Finding>& findings) {
+    const auto volumes = signed_volumes(scope);
+    const auto signs = majority_signs(scope, volumes);
+    std::vector<std::uint32_t> wrong;
+    std::uint64_t empty = 0;
+    const double least = std::pow(scope.lengths().tolerance, 3);
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        const std::uint32_t cell = scope.volume_cells()[i];
+        const double v = volumes[i] * (polyhedron(scope, cell) ? (volumes[i] < 0 ? -1 : 1) : signs.at(scope.mesh().types[cell]));
+        if (v > least) continue;
+        wrong.push_back(cell);
+        empty += std::abs(v) <= least ? 1 : 0;
+    }
+    if (wrong.empty()) return;
+    std::string message = counted(wrong.size(), "cell", "cells") + in_mesh(scope) + ": ";
+    if (empty < wrong.size()) message += std::to_string(wrong.size() - empty) + " turned inside out against the others";
+    if (empty > 0) message += std::string(empty < wrong.size() ? ", " : "") + std::to_string(empty) + " without volume";
+    findings.push_back(cells_of_mesh_finding(scope, "M20", std::move(message), wrong));
+}
+
+void check_cell_jacobians(const CellScope& scope, std::vector<Finding>& findings) {
+    const auto volumes = signed_volumes(scope);
+    const auto signs = majority_signs(scope, volumes);
+    std::vector<std::uint32_t> folded;
+    double worst = 0;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        const std::uint32_t cell = scope.volume_cells()[i];
+        const CellType type = linear_type(scope.mesh().types[cell]);
+        const double sign = signs.at(scope.mesh().types[cell]);
+        if (volumes[i] * sign <= 0) continue;  // M20
+        double least = HUGE_VAL;
+        for (const auto& corner : corner_frames(type)) {
+            least = std::min(least, sign * corner_jacobian(scope.mesh(), scope.mesh().cell_nodes(cell), corner) / std::abs(volumes[i]));
+        }
+        if (least > -1e-12) continue;
+        worst = std::min(worst, least);
+        folded.push_back(cell);
+    }
+    if (folded.empty()) return;
+    Finding finding = cells_of_mesh_finding(scope, "M21",
+                                            counted(folded.size(), "cell is", "cells are") + in_mesh(scope) +
+                                                " folded at a corner (worst Jacobian " + rounded(worst) + " of the cell's volume)",
+                                            folded);
+    finding.measures = {{"jacobian", worst}};
+    findings.push_back(std::move(finding));
+}
+
+void check_cell_nodes(const CellScope& scope, std::vector<Finding>& findings) {
+    std::vector<std::uint32_t> wrong;
+    std::vector<std::uint32_t> sorted;
+    for (const std::uint32_t c : scope.volume_cells()) {
+        const auto nodes = scope.mesh().cell_nodes(c);
+        sorted.clear();
+        for (const std::uint32_t node : nodes) sorted.push_back(scope.vertex_of()[node]);
+        std::ranges::sort(sorted);
+        if (std::ranges::adjacent_find(sorted) != sorted.end()) wrong.push_back(c);
+    }
+    if (wrong.empty()) return;
+    findings.push_back(cells_of_mesh_finding(
+        scope, "M22", counted(wrong.size(), "cell", "cells") + in_mesh(scope) + (wrong.size() == 1 ? " uses" : " use") + " a node twice",
+        wrong));
+}
+
+void check_cell_faces(const CellScope& scope, std::vector<Finding>& findings) {
+    std::vector<std::uint32_t> cells;
+    std::uint64_t faces = 0;
+    for (std::size_t g = 0; g + 1 < scope.group_first().size(); ++g) {
+        const auto group = scope.grouped().subspan(scope.group_first()[g], scope.group_first()[g + 1] - scope.group_first()[g]);
+        if (group.size() <= 2) continue;
+        ++faces;
+        for (const std::uint32_t f : group) cells.push_back(scope.faces()[f].cell);
+    }
+    if (cells.empty()) return;
+    std::ranges::sort(cells);
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    findings.push_back(cells_of_mesh_finding(
+        scope, "M23", counted(faces, "face", "faces") + in_mesh(scope) + (faces == 1 ? " is" : " are") + " on more than two cells", cells));
+}
+
+void check_cell_matching(const CellScope& scope, std::vector<Finding>& findings) {
+    // Outer faces, as triangles: where two of them have an area in common, cells lie face to face without matching.
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> face_of;
+    for (std::size_t g = 0; g + 1 < scope.group_first().size(); ++g) {
+        if (scope.group_first()[g + 1] - scope.group_first()[g] != 1) continue;
+        const std::uint32_t f = scope.grouped()[scope.group_first()[g]];
+        const auto nodes = scope.nodes_of(scope.faces()[f]);
+        // Bent faces by the rule of all of us: the fan of the lowest corner.
+        std::size_t lowest = 0;
+        for (std::size_t i = 1; i < nodes.size(); ++i) {
+            if (scope.vertex_of()[nodes[i]] < scope.vertex_of()[nodes[lowest]]) lowest = i;
+        }
+        const auto at = [&](std::size_t i) { return scope.vertex_of()[nodes[(lowest + i) % nodes.size()]]; };
+        for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+            const Triangle t{at(0), at(i), at(i + 1)};
+            if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2]) continue;
+            triangles.push_back(t);
+            face_of.push_back(f);
+        }
+    }
+    std::vector<std::uint32_t> cells;
+    std::uint64_t pairs = 0;
+    for (const auto& pair : intersections(scope.mesh().points, triangles, scope.monitor())) {
+        const CellFace& a = scope.faces()[face_of[pair.a]];
+        const CellFace& b = scope.faces()[face_of[pair.b]];
+        if (pair.how.kind != Meeting::overlap || a.cell == b.cell) continue;
+        ++pairs;
+        cells.push_back(a.cell);
+        cells.push_back(b.cell);
+    }
+    if (cells.empty()) return;
+    std::ranges::sort(cells);
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    Finding finding = cells_of_mesh_finding(scope, "M24",
+                                            counted(cells.size(), "cell", "cells") + in_mesh(scope) +
+                                                (cells.size() == 1 ? " lies" : " lie") + " face to face with others without matching faces",
+                                            cells);
+    finding.measures = {{"pairs_of_triangles", static_cast<double>(pairs)}};
+    findings.push_back(std::move(finding));
+}
+
+void check_polyhedra(const CellScope& scope, std::vector<Finding>& findings) {
+    std::vector<std::uint32_t> open;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+    const auto faces = scope.faces();
+    for (std::size_t f = 0; f < faces.size();) {
+        const std::uint32_t cell = faces[f].cell;
+        edges.clear();
+        std::size_t end = f;
+        for (; end < faces.size() && faces[end].cell == cell; ++end) {
+            if (!polyhedron(scope, cell)) continue;
+            const auto nodes = scope.nodes_of(faces[end]);
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                const std::uint32_t a = scope.vertex_of()[nodes[i]], b = scope.vertex_of()[nodes[(i + 1) % nodes.size()]];
+                if (a != b) edges.emplace_back(std::min(a, b), std::max(a, b));
+            }
+        }
+        std::ranges::sort(edges);
+        bool closed = true;
+        for (std::size_t i = 0; i < edges.size() && closed;) {
+            std::size_t j = i + 1;
+            while (j < edges.size() && edges[j] == edges[i]) ++j;
+            closed = (j - i) % 2 == 0;
+            i = j;
+        }
+        if (!closed) open.push_back(cell);
+        f = end;
+    }
+    if (open.empty()) return;
+    findings.push_back(cells_of_mesh_finding(
+        scope, "M25", "the faces of " + counted(open.size(), "polyhedron", "polyhedra") + in_mesh(scope) + " do not close", open));
+}
+
+void check_cell_repeats(const CellScope& scope, std::vector<Finding>& findings) {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+    const auto nodes_of = [&](std::uint32_t c) {
+        std::vector<std::uint32_t> nodes;
+        for (const std::uint32_t node : scope.mesh().cell_nodes(c)) nodes.push_back(scope.vertex_of()[node]);
+        std::ranges::sort(nodes);
+        return nodes;
+    };
+    for (const std::uint32_t c : scope.volume_cells()) {
+        std::uint64_t hash = 0;
+        for (const std::uint32_t node : scope.mesh().cell_nodes(c)) {
+            std::uint64_t x = (scope.vertex_of()[node] + 1) * 0x9e3779b97f4a7c15u;
+            x ^= x >> 29;
+            hash += x * 0xff51afd7ed558ccdu;
+        }
+        keys.emplace_back(hash, c);
+    }
+    std::ranges::sort(keys);
+    std::vector<std::uint32_t> repeats;
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        if (keys[i].first == keys[i - 1].first && nodes_of(keys[i].second) == nodes_of(keys[i - 1].second))
+            repeats.push_back(keys[i].second);
+    }
+    if (repeats.empty()) return;
+    std::ranges::sort(repeats);
+    findings.push_back(cells_of_mesh_finding(scope, "M26",
+                                             counted(repeats.size(), "cell", "cells") + in_mesh(scope) +
+                                                 (repeats.size() == 1 ? " repeats" : " repeat") + " another one of the same nodes",
+                                             repeats));
+}
+
+void check_cell_points(const CellScope& scope, std::vector<Finding>& findings) {
+    const CellMesh& mesh = scope.mesh();
+    std::vector<std::uint8_t> used(mesh.points.size(), 0);
+    for (const std::uint32_t node : mesh.nodes) used[node] = 1;
+    const auto unused = static_cast<std::uint64_t>(std::ranges::count(used, 0));
+    if (unused > 0) {
+        Finding finding =
+            finding_of("M28", counted(unused, "node", "nodes") + in_mesh(scope) + (unused == 1 ? " belongs" : " belong") + " to no cell");
+        finding.entities.push_back({"cell-mesh", mesh.info.name});
+        finding.element_kind = "node";
+        finding.count = unused;
+        for (std::uint32_t n = 0; n < used.size() && finding.index.size() < listed_elements; ++n) {
+            if (used[n] != 0) continue;
+            finding.index.push_back(n);
+            finding.elements.push_back(mesh.point_labels[n]);
+            finding.points.push_back(mesh.points[n]);
+        }
+        findings.push_back(std::move(finding));
+    }
+    if (scope.lengths().tolerance <= 0) return;
+    const auto first = topology::clusters_within(mesh.points, scope.lengths().tolerance);
+    Finding finding = finding_of("M27", {});
+    std::uint64_t equal = 0;
+    for (std::uint32_t n = 0; n < first.size(); ++n) {
+        if (first[n] == n || used[n] == 0) continue;
+        ++finding.count;
+        equal += mesh.points[n] == mesh.points[first[n]] ? 1 : 0;
+        if (finding.index.size() >= listed_elements) continue;
+        finding.index.push_back(n);
+        finding.elements.push_back(mesh.point_labels[n]);
+        finding.points.push_back(mesh.points[n]);
+    }
+    if (finding.count == 0) return;
+    // Where all are equal, cells are disconnected on purpose, as along faults: that is worth knowing, but no defect.
+    if (equal == finding.count) finding.severity = Severity::info;
+    finding.entities.push_back({"cell-mesh", mesh.info.name});
+    finding.element_kind = "node";
+    finding.message = counted(finding.count, "node", "nodes") + in_mesh(scope) + (finding.count == 1 ? " lies" : " lie") + " within " +
+                      rounded(scope.lengths().tolerance) + " of another one" +
+                      (equal > 0 ? ", " + std::to_string(equal) + " of them at the same position" : "");
+    findings.push_back(std::move(finding));
+}
+
+void check_face_planes(const CellScope& scope, std::vector<Finding>& findings) {
+    std::vector<std::uint32_t> cells;
+    double worst = 0;
+    for (const CellFace& face : scope.faces()) {
+        if (!polyhedron(scope, face.cell) || face.size < 4) continue;
+        const auto nodes = scope.nodes_of(face);
+        const auto& points = scope.mesh().points;
+        Vec3 normal{}, middle{};
+        const Vec3& o = points[nodes[0]];
+        for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+            const Vec3 n = cross(minus(points[nodes[i]], o), minus(points[nodes[i + 1]], o));
+            for (std::size_t k = 0; k < 3; ++k) normal[k] += n[k];
+        }
+        const double length = std::sqrt(dot(normal, normal));
+        if (length == 0) continue;
+        for (const std::uint32_t node : nodes) {
+            for (std::size_t k = 0; k < 3; ++k) middle[k] += (points[node][k] - o[k]) / static_cast<double>(nodes.size());
+        }
+        double off = 0;
+        for (const std::uint32_t node : nodes) off = std::max(off, std::abs(dot(minus(minus(points[node], o), middle), normal)) / length);
+        if (off <= scope.lengths().tolerance) continue;
+        worst = std::max(worst, off);
+        if (cells.empty() || cells.back() != face.cell) cells.push_back(face.cell);
+    }
+    if (cells.empty()) return;
+    Finding finding =
+        cells_of_mesh_finding(scope, "Q10",
+                              counted(cells.size(), "polyhedron", "polyhedra") + in_mesh(scope) + (cells.size() == 1 ? " has" : " have") +
+                                  " faces that are not plane, by up to " + rounded(worst),
+                              cells);
+    finding.measures = {{"distance", worst}};
+    findings.push_back(std::move(finding));
+}
+
+}  // namespace geomend::validators

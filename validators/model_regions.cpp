@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "geometry/cell_volume.h"
+#include "validators/each_surface.h"
+#include "validators/found_cells.h"
+#include "validators/model_checks.h"
+
+namespace geomend::validators {
+
+namespace {
+
+std::uint32_t side_index(const BrepData::Side& side) { return 2 * side.surface.value + (side.front ? 1 : 0); }
+
+/// The sides of a region whose opposites are not its own, too; they ascend.
+std::vector<std::uint32_t> single_sides(std::span<const BrepData::Side> sides) {
+    std::vector<std::uint32_t> all;
+    for (const auto& side : sides) all.push_back(side_index(side));
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    std::vector<std::uint32_t> single;
+    for (const std::uint32_t side : all) {
+        if (!std::ranges::binary_search(all, side ^ 1u)) single.push_back(side);
+    }
+    return single;
+}
+
+bool has_free_border(const ModelScope& scope, const BrepData::Surface& surface) {
+    return std::ranges::any_of(surface.lines, [&](const auto& use) { return scope.free_lines()[use.line.value] != 0; });
+}
+
+/// Per side, the sides that it faces, each with the line between them.
+struct Walks {
+    struct Step {
+        std::uint32_t side, line;
+    };
+    std::vector<std::vector<Step>> steps;
+};
+
+Walks walks_of(const ModelScope& scope) {
+    Walks walks;
+    walks.steps.resize(2 * scope.brep().surfaces.size());
+    for (const auto& join : scope.model().found.joins) {
+        walks.steps[join.first].push_back({join.second, join.line});
+        walks.steps[join.second].push_back({join.first, join.line});
+    }
+    return walks;
+}
+
+/// The line, with nothing beyond it, by which the shortest way from the back of a surface to its front goes round.
+std::uint32_t way_round(const Walks& walks, std::uint32_t surface) {
+    std::vector<std::uint32_t> from(walks.steps.size(), no_index), line(walks.steps.size(), no_index);
+    std::vector<std::uint32_t> queue{2 * surface};
+    from[2 * surface] = 2 * surface;
+    for (std::size_t k = 0; k < queue.size() && from[2 * surface + 1] == no_index; ++k) {
+        for (const auto& step : walks.steps[queue[k]]) {
+            if (from[step.side] != no_index) continue;
+            from[step.side] = queue[k];
+            line[step.side] = step.line;
+            queue.push_back(step.side);
+        }
+    }
+    if (from[2 * surface + 1] == no_index) return no_index;
+    for (std::uint32_t side = 2 * surface + 1; side != 2 * surface; side = from[side]) {
+        if ((from[side] ^ 1u) == side) return line[side];
+    }
+    return no_index;
+}
+
+/// The regions that the file's own lists put on the two sides of each surface; none: no_index, the Universe: its own number.
+std::vector<std::array<std::uint32_t, 2>> stated_sides(const ModelScope& scope) {
+    const BrepData& brep = scope.brep();
+    std::vector<std::array<std::uint32_t, 2>> stated(brep.surfaces.size(), {no_index, no_index});
+    if (!scope.model().regions_stated) return stated;
+    for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+        for (const auto& side : brep.regions[r].sides) stated[side.surface.value][side.front ? 1 : 0] = r;
+    }
+    const auto outside = static_cast<std::uint32_t>(brep.regions.size());
+    for (const auto& side : brep.universe) {
+        auto& slot = stated[side.surface.value][side.front ? 1 : 0];
+        if (slot == no_index) slot = outside;
+    }
+    return stated;
+}
+
+std::string region_name(const ModelScope& scope, std::uint32_t found) {
+    if (found == no_index) return "the outside";
+    const auto& sides = scope.model().found.regions[found];
+    const auto& s = scope.brep().surfaces[sides[0].surface.value];
+    const RegionId id = s.regions[sides[0].front ? 1 : 0];
+    return id.valid() ? "region " + quoted(scope.brep().regions[id.value].name) : "a region";
+}
+
+}  // namespace
+
+void check_region_closed(const ModelScope& scope, std::vector<Finding>& findings) {
+    if (!scope.model().regions_stated) return;
+    const BrepData& brep = scope.brep();
+    for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+        const auto& region = brep.regions[r];
+        if (!region.cell_types.empty() || region.volume_known) continue;
+        const auto single = single_sides(region.sides);
+        if (single.empty() && !region.sides.empty()) continue;
+        Finding finding = finding_of("B05", region.sides.empty() ? "region " + quoted(region.name) + " has no boundary"
+                                                                 : "the boundary of region " + quoted(region.name) + " does not close");
+        finding.entities.push_back(region_ref(scope, r));
+        std::map<std::uint32_t, std::int64_t> net;
+        for (const std::uint32_t side : single) {
+            for (const auto& [line, sum] : scope.model().graph.nets[side / 2]) net[line] += side % 2 == 1 ? -sum : sum;
+        }
+        for (const auto& [line, sum] : net) {
+            if (sum == 0) continue;
+            ++finding.count;
+            if (finding.index.size() < listed_elements) finding.index.push_back(line);
+            mark_line(scope, line, finding);
+        }
+        finding.element_kind = "line";
+        if (finding.count > 0) finding.message += ": it is open along " + counted(finding.count, "line", "lines");
+        findings.push_back(std::move(finding));
+    }
+}
+
+void check_model_closed(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    if (!scope.model().regions_stated || !scope.model().found.regions.empty() || brep.surfaces.empty()) return;
+    if (std::ranges::any_of(brep.regions, [](const auto& region) { return !region.cell_types.empty(); })) return;
+    const auto open = static_cast<std::uint64_t>(std::ranges::count(scope.free_lines(), 1));
+    Finding finding = finding_of("B06", "the " + counted(brep.surfaces.size(), "surface", "surfaces") + " of model " + quoted(brep.name) +
+                                            " close around no volume; " + counted(open, "line is a free border", "lines are free borders"));
+    finding.entities.push_back({"model", brep.name});
+    finding.count = open;
+    finding.element_kind = "line";
+    for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
+        if (scope.free_lines()[l] == 0) continue;
+        if (finding.index.size() < listed_elements) finding.index.push_back(l);
+        mark_line(scope, l, finding);
+    }
+    for (std::uint32_t s = 0; s < brep.surfaces.size() && finding.entities.size() < listed_elements; ++s) {
+        if (has_free_border(scope, brep.surfaces[s])) finding.entities.push_back(surface_ref(scope, s));
+    }
+    findings.push_back(std::move(finding));
+}
+
+void check_free_ends(const ModelScope& scope, std::vector<Finding>& findings) {
+    const auto& found = scope.model().found;
+    judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
+        const auto& surface = scope.brep().surfaces[s];
+        const bool must_not =
+            is_stratigraphic(surface.role) || surface.role == FeatureRole::topography || surface.role == FeatureRole::intrusion;
+        if (!must_not || !has_free_border(scope, surface)) return std::nullopt;
+        const std::uint32_t region = found.region_of_side[2 * s];
+        if (region == no_index || region != found.region_of_side[2 * s + 1]) return std::nullopt;
+        Finding finding = finding_of("B09", quoted(surface.name) + " ends inside " + region_name(scope, region) +
+                                                ", which only faults and fractures may: it is stated as " + to_string(surface.role));
+        finding.entities.push_back(surface_ref(scope, s));
+        finding.element_kind = "line";
+        for (const auto& use : surface.lines) {
+            if (scope.free_lines()[use.line.value] == 0) continue;
+            ++finding.count;
+            finding.index.push_back(use.line.value);
+            mark_line(scope, use.line.value, finding);
+        }
+        return finding;
+    });
+}
+
+void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    const auto& found = scope.model().found;
+    if (found.region_of_side.empty()) return;
+    const Walks walks = walks_of(scope);
+    const auto stated = stated_sides(scope);
+    std::map<std::pair<bool, std::uint32_t>, Finding> by_hole;  // errors and information apart
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        const auto& surface = brep.surfaces[s];
+        if (surface.polygons.size() == 0 || found.region_of_side[2 * s] != found.region_of_side[2 * s + 1]) continue;
+        const std::uint32_t region = found.region_of_side[2 * s];
+        const bool lists_differ = stated[s][0] != stated[s][1] && stated[s][0] != no_index && stated[s][1] != no_index;
+        const bool separates =
+            is_stratigraphic(surface.role) || surface.role == FeatureRole::boundary || surface.role == FeatureRole::topography;
+        const bool loose_outside = region == no_index && !scope.model().regions_stated;  // nothing is said to be closed
+        if (loose_outside && !(separates && !found.regions.empty())) continue;
+        const bool error = lists_differ || (separates && (region != no_index || scope.model().regions_stated));
+        const bool quiet = !error && region == no_index;  // B16 tells
+        if (quiet) continue;
+        const std::uint32_t line = way_round(walks, s);
+        Finding& finding = by_hole[{!error, line}];
+        if (finding.code.empty()) {
+            finding = finding_of("B12", error ? region_name(scope, region) + " leaks: it lies on both sides of " + quoted(surface.name)
+                                              : quoted(surface.name) + " lies inside " + region_name(scope, region) + " on both sides");
+            if (!error) finding.severity = Severity::info;
+            if (line != no_index) {
+                for (std::uint32_t o = 0; error && o < brep.surfaces.size(); ++o) {
+                    const bool owner = std::ranges::any_of(brep.surfaces[o].lines, [&](const auto& use) { return use.line.value == line; });
+                    if (owner) finding.message += "; they meet around the free border of " + quoted(brep.surfaces[o].name);
+                }
+                mark_line(scope, line, finding);
+            }
+            finding.element_kind = "surface";
+        }
+        ++finding.count;
+        if (finding.entities.size() < listed_elements) {
+            finding.entities.push_back(surface_ref(scope, s));
+            finding.index.push_back(s);
+        }
+    }
+    for (auto& [hole, finding] : by_hole) {
+        if (finding.count > 1) finding.message += " (and so with " + counted(finding.count - 1, "other surface", "other surfaces") + ")";
+        findings.push_back(std::move(finding));
+    }
+}
+
+void check_stated_regions(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    const auto& found = scope.model().found;
+    if (!scope.model().regions_stated || found.region_of_side.empty()) return;
+    std::vector<std::vector<std::uint32_t>> found_single;
+    for (const auto& sides : found.regions) found_single.push_back(single_sides(sides));
+    for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+        const auto& region = brep.regions[r];
+        const auto single = single_sides(region.sides);
+        if (single.empty() || (!region.volume_known && region.cell_types.empty())) continue;
+        std::set<std::uint32_t> touched;
+        for (const std::uint32_t side : single) touched.insert(found.region_of_side[side]);
+        if (touched.size() == 1 && *touched.begin() != no_index && found_single[*touched.begin()] == single) continue;
+        std::vector<std::uint32_t> missing, foreign;
+        const bool one = touched.size() == 1 && *touched.begin() != no_index;
+        if (one) std::ranges::set_difference(found_single[*touched.begin()], single, std::back_inserter(missing));
+        if (one) std::ranges::set_difference(single, found_single[*touched.begin()], std::back_inserter(foreign));
+        std::string message =
+            "region " + quoted(region.name) + " is stated with " + counted(single.size(), "side", "sides") + " of surfaces, ";
+        message += one ? "but walking along them gives " + std::to_string(found_single[*touched.begin()].size())
+                       : "but these do not bound one region: they belong to " + std::to_string(touched.size());
+        Finding finding = finding_of("B13", std::move(message));
+        finding.entities.push_back(region_ref(scope, r));
+        std::set<std::uint32_t> named;
+        for (const auto* list : {&missing, &foreign}) {
+            for (const std::uint32_t side : *list) {
+                if (named.insert(side / 2).second && finding.entities.size() < listed_elements)
+                    finding.entities.push_back(surface_ref(scope, side / 2));
+            }
+        }
+        finding.count = std::max<std::uint64_t>(1, missing.size() + foreign.size());
+        finding.element_kind = "side";
+        findings.push_back(std::move(finding));
+    }
+}
+
+void check_region_overlap(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    std::vector<std::uint32_t> owner(2 * brep.surfaces.size(), no_index);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> shared;
+    for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+        for (const auto& side : brep.regions[r].sides) {
+            std::uint32_t& first = owner[side_index(side)];
+            if (first == no_index) first = r;
+            else if (first != r) shared[{first, r}].push_back(side.surface.value);
+        }
+    }
+    for (const auto& [pair, surfaces] : shared) {
+        Finding finding =
+            finding_of("B14", "regions " + quoted(brep.regions[pair.first].name) + " and " + quoted(brep.regions[pair.second].name) +
+                                  " are both stated on the same side of " + quoted(brep.surfaces[surfaces[0]].name));
+        finding.entities = {region_ref(scope, pair.first), region_ref(scope, pair.second)};
+        for (const std::uint32_t s : surfaces) {
+            if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, s));
+        }
+        finding.count = surfaces.size();
+        finding.element_kind = "surface";
+        findings.push_back(std::move(finding));
+    }
+}
+
+void check_thin_regions(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    std::vector<double> area(brep.surfaces.size());
+    parallel_for_each_index(area.size(), [&](std::size_t s) {
+        for (std::uint32_t t = scope.first_triangle(static_cast<std::uint32_t>(s));
+             t < scope.first_triangle(static_cast<std::uint32_t>(s) + 1); ++t) {
+            const auto& [a, b, c] = scope.triangles()[t];
+            const Vec3 n = cross(minus(brep.vertices[b], brep.vertices[a]), minus(brep.vertices[c], brep.vertices[a]));
+            area[s] += 0.5 * std::sqrt(dot(n, n));
+        }
+    });
+    for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+        const auto& region = brep.regions[r];
+        if (!region.volume_known) continue;
+        double around = 0;
+        for (const auto& side : region.sides) around += area[side.surface.value];
+        const double thickness = around > 0 ? 2 * region.volume / around : 0;
+        if (around == 0 || thickness >= scope.lengths().near) continue;
+        Finding finding =
+            finding_of("B15", "region " + quoted(region.name) + " is " + rounded(thickness) + " thick on average (twice its volume " +
+                                  rounded(region.volume) + " over the area around it), less than " + rounded(scope.lengths().near));
+        finding.entities.push_back(region_ref(scope, r));
+        finding.count = 1;
+        finding.measures = {{"thickness", thickness}, {"volume", region.volume}};
+        findings.push_back(std::move(finding));
+    }
+}
+
+void check_outside_surfaces(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    const auto& found = scope.model().found;
+    if (found.regions.empty() || found.region_of_side.empty()) return;
+    Finding finding;
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        if (brep.surfaces[s].polygons.size() == 0) continue;
+        if (found.region_of_side[2 * s] != no_index || found.region_of_side[2 * s + 1] != no_index) continue;
+        if (finding.code.empty()) finding = finding_of("B16", {});
+        ++finding.count;
+        if (finding.entities.size() >= listed_elements) continue;
+        finding.entities.push_back(surface_ref(scope, s));
+        finding.index.push_back(s);
+    }
+    if (finding.count == 0) return;
+    finding.element_kind = "surface";
+    finding.message = counted(finding.count, "surface lies", "surfaces lie") +
+                      " outside of all regions: " + quoted(finding.entities[0].name) + (finding.count > 1 ? ", ..." : "");
+    findings.push_back(std::move(finding));
+}
+
+void check_stated_borders(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    std::map<std::uint32_t, std::vector<std::uint32_t>> surfaces_of;  // per object
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) surfaces_of[brep.surfaces[s].source_object].push_back(s);
+    for (const auto& [object, surfaces] : surfaces_of) {
+        const auto* source = object < scope.dataset().objects.size() ? std::get_if<Surface>(&scope.dataset().objects[object]) : nullptr;
+        if (source == nullptr || source->border_starts.empty()) continue;
+        std::set<std::pair<std::uint32_t, std::uint32_t>> wanted;
+        for (const auto& start : source->border_starts) wanted.insert(std::minmax(start.corner, start.next));
+        for (std::size_t p = 0; p < source->polygons.size() && !wanted.empty(); ++p) {
+            const auto polygon = source->polygons[p];
+            for (std::size_t i = 0; i < polygon.size(); ++i) wanted.erase(std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]));
+        }
+        if (wanted.empty()) continue;
+        Finding finding = finding_of("B19", {});
+        for (const std::uint32_t s : surfaces) {
+            if (finding.entities.size() < listed_elements && surfaces.size() == 1) finding.entities.push_back(surface_ref(scope, s));
+        }
+        if (finding.entities.empty()) finding.entities.push_back({"interface", source->info.name});
+        for (const auto& start : source->border_starts) {
+            if (!wanted.contains(std::minmax(start.corner, start.next))) continue;
+            if (finding.count++ == 0)
+                finding.message = ": the first one runs from point " + std::to_string(source->labels[start.corner]) + " to point " +
+                                  std::to_string(source->labels[start.next]);
+            if (finding.elements.size() >= listed_elements) continue;
+            finding.elements.push_back(start.id);
+            finding.index.push_back(&start - source->border_starts.data());
+            finding.polylines.push_back({source->points[start.corner], source->points[start.next]});
+        }
+        finding.element_kind = "border";
+        finding.message = counted(finding.count, "stated border", "stated borders") + " of " + quoted(source->info.name) +
+                          (finding.count == 1 ? " starts" : " start") + " along no edge of its triangles" + finding.message;
+        findings.push_back(std::move(finding));
+    }
+}
+
+void spread_errors(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    std::vector<std::uint8_t> wrong(brep.surfaces.size(), 0);
+    static constexpr std::array own_errors = {"B01", "B02", "B03", "B04", "B07", "M04", "M05"};  // those that say a surface itself is wrong
+    for (const Finding& f : findings) {
+        if (f.severity != Severity::error || std::ranges::find(own_errors, f.code) == own_errors.end()) continue;
+        for (const EntityRef& e : f.entities) {
+            if (e.kind == "surface" && e.id >= 0 && static_cast<std::size_t>(e.id) < wrong.size())
+                wrong[static_cast<std::size_t>(e.id)] = 1;
+        }
+    }
+    for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+        std::set<std::uint32_t> surfaces;
+        for (const auto& side : brep.regions[r].sides) {
+            if (wrong[side.surface.value] != 0) surfaces.insert(side.surface.value);
+        }
+        if (surfaces.empty()) continue;
+        Finding finding = finding_of(
+            "B18", "region " + quoted(brep.regions[r].name) + " is not valid because " + quoted(brep.surfaces[*surfaces.begin()].name) +
+                       " is not" +
+                       (surfaces.size() > 1 ? ", nor are " + std::to_string(surfaces.size() - 1) + " more of its surfaces" : ""));
+        finding.entities.push_back(region_ref(scope, r));
+        for (const std::uint32_t s : surfaces) {
+            if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, s));
+        }
+        finding.count = surfaces.size();
+        finding.element_kind = "surface";
+        findings.push_back(std::move(finding));
+    }
+}
+
+}  // namespace geomend::validators

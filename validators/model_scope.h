@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "topology/brep_from_dataset.h"
+#include "validators/grid_scope.h"
+
+namespace geomend::validators {
+
+/// The lengths by which the surfaces and cells of a Dataset are judged: D is twice the largest distance of a point that a
+/// triangle or a cell uses from the centroid of all of them. Cost: linear.
+Lengths lengths_of(const Dataset& dataset, const CheckOptions& options);
+
+/// A boundary representation with what all its checks need.
+class ModelScope {
+public:
+    ModelScope(const Dataset& dataset, const topology::JudgedModel& model, const Lengths& lengths, const CheckOptions& options);
+
+    const BrepData& brep() const { return *model_.brep; }
+    const topology::JudgedModel& model() const { return model_; }
+    const Dataset& dataset() const { return dataset_; }
+    const Lengths& lengths() const { return lengths_; }
+    const Monitor* monitor() const { return monitor_; }
+    bool stopped() const { return monitor_ != nullptr && monitor_->stopped(); }
+
+    /// All polygons as triangles over model vertices, surface by surface; polygons are fans of their first corner.
+    std::span<const std::array<std::uint32_t, 3>> triangles() const { return triangles_; }
+    std::uint32_t first_triangle(std::uint32_t surface) const { return first_triangle_[surface]; }
+    std::uint32_t surface_of(std::uint32_t triangle) const;
+    /// The polygon of its surface that a triangle is a part of.
+    std::uint32_t polygon_of(std::uint32_t triangle) const;
+    /// The file's own number of a polygon, from 1 in its object.
+    std::int64_t file_number(std::uint32_t surface, std::uint32_t polygon) const;
+    const Vec3& vertex_of_node(const BrepData::Surface& surface, std::uint32_t node) const {
+        return brep().vertices[surface.nodes[node].value];
+    }
+    /// Where the lines of one surface alone run: its free borders.
+    const std::vector<std::uint8_t>& free_lines() const { return free_line_; }
+
+private:
+    const Dataset& dataset_;
+    const topology::JudgedModel& model_;
+    Lengths lengths_;
+    const Monitor* monitor_;
+    std::vector<std::array<std::uint32_t, 3>> triangles_;
+    std::vector<std::uint32_t> first_triangle_;  // per surface, and the end
+    std::vector<std::uint32_t> polygon_;         // per triangle; empty where all polygons are triangles
+    std::vector<std::uint8_t> free_line_;
+};
+
+/// True for roles whose surfaces may end anywhere.
+inline bool may_end_freely(FeatureRole role) { return role == FeatureRole::fault || role == FeatureRole::fracture; }
+/// Horizons and unconformities.
+inline bool is_stratigraphic(FeatureRole role) { return role == FeatureRole::horizon || role == FeatureRole::unconformity; }
+
+/// A finding of the catalogue's severity about no entity yet.
+Finding finding_of(std::string_view code, std::string message);
+/// About one surface and some of its polygons; they are listed, counted, and the middles of some are marked.
+Finding polygons_finding(const ModelScope& scope, std::string_view code, std::uint32_t surface, std::string message,
+                         std::span<const std::uint32_t> polygons);
+EntityRef surface_ref(const ModelScope& scope, std::uint32_t surface);
+EntityRef line_ref(const ModelScope& scope, std::uint32_t line);
+EntityRef region_ref(const ModelScope& scope, std::uint32_t region);
+/// Adds the course of a line to a finding; at most 100 of them.
+void mark_line(const ModelScope& scope, std::uint32_t line, Finding& finding);
+/// "'H1b'"
+std::string quoted(std::string_view name);
+
+}  // namespace geomend::validators

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "validators/each_surface.h"
+#include "validators/found_cells.h"
+#include "validators/model_checks.h"
+
+namespace geomend::validators {
+
+void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
+    if (!scope.model().stated) return;
+    judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
+        const auto& surface = scope.brep().surfaces[s];
+        std::vector<std::uint32_t> parent(surface.nodes.size());
+        std::iota(parent.begin(), parent.end(), 0u);
+        const auto root = [&](std::uint32_t i) {
+            while (parent[i] != i) i = parent[i] = parent[parent[i]];
+            return i;
+        };
+        std::vector<std::uint8_t> used(surface.nodes.size(), 0);
+        for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) {
+            const auto polygon = surface.polygons[p];
+            for (const std::uint32_t node : polygon) {
+                used[node] = 1;
+                const std::uint32_t a = root(polygon[0]), b = root(node);
+                parent[std::max(a, b)] = std::min(a, b);
+            }
+        }
+        std::map<std::uint32_t, std::uint64_t> polygons_of;
+        for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) ++polygons_of[root(surface.polygons[p][0])];
+        if (polygons_of.size() < 2) return std::nullopt;
+        std::uint64_t largest = 0, all = 0;
+        for (const auto& [piece, count] : polygons_of) {
+            largest = std::max(largest, count);
+            all += count;
+        }
+        Finding finding = finding_of("B04", quoted(surface.name) + " falls into " + std::to_string(polygons_of.size()) +
+                                                " parts that do not hang together; " + std::to_string(all - largest) + " of its " +
+                                                std::to_string(all) + " triangles are not in the largest");
+        finding.entities.push_back(surface_ref(scope, s));
+        finding.count = polygons_of.size();
+        finding.element_kind = "part";
+        for (const auto& [piece, count] : polygons_of) {
+            if (finding.points.size() < listed_elements) finding.points.push_back(scope.vertex_of_node(surface, piece));
+        }
+        return finding;
+    });
+}
+
+void check_seams(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    std::vector<std::uint32_t> uses(brep.lines.size(), 0), owner(brep.lines.size(), no_index);
+    std::vector<std::uint8_t> shared(brep.lines.size(), 0);
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (const auto& use : brep.surfaces[s].lines) {
+            std::uint32_t& first = owner[use.line.value];
+            if (first != no_index && first != s) shared[use.line.value] = 1;
+            first = s;
+            ++uses[use.line.value];
+        }
+    }
+    std::map<std::uint32_t, Finding> of_surface;
+    for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
+        if (shared[l] != 0 || uses[l] < 2) continue;
+        Finding& finding = of_surface[owner[l]];
+        ++finding.count;
+        finding.entities.push_back(line_ref(scope, l));
+        if (finding.index.size() < listed_elements) finding.index.push_back(l);
+        mark_line(scope, l, finding);
+    }
+    for (auto& [s, lines] : of_surface) {
+        Finding finding = finding_of("B07", quoted(brep.surfaces[s].name) + " is open along " + counted(lines.count, "seam", "seams") +
+                                                " where no other surface meets it: points at one position are not joined there");
+        if (!scope.model().stated) finding.severity = Severity::warning;
+        finding.count = lines.count;
+        finding.element_kind = "line";
+        finding.index = std::move(lines.index);
+        finding.polylines = std::move(lines.polylines);
+        finding.entities.push_back(surface_ref(scope, s));
+        lines.entities.resize(std::min(lines.entities.size(), listed_elements));
+        finding.entities.insert(finding.entities.end(), lines.entities.begin(), lines.entities.end());
+        findings.push_back(std::move(finding));
+    }
+}
+
+void check_radial_order(const ModelScope& scope, std::vector<Finding>& findings) {
+    const auto& lines = scope.model().found.uncertain_lines;
+    if (lines.empty()) return;
+    Finding finding = finding_of("B17", "around " + counted(lines.size(), "line", "lines") +
+                                            " polygons coincide, so that their order is not known and regions were not followed across");
+    finding.count = lines.size();
+    finding.element_kind = "line";
+    for (const LineId l : lines) {
+        if (finding.entities.size() >= listed_elements) break;
+        finding.entities.push_back(line_ref(scope, l.value));
+        finding.index.push_back(l.value);
+        mark_line(scope, l.value, finding);
+    }
+    findings.push_back(std::move(finding));
+}
+
+void check_holes(const ModelScope& scope, std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
+        // A loop of free lines beside other borders is a hole; the only loop of a free surface is its outline.
+        const auto& surface = brep.surfaces[s];
+        std::vector<std::uint32_t> corners;
+        for (const auto& use : surface.lines) {
+            for (const CornerId c : brep.lines[use.line.value].corners) corners.push_back(c.value);
+        }
+        std::ranges::sort(corners);
+        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+        std::vector<std::uint32_t> parent(corners.size());
+        std::iota(parent.begin(), parent.end(), 0u);
+        const auto at = [&](CornerId c) {
+            return static_cast<std::uint32_t>(std::ranges::lower_bound(corners, c.value) - corners.begin());
+        };
+        const auto root = [&](std::uint32_t i) {
+            while (parent[i] != i) i = parent[i] = parent[parent[i]];
+            return i;
+        };
+        for (const auto& use : surface.lines) {
+            const std::uint32_t a = root(at(brep.lines[use.line.value].corners[0])), b = root(at(brep.lines[use.line.value].corners[1]));
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+        struct Loop {
+            bool free = true;
+            double length = 0;
+            std::vector<std::uint32_t> lines;
+        };
+        std::map<std::uint32_t, Loop> loops;
+        for (const auto& use : surface.lines) {
+            Loop& loop = loops[root(at(brep.lines[use.line.value].corners[0]))];
+            loop.free = loop.free && scope.free_lines()[use.line.value] != 0;
+            loop.lines.push_back(use.line.value);
+            loop.length += static_cast<double>(brep.lines[use.line.value].vertices.size());
+        }
+        std::vector<const Loop*> free;
+        for (const auto& [first, loop] : loops) {
+            if (loop.free) free.push_back(&loop);
+        }
+        if (free.size() == loops.size() && !free.empty())  // the longest one is the outline
+            free.erase(std::ranges::max_element(free, {}, [](const Loop* loop) { return loop->length; }));
+        if (free.empty()) return std::nullopt;
+        Finding finding = finding_of("M07", quoted(surface.name) + " has " + counted(free.size(), "hole", "holes"));
+        finding.entities.push_back(surface_ref(scope, s));
+        finding.count = free.size();
+        finding.element_kind = "hole";
+        for (const Loop* loop : free) {
+            for (const std::uint32_t l : loop->lines) mark_line(scope, l, finding);
+        }
+        return finding;
+    });
+}
+
+}  // namespace geomend::validators
