@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/validate_many.h"
+#include "validators/readiness.h"
 
 namespace geomend::cli {
 
@@ -17,6 +18,7 @@ namespace {
 
 struct ValidateOptions : CommonOptions, CheckArguments, WorkerArguments {
     std::vector<std::string> files;
+    std::string target;
 };
 
 // Every file is judged, whatever became of the others; only a stop or a wrong command line ends it.
@@ -71,6 +73,7 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     const Monitor monitor = make_monitor(o);
     auto checks = check_options(o, o, &monitor);
     if (!checks) return report(checks.why());
+    checks->target = o.target;
     const LoadOptions load{o.from, std::move(*options), &monitor};
     ExitStatus status = ExitStatus::done;
     const FoundFiles files = o.is_worker ? FoundFiles() : find_files(o.files);
@@ -93,6 +96,11 @@ void add_validate(CLI::App& program, ExitStatus& status) {
     auto o = std::make_shared<ValidateOptions>();
     command->add_option("FILE", o->files, "Files, folders and patterns to check; - is standard input")->required();
     add_check_arguments(*command, *o);
+    std::vector<std::string> targets;
+    for (const validators::Target& target : validators::all_targets()) targets.emplace_back(target.name);
+    command->add_option("--for", o->target, "Also what this simulator or mesher needs, and what it would choke on")
+        ->type_name("TARGET")
+        ->check(CLI::IsMember(targets));
     add_worker_arguments(*command, *o);
     add_common_options(*command, *o, false);
     command->callback([o, command, &status] { status = run(*command, *o); });

@@ -29,16 +29,16 @@ Result<void> take_number(const FormatOptions& options, const char* key, double l
                        number_text(most));
 }
 
-std::string cell(const std::optional<double>& value, const char* form) {
+std::string cell(const std::optional<double>& value, int decimals) {
     if (!value) return "         -";
     char text[32];
-    std::snprintf(text, sizeof text, form, *value);
+    std::snprintf(text, sizeof text, "%10.*f", decimals, *value);
     return text;
 }
 
-std::string row(const char* name, const ByKind& by_kind, const char* form) {
-    return std::string("      ") + name + cell(by_kind.regions, form) + cell(by_kind.surfaces, form) + cell(by_kind.lines, form) +
-           cell(by_kind.corners, form) + cell(by_kind.total(), form) + '\n';
+std::string row(const char* name, const ByKind& by_kind, int decimals) {
+    return std::string("      ") + name + cell(by_kind.regions, decimals) + cell(by_kind.surfaces, decimals) +
+           cell(by_kind.lines, decimals) + cell(by_kind.corners, decimals) + cell(by_kind.total(), decimals) + '\n';
 }
 
 ByKind totals(const Complexity& c) {
@@ -84,9 +84,9 @@ std::string complexity_text(const Complexity& c) {
     std::string text = "    complexity for lengths of " + number_text(c.size) + " and angles of " + number_text(c.angle) +
                        " degrees, without the box around the model\n";
     text += "                            regions  surfaces     lines   corners     total\n";
-    text += row("M1 elements         ", c.m1, "%10.0f");
-    text += row("M2 hard to mesh     ", totals(c), "%10.2f");
-    text += row("M3 variation of size", c.m3, "%10.2f");
+    text += row("M1 elements         ", c.m1, 0);
+    text += row("M2 hard to mesh     ", totals(c), 2);
+    text += row("M3 variation of size", c.m3, 2);
     if (c.cells) {
         const auto& k = *c.cells;
         char line[256];

@@ -5,6 +5,8 @@
 #include <map>
 #include <new>
 
+#include "validators/readiness.h"
+
 namespace geomend {
 
 namespace {
@@ -62,6 +64,12 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         take(*checked);
     }
     tell_unchecked(dataset, file.findings);
+    if (const validators::Target* target = validators::find_target(options.target)) {
+        auto ready = validators::readiness(dataset, *target, file.tolerance, file.findings);
+        if (!ready) return std::move(ready).why();
+        std::ranges::copy_if(*ready, std::back_inserter(file.findings),
+                             [&](const Finding& f) { return validators::wanted(options, f.code); });
+    }
     if (has_errors(file.findings)) file.valid = false;
     else if (all_judged) file.valid = true;
     return file;
