@@ -3,10 +3,14 @@
 
 #include <algorithm>
 
+#include "pipeline/scene.h"
+
 namespace geomend::cli {
 
 void add_check_arguments(CLI::App& command, CheckArguments& a) {
-    command.add_option("--report", a.report, "Write a report: .json, .sarif, .xml (JUnit) or .txt")->type_name("FILE");
+    command.add_option("--report", a.report, "Write a report: .json, .html (a page with the model), .sarif, .xml (JUnit) or .txt")
+        ->type_name("FILE");
+    command.add_option("--debris", a.debris, "Write what each finding marks into a folder, as .vtp and .ts")->type_name("DIR");
     command.add_option("--fail-on", a.fail_on, "Findings from which the exit status is 1 (default error)")
         ->type_name("error|warning|info|never")
         ->check(CLI::IsMember({"error", "warning", "info", "never"}));
@@ -35,6 +39,28 @@ bool fails(const CheckArguments& a, std::span<const Finding> findings) {
     if (a.fail_on == "never") return false;
     const Severity least = a.fail_on == "info" ? Severity::info : a.fail_on == "warning" ? Severity::warning : Severity::error;
     return std::ranges::any_of(findings, [&](const Finding& f) { return f.severity >= least; });
+}
+
+Inspect inspection(const CheckArguments& a, DebrisFolder& debris) {
+    const bool page = draws_page(a), write = !a.debris.empty();
+    if (!page && !write) return {};
+    return [page, write, &debris](const Dataset& dataset, ReportedFile& file) -> Result<void> {
+        file.scene = make_scene(dataset);
+        mark_findings(*file.scene, dataset, file.findings);
+        if (write) {
+            if (auto written = debris.write(file); !written) return written;
+        }
+        if (page) thin(*file.scene, page_triangles);
+        else file.scene.reset();
+        return {};
+    };
+}
+
+Result<void> check_targets(const CheckArguments& a, const DebrisFolder& debris) {
+    if (!a.report.empty()) {
+        if (auto form = report_form(a.report); !form) return form;
+    }
+    return a.debris.empty() ? Result<void>() : debris.open();
 }
 
 Report empty_report(const CheckArguments& a) {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "cli/common_options.h"
+#include "pipeline/debris.h"
+#include "pipeline/validate.h"
 #include "report/report.h"
 #include "validators/grid_scope.h"
 
@@ -13,7 +15,7 @@ namespace geomend::cli {
 
 /// What the commands that check (validate, repair) take beside the common options.
 struct CheckArguments {
-    std::string report, fail_on = "error";
+    std::string report, debris, fail_on = "error";
     std::vector<std::string> checks, skip;
     std::size_t max_findings = static_cast<std::size_t>(-1);
 };
@@ -25,6 +27,16 @@ Result<validators::CheckOptions> check_options(const CommonOptions& common, cons
 
 /// True where a finding is at or above the severity of --fail-on.
 bool fails(const CheckArguments& arguments, std::span<const Finding> findings);
+
+/// Whether the report is a page, which draws the model.
+inline bool draws_page(const CheckArguments& arguments) { return arguments.report.ends_with(".html"); }
+
+/// What is done with the findings of a file before its dataset is gone: with --report FILE.html the model is drawn, with
+/// --debris what they mark is written. Empty where there is nothing to do. `debris` must outlive it.
+Inspect inspection(const CheckArguments& arguments, DebrisFolder& debris);
+
+/// Failure where --report or --debris could not be followed at the end: told before the work.
+Result<void> check_targets(const CheckArguments& arguments, const DebrisFolder& debris);
 
 /// A report without files yet.
 Report empty_report(const CheckArguments& arguments);

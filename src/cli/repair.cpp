@@ -66,13 +66,13 @@ void tell_losses(const std::vector<Loss>& losses, bool verbose) {
 ExitStatus run(const RepairOptions& o) {
     if (o.json && o.output == "-")
         return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
-    if (!o.report.empty()) {
-        if (auto form = report_form(o.report); !form) return report(form.why());
-    }
+    DebrisFolder debris(o.debris, o.max_findings);
+    if (auto targets = check_targets(o, debris); !targets) return report(targets.why());
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
-    const auto request = request_of(o, monitor);
+    auto request = request_of(o, monitor);
     if (!request) return report(request.why());
+    request->inspect = inspection(o, debris);
     auto repaired = repair_file(*request);
     if (!repaired) return report(repaired.why());
     const bool valid = count_by_severity(repaired->file.findings).error == 0;

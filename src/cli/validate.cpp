@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -10,6 +11,8 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/validate_many.h"
+#include "pipeline/scene.h"
+#include "report/baseline.h"
 #include "validators/readiness.h"
 
 namespace geomend::cli {
@@ -18,68 +21,119 @@ namespace {
 
 struct ValidateOptions : CommonOptions, CheckArguments, WorkerArguments {
     std::vector<std::string> files;
-    std::string target;
+    std::string baseline, target;
 };
 
-// Every file is judged, whatever became of the others; only a stop or a wrong command line ends it.
-Result<Report> judge(const ValidateOptions& o, const LoadOptions& load, const validators::CheckOptions& checks, ExitStatus& status) {
+// What an earlier report says of each file; nullptr for files that it does not have.
+using Earlier = std::vector<const Baseline::File*>;
+
+// Says on standard error what a baseline cannot tell.
+void tell_gaps(const ValidateOptions& o, const std::vector<std::string>& files, const Earlier& earlier) {
+    if (o.quiet || o.baseline.empty()) return;
+    for (std::size_t f = 0; f < files.size(); ++f) {
+        const char *baseline = o.baseline.c_str(), *file = files[f].c_str();
+        if (earlier[f] == nullptr) std::fprintf(stderr, "geomend: %s has nothing about %s: all its findings are new\n", baseline, file);
+        else if (earlier[f]->not_listed > 0)
+            std::fprintf(stderr, "geomend: %s does not list %llu findings of %s (--max-findings): they count as new\n", baseline,
+                         static_cast<unsigned long long>(earlier[f]->not_listed), earlier[f]->file.c_str());
+    }
+}
+
+// One file, in this process. Only a stop, a wrong command line or debris that cannot be written is a failure.
+Result<Report> judge_here(const ValidateOptions& o, const LoadOptions& load, const validators::CheckOptions& checks,
+                          const Baseline& baseline, DebrisFolder& debris, ExitStatus& status) {
     Report all = empty_report(o);
-    for (const std::string& path : o.files) {
-        auto file = validate(path, load, checks);
-        if (!file) {
-            const FailureKind kind = file.why().kind;
-            if (kind == FailureKind::cancelled || kind == FailureKind::usage) return std::move(file).why();
-            status = worse(status, o.is_worker ? exit_status(kind) : report(file.why()));
-            all.files.push_back(unreadable_file(path, file.why()));
-            continue;
-        }
-        if (fails(o, file->findings)) status = worse(status, ExitStatus::findings);
-        all.files.push_back(std::move(*file));
+    const std::string& path = o.files.front();
+    const Earlier earlier = baseline_files(baseline, {path});
+    tell_gaps(o, {path}, earlier);
+    const Inspect show = inspection(o, debris);
+    auto file = validate(path, load, checks, [&](const Dataset& dataset, ReportedFile& found) -> Result<void> {
+        if (earlier[0] != nullptr) leave_out_known(found, *earlier[0]);
+        return show ? show(dataset, found) : Result<void>();
+    });
+    if (!file) {
+        const FailureKind kind = file.why().kind;
+        if (kind == FailureKind::cancelled || kind == FailureKind::usage || kind == FailureKind::unwritable) return std::move(file).why();
+        status = worse(status, report(file.why()));
+        all.files.push_back(unreadable_file(path, file.why()));
+        return all;
     }
+    if (fails(o, file->findings)) status = worse(status, ExitStatus::findings);
+    all.files.push_back(std::move(*file));
     return all;
 }
 
-// Files that workers judged.
-Result<Report> judge_many(const CLI::App& command, const ValidateOptions& o, const FoundFiles& files, const Monitor& monitor,
-                          ExitStatus& status) {
-    auto all = judge_in_workers(command, files, o, o.threads, &monitor, status);
+// Many files, each in a worker. What an earlier report knows and debris are dealt with here, one file after the other.
+Result<Report> judge_many(const CLI::App& command, const ValidateOptions& o, const FoundFiles& found, const Monitor& monitor,
+                          const Baseline& baseline, DebrisFolder& debris, ExitStatus& status) {
+    auto all = judge_in_workers(command, found, o, o.threads, &monitor, status);
     if (!all) return all;
-    const Report with_head = empty_report(o);
-    all->tool = with_head.tool;
-    all->most_findings = with_head.most_findings;
-    for (const ReportedFile& file : all->files) {
-        if (file.outcome == FileOutcome::judged && fails(o, file.findings)) status = worse(status, ExitStatus::findings);
+    Report head = empty_report(o);
+    all->tool = std::move(head.tool);
+    all->most_findings = head.most_findings;
+    std::vector<std::string> names;
+    for (const ReportedFile& file : all->files) names.push_back(file.file);
+    const Earlier earlier = baseline_files(baseline, names);
+    tell_gaps(o, names, earlier);
+    for (std::size_t f = 0; f < names.size(); ++f) {
+        ReportedFile& file = all->files[f];
+        if (file.outcome != FileOutcome::judged) continue;
+        if (earlier[f] != nullptr) leave_out_known(file, *earlier[f]);
+        if (!o.debris.empty() && file.scene) {
+            if (auto written = debris.write(file); !written) return std::move(written).why();
+        }
+        if (!draws_page(o)) file.scene.reset();
+        if (fails(o, file.findings)) status = worse(status, ExitStatus::findings);
     }
     return all;
 }
 
-// The whole of what a worker says goes to standard output, also where it is not done.
-ExitStatus work(const ValidateOptions& o, const Result<Report>& all, ExitStatus status) {
+// In a worker: one file, all that was found, and what pages and debris need of its model, on standard output.
+ExitStatus work(const ValidateOptions& o, const LoadOptions& load, const validators::CheckOptions& checks) {
+    const bool draw = draws_page(o) || !o.debris.empty();
     Report said = empty_report(o);
-    if (all) said = *all;
-    else said.files.push_back(unreadable_file(o.files.front(), all.why()));
     said.most_findings = static_cast<std::size_t>(-1);
-    return worse(all ? status : exit_status(all.why().kind), print(report_json(said)));
+    const std::string& path = o.files.front();
+    auto file = validate(path, load, checks, [&](const Dataset& dataset, ReportedFile& found) -> Result<void> {
+        if (!draw) return {};
+        // As they will stand in the report: marks come in the order of their findings.
+        std::ranges::stable_sort(found.findings, [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+        found.scene = make_scene(dataset);
+        mark_findings(*found.scene, dataset, found.findings);
+        if (draws_page(o)) thin(*found.scene, page_triangles);
+        else found.scene->parts.clear();
+        return {};
+    });
+    const ExitStatus status = file ? ExitStatus::done : exit_status(file.why().kind);
+    said.files.push_back(file ? std::move(*file) : unreadable_file(path, file.why()));
+    return worse(status, print(worker_report(said)));
 }
 
 ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     settle_worker(o, o.threads);
     auto options = format_options(o.options);
     if (!options) return report(options.why());
-    if (!o.report.empty()) {
-        if (auto form = report_form(o.report); !form) return report(form.why());
-    }
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     auto checks = check_options(o, o, &monitor);
     if (!checks) return report(checks.why());
     checks->target = o.target;
     const LoadOptions load{o.from, std::move(*options), &monitor};
+    if (o.is_worker) return work(o, load, *checks);
+
+    DebrisFolder debris(o.debris, o.max_findings);
+    if (auto targets = check_targets(o, debris); !targets) return report(targets.why());
+    Baseline baseline;
+    if (!o.baseline.empty()) {
+        auto read = read_baseline(o.baseline);
+        if (!read) return report(read.why());
+        baseline = std::move(*read);
+    }
     ExitStatus status = ExitStatus::done;
-    const FoundFiles files = o.is_worker ? FoundFiles() : find_files(o.files);
+    const FoundFiles files = find_files(o.files);
+    const bool many = o.files.size() > 1 || need_workers(files, o);
     const auto all =
-        o.files.size() > 1 || need_workers(files, o) ? judge_many(command, o, files, monitor, status) : judge(o, load, *checks, status);
-    if (o.is_worker) return work(o, all, status);
+        many ? judge_many(command, o, files, monitor, baseline, debris, status) : judge_here(o, load, *checks, baseline, debris, status);
     if (!all) return report(all.why());
     if (!o.report.empty()) {
         if (auto written = write_report(*all, o.report); !written) status = worse(status, report(written.why()));
@@ -95,6 +149,7 @@ void add_validate(CLI::App& program, ExitStatus& status) {
     auto* command = program.add_subcommand("validate", "Check models; nothing is written but the report");
     auto o = std::make_shared<ValidateOptions>();
     command->add_option("FILE", o->files, "Files, folders and patterns to check; - is standard input")->required();
+    command->add_option("--baseline", o->baseline, "Leave out what this JSON report of an earlier run has")->type_name("OLD.json");
     add_check_arguments(*command, *o);
     std::vector<std::string> targets;
     for (const validators::Target& target : validators::all_targets()) targets.emplace_back(target.name);

@@ -34,6 +34,9 @@ Result<void> mend(Dataset& dataset, const RepairRequest& request, RepairReport& 
     if (!after) return std::move(after).why();
     report.file = std::move(*after);
     for (auto& [step, what] : *done) report.file.steps.push_back({std::move(step), std::move(what)});
+    if (request.inspect) {
+        if (auto inspected = request.inspect(dataset, report.file); !inspected) return inspected;
+    }
     const bool errors = count_by_severity(report.file.findings).error > 0;
     if (errors && !request.keep_invalid)
         return failure(FailureKind::cannot_hold, "F021", {request.files.output}, "the result is not valid: nothing was written");

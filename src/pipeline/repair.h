@@ -17,6 +17,7 @@ struct RepairRequest {
     std::optional<double> gap;       ///< for close-gaps
     bool keep_invalid = false;       ///< write a result that still has errors
     validators::CheckOptions checks;
+    Inspect inspect;  ///< sees the result with its findings and steps, whether it is written or not
 };
 
 /// What came of a repair.

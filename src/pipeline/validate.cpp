@@ -75,7 +75,8 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
     return file;
 }
 
-Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_options, const validators::CheckOptions& options) {
+Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_options, const validators::CheckOptions& options,
+                              const Inspect& inspect) {
     if (auto known = validators::known_codes(options); !known) return std::move(known).why();
     std::vector<std::string> companions;
     auto dataset = load(path, load_options, &companions);
@@ -83,6 +84,9 @@ Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_o
     try {
         auto file = validate(path, *dataset, options);
         if (file) file->companions = std::move(companions);
+        if (!file || !inspect) return file;
+        auto inspected = inspect(*dataset, *file);
+        if (!inspected) return std::move(inspected).why();
         return file;
     } catch (const std::bad_alloc&) {
         return failure(FailureKind::limit, "F023", {path}, "there is not enough memory for the checks");

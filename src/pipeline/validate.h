@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include "base/result.h"
 #include "model/dataset.h"
 #include "pipeline/load.h"
@@ -14,8 +16,13 @@ namespace geomend {
 /// Failure: a code of the options is of no check (usage), or stopped (cancelled).
 Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options);
 
+/// Looks at a dataset and at what was found in it before the dataset is gone: to draw it, to write debris. May change the
+/// report; its failure ends the work.
+using Inspect = std::function<Result<void>(const Dataset&, ReportedFile&)>;
+
 /// Reads a file and validates it. Failure as of load().
-Result<ReportedFile> validate(const std::string& path, const LoadOptions& load, const validators::CheckOptions& options);
+Result<ReportedFile> validate(const std::string& path, const LoadOptions& load, const validators::CheckOptions& options,
+                              const Inspect& inspect = {});
 
 /// A file that could not be read, for a report: not valid, with what stopped the reader as its findings.
 ReportedFile unreadable_file(const std::string& path, const Failure& why);

@@ -14,6 +14,7 @@
 #include "base/worker.h"
 #include "pipeline/validate.h"
 #include "report/report_reading.h"
+#include "report/scene_text.h"
 
 namespace geomend {
 
@@ -60,7 +61,8 @@ std::optional<FileOutcome> outcome_of_status(int status) {
 
 // What the worker says, where it can be believed: one file, the one that was asked for, with the outcome of its status.
 std::optional<ReportedFile> result_of(const std::string& path, const WorkerEnd& end) {
-    auto report = read_report(end.output, path);
+    const std::size_t split = end.output.find('\0');
+    auto report = read_report(std::string_view(end.output).substr(0, split), path);
     if (!report || report->files.size() != 1) return std::nullopt;
     ReportedFile& file = report->files.front();
     const auto outcome = outcome_of_status(end.number);
@@ -68,6 +70,9 @@ std::optional<ReportedFile> result_of(const std::string& path, const WorkerEnd& 
     const bool errors = count_by_severity(file.findings).error > 0;
     if (file.outcome != FileOutcome::judged && !errors) return std::nullopt;
     if (file.valid && *file.valid == errors) return std::nullopt;
+    if (split == std::string::npos) return std::move(file);
+    file.scene = scene_from_text(std::string_view(end.output).substr(split + 1));
+    if (!file.scene || file.scene->marks.size() != file.findings.size()) return std::nullopt;
     return std::move(file);
 }
 
@@ -208,6 +213,14 @@ std::vector<std::size_t> read_with(const std::vector<FoundFile>& files, const st
 }
 
 }  // namespace
+
+std::string worker_report(const Report& report) {
+    std::string text = report_json(report);
+    for (const ReportedFile& file : report.files) {
+        if (file.scene) text += '\0' + scene_text(*file.scene);
+    }
+    return text;
+}
 
 Result<Report> validate_many(const FoundFiles& files, const ManyOptions& options) {
     auto judged = Run(files, options).run();

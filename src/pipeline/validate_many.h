@@ -13,12 +13,15 @@ namespace geomend {
 /// How many files are validated, each in a process of its own.
 struct ManyOptions {
     /// Starts the worker: program and arguments. "--threads", a number, "--" and the file are put behind. It validates
-    /// that file, writes report_json() of it to standard output, and exits with the status that its outcome has.
+    /// that file, writes worker_report() to standard output, and exits with the status that its outcome has.
     std::vector<std::string> worker;
     std::size_t threads = 0;  ///< for all workers together; 0: the number of processors
     double seconds = 0;       ///< of time for each file; 0: no limit
     const Monitor* monitor = nullptr;
 };
+
+/// What a worker says: report_json() of its one file, and behind a NUL its scene where there is one.
+std::string worker_report(const Report& report);
 
 /// Validates files in worker processes, as many at a time as there are threads. A worker that crashes, hangs or gives no
 /// report that makes sense is a finding of its file (F025, F023); the others go on. Files come back in the order given,

@@ -44,13 +44,13 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     j["tolerance"] = file.tolerance;
     j["near"] = file.near;
     Json findings = Json::array();
-    const auto sorted = worst_first(file.findings);
-    for (const Finding* f : std::span(sorted).first(std::min(most, sorted.size()))) {
+    const auto listed = worst_first(file.findings, most);
+    for (const Finding* f : listed) {
         findings.push_back(finding_json(*f));
         const auto number = static_cast<std::size_t>(f - file.findings.data());
         if (number < file.debris.size() && !file.debris[number].empty()) findings.back()["debris"] = file.debris[number];
     }
-    if (sorted.size() > most) j["not_listed"] = sorted.size() - most;
+    if (file.findings.size() > listed.size()) j["not_listed"] = file.findings.size() - listed.size();
     j["findings"] = std::move(findings);
     if (file.steps.empty()) return j;
     Json steps = Json::array();
@@ -82,6 +82,12 @@ std::vector<const Finding*> worst_first(std::span<const Finding> findings) {
     std::vector<const Finding*> all;
     for (const Finding& f : findings) all.push_back(&f);
     std::ranges::stable_sort(all, [](const Finding* a, const Finding* b) { return a->severity > b->severity; });
+    return all;
+}
+
+std::vector<const Finding*> worst_first(std::span<const Finding> findings, std::size_t most) {
+    auto all = worst_first(findings);
+    if (all.size() > most) all.resize(most);
     return all;
 }
 

@@ -89,12 +89,16 @@ Json sarif_result(const ReportedFile& file, const Finding& f) {
 std::string report_junit(const Report& report) {
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"" + escaped(report.tool) + "\">\n";
     for (const ReportedFile& file : report.files) {
-        const SeverityCounts n = count_by_severity(file.findings);
-        const std::size_t cases = std::max<std::size_t>(1, file.findings.size());
+        const auto listed = worst_first(file.findings, report.most_findings);
+        const auto failures = std::ranges::count(listed, Severity::error, &Finding::severity);
+        const std::size_t cases = std::max<std::size_t>(1, listed.size());
         text += " <testsuite name=\"" + escaped(file.file) + "\" tests=\"" + std::to_string(cases) + "\" failures=\"" +
-                std::to_string(n.error) + "\">\n";
-        if (file.findings.empty()) text += "  <testcase classname=\"" + escaped(file.file) + "\" name=\"all checks\"/>\n";
-        for (const Finding* f : worst_first(file.findings)) {
+                std::to_string(failures) + "\">\n";
+        if (listed.size() < file.findings.size())
+            text += "  <properties><property name=\"not_listed\" value=\"" + std::to_string(file.findings.size() - listed.size()) +
+                    "\"/></properties>\n";
+        if (listed.empty()) text += "  <testcase classname=\"" + escaped(file.file) + "\" name=\"all checks\"/>\n";
+        for (const Finding* f : listed) {
             text += "  <testcase classname=\"" + escaped(file.file) + "\" name=\"" + f->code + ' ' + escaped(entity_of(*f)) + "\">";
             const bool error = f->severity == Severity::error;
             text += error ? "<failure type=\"" + f->code + "\" message=\"" + escaped(f->message) + "\">" : "<system-out>";
@@ -113,10 +117,14 @@ std::string report_sarif(const Report& report) {
     if (blank != std::string::npos) driver["version"] = report.tool.substr(blank + 1);
     driver["rules"] = sarif_rules(report);
     Json results = Json::array();
+    std::size_t not_listed = 0;
     for (const ReportedFile& file : report.files) {
-        for (const Finding* f : worst_first(file.findings)) results.push_back(sarif_result(file, *f));
+        const auto listed = worst_first(file.findings, report.most_findings);
+        for (const Finding* f : listed) results.push_back(sarif_result(file, *f));
+        not_listed += file.findings.size() - listed.size();
     }
     Json run{{"tool", {{"driver", std::move(driver)}}}, {"results", std::move(results)}};
+    if (not_listed > 0) run["properties"] = {{"not_listed", not_listed}};
     return json_text(
         Json{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({std::move(run)})}});
 }

@@ -19,7 +19,6 @@ namespace geomend {
 
 namespace {
 
-constexpr std::size_t most_triangles = 250000;
 constexpr std::size_t most_marked_points = 1500000;  // in one file: some 24 MB of page
 
 // Positions relative to the origin, as single-precision words.
@@ -111,7 +110,8 @@ Json scene_json(const Scene& whole) {
     Scene scene;
     scene.parts = whole.parts;
     scene.origin = whole.origin;
-    thin(scene, most_triangles);
+    scene.simplified = whole.simplified;
+    thin(scene, page_triangles);
     std::size_t drawn = 0;
     Json parts = Json::array();
     for (const ScenePart& part : scene.parts) {
@@ -127,8 +127,7 @@ Json scene_json(const Scene& whole) {
 
 Json file_with_scene(const ReportedFile& file, std::size_t most) {
     Json j = file_json(file, most);
-    const auto sorted = worst_first(file.findings);
-    const auto listed = std::span(sorted).first(std::min(most, sorted.size()));
+    const auto listed = worst_first(file.findings, most);
     for (Json& finding : j["findings"]) {  // they are in the marks
         finding.erase("points");
         finding.erase("polylines");

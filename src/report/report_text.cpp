@@ -38,6 +38,10 @@ public:
                  "; " + counted(n.error, "error", "errors") + ", " + counted(n.warning, "warning", "warnings") + ", " +
                  counted(n.info, "note", "notes");
         if (file.tolerance > 0) text_ += "; tolerance " + rounded(file.tolerance) + ", near " + rounded(file.near);
+        if (file.known) {
+            const std::uint64_t known = file.known->error + file.known->warning + file.known->info;
+            text_ += "; " + counted(known, "finding", "findings") + " of the baseline left out";
+        }
         text_ += '\n';
         for (const ReportedStep& s : file.steps) step(s);
         by_entity(file, most);

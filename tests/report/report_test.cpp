@@ -63,6 +63,15 @@ TEST(Report, ListsNoMoreFindingsThanAskedButCountsAll) {
     EXPECT_EQ(file["not_listed"], 2);
     EXPECT_EQ(file["counts"]["warning"], 1);
     EXPECT_NE(report_text(report, false).find("2 more findings"), std::string::npos);
+    const auto run = nlohmann::json::parse(report_sarif(report))["runs"][0];
+    ASSERT_EQ(run["results"].size(), 1u);
+    EXPECT_EQ(run["results"][0]["ruleId"], "C04");
+    EXPECT_EQ(run["properties"]["not_listed"], 2);
+    const std::string xml = report_junit(report);
+    EXPECT_NE(xml.find("tests=\"1\" failures=\"1\""), std::string::npos) << xml;
+    EXPECT_NE(xml.find("name=\"not_listed\" value=\"2\""), std::string::npos) << xml;
+    report.most_findings = 0;
+    EXPECT_NE(report_junit(report).find("failures=\"0\""), std::string::npos);
 }
 
 TEST(Report, TextGroupsByEntityWithTheWorstFirst) {

@@ -54,6 +54,7 @@ class Marks {
     c.clearRect(0, 0, this.width, this.height);
     c.lineJoin = c.lineCap = 'round';
     const many = this.primitives > manyPrimitives;
+    this.faint = this.selected ? 0.4 : 1;
     for (const one of this.shown) {
       if (one.row !== this.selected) this.drawOne(one, matrix, false, many);
     }
@@ -64,19 +65,20 @@ class Marks {
 
   drawOne(one, matrix, selected, onlyAnchor) {
     const c = this.context, colour = severityColours[one.severity];
-    if (onlyAnchor) return this.discs([one.anchor], matrix, colour, 3);
+    const faint = selected ? 1 : this.faint;
+    if (onlyAnchor) return this.discs([one.anchor], matrix, colour, 3, faint);
     c.strokeStyle = c.fillStyle = colour;
-    const small = this.fillTriangles(one.mark.triangles, matrix, selected ? 0.55 : 0.3);
-    c.globalAlpha = selected ? 1 : 0.8;
+    const small = this.fillTriangles(one.mark.triangles, matrix, selected ? 0.55 : 0.3 * faint);
     if (selected) {
+      c.globalAlpha = 0.5;
       this.strokeLines(one.mark.outlines, matrix, selectedColour, 3);
       this.strokeLines(one.mark.lines, matrix, selectedColour, 6);
     }
+    c.globalAlpha = selected ? 1 : 0.8 * faint;
     this.strokeLines(one.mark.outlines, matrix, colour, selected ? 1.5 : 1);
     this.strokeLines(one.mark.lines, matrix, colour, selected ? 3.5 : 2.5);
-    c.globalAlpha = 1;
-    this.discs(small, null, colour, selected ? 4 : 2.5);
-    this.discs([one.mark.points], matrix, colour, selected ? 6 : 4);
+    this.discs(small, null, colour, selected ? 4 : 2.5, faint);
+    this.discs([one.mark.points], matrix, colour, selected ? 6 : 4, faint);
     if (selected) this.label(one, matrix);
   }
 
@@ -120,8 +122,9 @@ class Marks {
   }
 
   // Discs at arrays of xyz, or of pixels where no matrix is given.
-  discs(arrays, matrix, colour, radius) {
+  discs(arrays, matrix, colour, radius, alpha) {
     const c = this.context;
+    c.globalAlpha = alpha;
     c.fillStyle = colour;
     c.strokeStyle = '#ffffff';
     c.lineWidth = 1.25;

@@ -7,7 +7,7 @@ class ModelView {
     this.rows = rows;
     this.picked = picked;
     this.file = -1;
-    this.hidden = new Set();  // roles
+    this.hidden = new Set();  // roles, or 'lines'
     this.strong = new Set();  // part numbers
     this.shown = [];
     document.body.classList.toggle('flat', !report.files.some((file) => file.scene));
@@ -49,6 +49,7 @@ class ModelView {
     const scene = this.report.files[index].scene;
     if (scene && !scene.decoded) scene.decoded = scene.parts.map(decodedPart);
     this.parts = scene ? scene.decoded : [];
+    for (const part of this.parts) part.group = part.triangles.length ? part.role : 'lines';
     this.partBounds = this.parts.map((part) => grow(noBounds(), part.points));
     this.bounds = noBounds();
     for (const b of this.partBounds) if (b[3] >= b[0]) grow(this.bounds, b);
@@ -58,6 +59,13 @@ class ModelView {
     this.drawLegend();
     this.drawNote(scene);
     this.look();
+    this.view.reset();
+  }
+
+  // Once the page around it has its size.
+  fit() {
+    if (!this.view) return;
+    this.resize();
     this.view.reset();
   }
 
@@ -73,23 +81,29 @@ class ModelView {
     const stretch = this.stretch();
     $('stretched').textContent = `×${stretch < 10 ? Number(stretch.toFixed(1)) : Math.round(stretch)}`;
     this.marks.stretch = stretch;
-    this.view.setLook({opacity: Number($('opacity').value) / 100, stretch, strong: this.strong, visible: (part) => !this.hidden.has(part.role)});
+    const opacity = Number($('opacity').value) / 100;
+    // The box around a model must not hide what is in it, nor anything what is chosen.
+    const opacityOf = (part, i) => {
+      if (this.strong.has(i)) return Math.max(opacity, 0.8);
+      return (part.role === 'boundary' ? opacity * opacity : opacity) * (this.strong.size ? 0.4 : 1);
+    };
+    this.view.setLook({stretch, opacityOf, visible: (part) => !this.hidden.has(part.group)});
   }
 
   drawLegend() {
     const found = new Map();
-    for (const part of this.parts) found.set(part.role, (found.get(part.role) || 0) + 1);
-    const roles = Object.keys(roleColours).filter((role) => found.has(role));
+    for (const part of this.parts) found.set(part.group, (found.get(part.group) || 0) + 1);
+    const roles = Object.keys(groupColours).filter((role) => found.has(role));
     $('legend').replaceChildren(...roles.map((role) => {
       const box = make('input', {type: 'checkbox'}), patch = make('i', {});
       box.checked = !this.hidden.has(role);
-      patch.style.background = `rgb(${roleColours[role].map((v) => Math.round(255 * v)).join(',')})`;
+      patch.style.background = `rgb(${groupColours[role].map((v) => Math.round(255 * v)).join(',')})`;
       box.addEventListener('change', () => {
         if (box.checked) this.hidden.delete(role);
         else this.hidden.add(role);
         this.look();
       });
-      return make('label', {}, box, patch, role === 'unknown' ? 'no role' : role, make('small', {}, grouped(found.get(role))));
+      return make('label', {}, box, patch, {unknown: 'no role', lines: 'lines and points'}[role] || role, make('small', {}, grouped(found.get(role))));
     }));
   }
 
@@ -137,7 +151,11 @@ class ModelView {
   }
 
   drawMarks() {
-    if (this.marks && this.marks.width > 0 && this.view) this.marks.draw(this.view.matrix());
+    if (this.waiting || !this.marks || !this.view) return;
+    this.waiting = requestAnimationFrame(() => {
+      this.waiting = 0;
+      if (this.marks.width > 0) this.marks.draw(this.view.matrix());
+    });
   }
 
   // ---- choosing

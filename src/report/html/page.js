@@ -9,6 +9,7 @@ const severityWords = {error: ['error', 'errors'], warning: ['warning', 'warning
 const roleColours = {
   fault: [0.75, 0.36, 0.26], fracture: [0.60, 0.42, 0.66], horizon: [0.87, 0.68, 0.30], unconformity: [0.46, 0.58, 0.36],
   intrusion: [0.74, 0.47, 0.55], boundary: [0.56, 0.65, 0.72], topography: [0.38, 0.58, 0.44], unknown: [0.62, 0.62, 0.60]};
+const groupColours = {...roleColours, lines: [0.15, 0.19, 0.23]};
 const pageOfRows = 500;
 
 // ---- small helpers
@@ -50,12 +51,12 @@ const state = {file: report.files.length > 1 ? -1 : 0, text: '', code: '', entit
                sort: 'severity', down: false, limit: pageOfRows, chosen: null, shown: []};
 
 const columns = [
-  {key: 'severity', title: 'Severity', width: '92px', value: (r) => severities.indexOf(r.finding.severity)},
-  {key: 'code', title: 'Code', width: '62px', value: (r) => r.finding.code},
+  {key: 'severity', title: 'Severity', width: '96px', value: (r) => severities.indexOf(r.finding.severity)},
+  {key: 'code', title: 'Code', width: '56px', value: (r) => r.finding.code},
   {key: 'from', title: 'File', width: '20%', value: (r) => report.files[r.fileIndex].file},
   {key: 'entity', title: 'Where', width: '24%', value: (r) => r.entity.toLowerCase()},
   {key: 'message', title: 'What', width: 'auto', value: (r) => r.finding.message.toLowerCase()},
-  {key: 'count', title: 'Number', width: '76px', value: (r) => -r.count}];
+  {key: 'count', title: 'Number', width: '68px', value: (r) => -r.count}];
 const columnsShown = () => columns.filter((c) => c.key !== 'from' || state.file < 0 && report.files.length > 1);
 
 function matches(row, without) {
@@ -92,13 +93,13 @@ function drawHead() {
 function cellOf(column, row) {
   const f = row.finding;
   switch (column.key) {
-    case 'severity': return make('td', {}, make('span', {class: `dot ${f.severity}`}), severityWords[f.severity][0]);
+    case 'severity': return make('td', {class: 'severity'}, make('span', {class: `dot ${f.severity}`}), severityWords[f.severity][0]);
     case 'code': return make('td', {class: 'code'}, f.code);
     case 'from': return make('td', {class: 'from'}, shortName(report.files[row.fileIndex]));
     case 'entity': {
       const more = f.entities.length - 1;
-      return make('td', {class: 'entity'}, row.entity || '–',
-                  f.entities.length ? make('small', {}, f.entities[0].kind + (more > 0 ? ` and ${grouped(more)} more` : '')) : null);
+      return make('td', {class: 'entity', title: row.entity}, make('div', {}, row.entity || '–'),
+                  f.entities.length ? make('small', {}, f.entities[0].kind + (more > 0 ? ` + ${grouped(more)}` : '')) : null);
     }
     case 'message': return make('td', {class: 'message'}, make('div', {}, f.message));
     default: return make('td', {class: 'number'}, row.count > 0 ? grouped(row.count) : '');
@@ -281,6 +282,7 @@ function start() {
     step(by);
   });
   chooseFile(state.file);
+  model.fit();
   // For tests: what is shown and chosen, and where a mark stands on the screen.
   window.geomendReport = {state, rows, choose: (n) => choose(rows[n], true), view: () => model.kind(), at: (n) => model.placeOf(rows[n]),
                           settled: () => model.settled()};

@@ -15,7 +15,6 @@ class PlainView {
     this.context = this.canvas.getContext('2d');
     this.parts = [];
     this.stretch = 1;
-    this.opacity = 0.6;
     this.centre = [0, 0, 0];
     this.half = 1;  // half the height of the picture, in world units
     this.turn = -0.6;
@@ -25,18 +24,17 @@ class PlainView {
 
   // parts: decoded, with colour [r, g, b]; bounds: of all of them
   show(parts, bounds) {
-    this.parts = parts.map((part) => ({...part, visible: true, strong: false, screen: new Float32Array(part.points.length)}));
+    this.parts = parts.map((part) => ({...part, visible: true, opacity: 1, screen: new Float32Array(part.points.length)}));
     this.bounds = bounds;
     this.reset();
   }
 
-  setLook(look) {  // {opacity, stretch, visible(part), strong: Set of part numbers}
-    this.opacity = look.opacity;
+  setLook(look) {  // {stretch, visible(part), opacityOf(part, number)}
     this.centre[2] *= look.stretch / this.stretch;
     this.stretch = look.stretch;
     this.parts.forEach((part, i) => {
       part.visible = look.visible(part);
-      part.strong = look.strong.has(i);
+      part.opacity = look.opacityOf(part, i);
     });
     this.render();
   }
@@ -51,10 +49,13 @@ class PlainView {
   reset() {
     const b = this.bounds;
     if (!(b[3] >= b[0])) return this.render();
-    const size = [b[3] - b[0], b[4] - b[1], (b[5] - b[2]) * this.stretch];
     this.turn = -0.6;
     this.tilt = 0.5;
-    this.flyTo([(b[0] + b[3]) / 2, (b[1] + b[4]) / 2, (b[2] + b[5]) / 2], 0.5 * Math.hypot(...size) || 1);
+    const size = [b[3] - b[0], b[4] - b[1], (b[5] - b[2]) * this.stretch], {right, up} = this.axes();
+    const half = (axis) => 0.5 * size.reduce((sum, v, a) => sum + Math.abs(v * axis[a]), 0);
+    this.centre = [(b[0] + b[3]) / 2, (b[1] + b[4]) / 2, this.stretch * (b[2] + b[5]) / 2];
+    this.half = 1.06 * Math.max(half(up), half(right) * (this.height / this.width || 1)) || 1;
+    this.render();
   }
 
   // centre in the unstretched world, radius in the stretched one
@@ -140,7 +141,7 @@ class PlainView {
     const t = part.triangles, s = part.screen, a = 3 * t[at], b = 3 * t[at + 1], d = 3 * t[at + 2];
     const light = this.light(part.points, a, b, d);
     const [r, g, blue] = part.colour.map((v) => Math.round(255 * v * light));
-    c.globalAlpha = part.strong ? Math.max(this.opacity, 0.85) : this.opacity;
+    c.globalAlpha = part.opacity;
     c.fillStyle = `rgb(${r},${g},${blue})`;
     c.beginPath();
     c.moveTo(s[a], s[a + 1]);

@@ -49,7 +49,8 @@ export class VtkView {
     this.changed = changed;
     this.stretch = 1;
     this.window = vtkRenderWindow.newInstance();
-    this.renderer = vtkRenderer.newInstance({background: [0, 0, 0, 0]});
+    this.renderer = vtkRenderer.newInstance();
+    this.renderer.setBackground(0, 0, 0, 0);  // the page's own shows through
     this.window.addRenderer(this.renderer);
     this.glass = vtkOpenGLRenderWindow.newInstance();
     this.window.addView(this.glass);
@@ -79,8 +80,8 @@ export class VtkView {
       actor.setMapper(mapper);
       const look = actor.getProperty(), solid = part.triangles.length > 0;
       look.setColor(...(solid ? part.colour : [0.15, 0.19, 0.23]));
-      look.setAmbient(solid ? 0.35 : 1);
-      look.setDiffuse(solid ? 0.7 : 0);
+      look.setAmbient(solid ? 0.45 : 1);
+      look.setDiffuse(solid ? 0.65 : 0);
       look.setPointSize(5);
       this.renderer.addActor(actor);
       return actor;
@@ -99,8 +100,8 @@ export class VtkView {
     this.actors.forEach((actor, i) => {
       const part = this.parts[i], solid = part.triangles.length > 0;
       actor.setScale(1, 1, look.stretch);
-      actor.setVisibility(look.visible(part) && (look.opacity > 0 || !solid || look.strong.has(i)));
-      actor.getProperty().setOpacity(!solid ? 1 : look.strong.has(i) ? Math.max(look.opacity, 0.85) : look.opacity);
+      actor.setVisibility(look.visible(part) && (look.opacityOf(part, i) > 0 || !solid));
+      actor.getProperty().setOpacity(solid ? look.opacityOf(part, i) : 1);
     });
     this.renderer.resetCameraClippingRange();
     this.render();
@@ -118,9 +119,22 @@ export class VtkView {
     this.stop();
     this.camera.setViewUp(0, 0, 1);
     const centre = [(b[0] + b[3]) / 2, (b[1] + b[4]) / 2, f * (b[2] + b[5]) / 2];
-    const radius = 0.5 * Math.hypot(b[3] - b[0], b[4] - b[1], f * (b[5] - b[2])) || 1, way = this.distance(radius);
-    const from = [-0.5, -0.75, 0.45].map((v) => v / Math.hypot(0.5, 0.75, 0.45));
+    const from = [-0.5, -0.75, 0.45].map((v) => v / Math.hypot(0.5, 0.75, 0.45)), way = this.distanceOfBox(centre, from);
     this.place(centre, centre.map((v, a) => v + way * from[a]));
+  }
+
+  // How far away, in a direction, all corners of the bounds are in the picture.
+  distanceOfBox(centre, from) {
+    const b = this.bounds, slope = Math.tan(0.5 * this.camera.getViewAngle() * Math.PI / 180), wide = slope * (this.width / this.height || 1);
+    const length = Math.hypot(from[0], from[1]), right = [-from[1] / length, from[0] / length, 0];
+    const up = [-right[1] * from[2], right[0] * from[2], length].map((v, a) => a < 2 ? -v : v);
+    const dot = (v, p) => v[0] * p[0] + v[1] * p[1] + v[2] * p[2];
+    let way = 1e-9;
+    for (let corner = 0; corner < 8; ++corner) {
+      const p = [0, 1, 2].map((a) => b[corner >> a & 1 ? 3 + a : a] * (a === 2 ? this.stretch : 1) - centre[a]);
+      way = Math.max(way, dot(from, p) + 1.08 * Math.max(Math.abs(dot(right, p)) / wide, Math.abs(dot(up, p)) / slope));
+    }
+    return way;
   }
 
   // How far away a sphere fills the picture.

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/debris.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+
+#include "base/output.h"
+#include "formats/registry.h"
+#include "report/worst_first.h"
+
+namespace geomend {
+
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+// Four digits, '-', a code, and one of our endings.
+bool is_debris(const std::filesystem::path& path) {
+    const std::string name = path.filename().string(), extension = path.extension().string();
+    return name.size() > 6 && std::ranges::all_of(name.substr(0, 4), is_digit) && name.find('-') != std::string::npos &&
+           (extension == ".vtp" || extension == ".ts");
+}
+
+// Points by position, each once.
+class Welded {
+public:
+    std::uint32_t operator()(const Vec3& p) {
+        const auto [at, is_new] = number_.try_emplace(p, static_cast<std::uint32_t>(points.size()));
+        if (is_new) points.push_back(p);
+        return at->second;
+    }
+    std::vector<Vec3> points;
+
+private:
+    std::map<Vec3, std::uint32_t> number_;
+};
+
+ObjectInfo info_for(const Scene& scene, const Finding& f, const std::string& name) {
+    ObjectInfo info;
+    info.name = name;
+    info.crs = scene.crs;
+    info.annotations = {{"geomend.finding", f.code + ": " + f.message}};
+    return info;
+}
+
+Surface elements_of(const SceneMark& mark, ObjectInfo info) {
+    Surface surface;
+    surface.info = std::move(info);
+    Welded point;
+    for (const auto& [a, b, c] : mark.triangles) surface.polygons.push_back(std::array{point(a), point(b), point(c)});
+    surface.points = std::move(point.points);
+    return surface;
+}
+
+PolylineSet lines_of(const std::vector<std::vector<Vec3>>& lines, ObjectInfo info) {
+    PolylineSet set;
+    set.info = std::move(info);
+    for (const auto& line : lines) {
+        if (line.size() < 2) continue;
+        set.parts.push_back({static_cast<std::uint32_t>(set.points.size()), set.edges.size(), {}});
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const auto number = static_cast<std::uint32_t>(set.points.size());
+            if (i > 0) set.edges.push_back({number - 1, number});
+            set.points.push_back(line[i]);
+        }
+    }
+    return set;
+}
+
+// What a mark holds, as objects; outlines only where they are all that there is of its elements.
+Dataset objects_of(const Scene& scene, const SceneMark& mark, const Finding& f, const std::string& name) {
+    Dataset dataset;
+    if (!mark.triangles.empty()) dataset.objects.emplace_back(elements_of(mark, info_for(scene, f, name + "-elements")));
+    auto lines = mark.polylines;
+    if (mark.triangles.empty()) lines.insert(lines.end(), mark.outlines.begin(), mark.outlines.end());
+    if (!lines.empty()) {
+        PolylineSet set = lines_of(lines, info_for(scene, f, name + "-lines"));
+        if (!set.edges.empty()) dataset.objects.emplace_back(std::move(set));
+    }
+    if (!mark.points.empty()) {
+        PointSet set;
+        set.info = info_for(scene, f, name + "-points");
+        set.points = mark.points;
+        dataset.objects.emplace_back(std::move(set));
+    }
+    return dataset;
+}
+
+Result<void> write_one(const Dataset& dataset, const std::filesystem::path& path) {
+    const auto format = format_for_writing(path.string());
+    if (!format) return format.why();
+    OutputSet output(path);
+    auto written = (*format)->write(dataset, output, {});
+    if (!written) return std::move(written).why();
+    return output.commit();
+}
+
+Failure cannot_use(const std::string& folder, const std::string& why) {
+    return failure(FailureKind::unwritable, "F020", {folder}, "--debris: " + why);
+}
+
+}  // namespace
+
+std::string debris_name(std::size_t number, const Finding& finding) {
+    constexpr std::size_t longest = 80, most_entities = 3;
+    std::string name = std::to_string(number);
+    if (name.size() < 4) name.insert(0, 4 - name.size(), '0');
+    name += '-' + finding.code;
+    for (std::size_t e = 0; e < finding.entities.size() && e < most_entities; ++e) {
+        name += '-';
+        for (const char c : finding.entities[e].name) name += is_letter(c) || is_digit(c) || c == '_' || c == '.' || c == '-' ? c : '_';
+    }
+    return name.substr(0, longest);
+}
+
+Result<void> DebrisFolder::open() const {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error) return cannot_use(folder_, "the folder cannot be made: " + error.message());
+    for (std::filesystem::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
+        if (is_debris(entry->path()))
+            return cannot_use(folder_, "it holds debris of an earlier run (" + entry->path().filename().string() +
+                                           "): remove it, or name another folder");
+    }
+    if (error) return cannot_use(folder_, "the folder cannot be read: " + error.message());
+    return {};
+}
+
+Result<void> DebrisFolder::write(ReportedFile& file) {
+    file.debris.assign(file.findings.size(), {});
+    const auto sorted = worst_first(file.findings);
+    for (std::size_t i = 0; i < std::min(most_, sorted.size()); ++i) {
+        const auto number = static_cast<std::size_t>(sorted[i] - file.findings.data());
+        const std::string name = debris_name(next_++, *sorted[i]);
+        const Dataset dataset = objects_of(*file.scene, file.scene->marks[number], *sorted[i], name);
+        if (dataset.objects.empty()) continue;
+        for (const char* extension : {".vtp", ".ts"}) {
+            const std::filesystem::path path = std::filesystem::path(folder_) / (name + extension);
+            if (auto written = write_one(dataset, path); !written) return written;
+            file.debris[number].push_back(path.string());
+        }
+    }
+    return {};
+}
+
+}  // namespace geomend

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "base/result.h"
+#include "report/report.h"
+
+namespace geomend {
+
+/// Writes what findings mark into a folder, to be looked at in other programs: for each finding that marks anything a .vtp
+/// and a .ts with the same things, named by its number in the report, its code and its entities
+/// (0001-B08-fault_1-horizon_2.vtp). Numbers go on from file to file.
+class DebrisFolder {
+public:
+    /// \param most findings of a file that are listed; the others are not written
+    explicit DebrisFolder(std::string folder, std::size_t most = static_cast<std::size_t>(-1)) : folder_(std::move(folder)), most_(most) {}
+
+    /// Makes the folder where it is not there. Failure (F020): it cannot be made, or holds debris of an earlier run,
+    /// which would be taken for that of this one.
+    Result<void> open() const;
+
+    /// Writes the debris of a file in the order of its report, and names the files in file.debris. Failure (F020) where that
+    /// cannot be done. \pre file.scene has a mark for each finding
+    Result<void> write(ReportedFile& file);
+
+private:
+    std::string folder_;
+    std::size_t most_, next_ = 1;
+};
+
+/// The start of the names of a finding's debris: "0001-B08-fault_1-horizon_2". Characters beyond letters, digits, '.', '_' and
+/// '-' become '_'; long names are cut.
+std::string debris_name(std::size_t number, const Finding& finding);
+
+}  // namespace geomend
