@@ -54,10 +54,7 @@ const Format* format_by_name(std::string_view name) {
     return nullptr;
 }
 
-Result<const Format*> format_for_reading(const Input& input) {
-    if (input.bytes().empty()) return unreadable("F002", {input.name()}, "the file is empty");
-    const std::string_view head = input.bytes().substr(0, std::size_t{1} << 16);
-    const std::string base_name = input.base_name();
+const Format* claiming_format(std::string_view head, std::string_view base_name) {
     const std::string extension = extension_of(base_name);
     const Format* best = nullptr;
     int best_score = 0;
@@ -70,6 +67,12 @@ Result<const Format*> format_for_reading(const Input& input) {
             best = &format;
         }
     }
+    return best;
+}
+
+Result<const Format*> format_for_reading(const Input& input) {
+    if (input.bytes().empty()) return unreadable("F002", {input.name()}, "the file is empty");
+    const Format* best = claiming_format(input.bytes().substr(0, std::size_t{1} << 16), input.base_name());
     if (best == nullptr) return unreadable("F003", {input.name()}, "no known format fits: name it with --from (see 'geomend formats')");
     return best;
 }

@@ -13,6 +13,10 @@ std::span<const Format> all_formats();
 /// The format of a name (--from, --to), or nullptr. A family name ("gocad") finds its first row.
 const Format* format_by_name(std::string_view name);
 
+/// The format that the first bytes (at most 64 KiB, inflated) or else the extension speak for, among those that can be
+/// read; nullptr when none does. `base_name` without folder and ".gz".
+const Format* claiming_format(std::string_view head, std::string_view base_name);
+
 /// The format to read with: by content, then by extension. Failure F003 when nothing is sure, F002 when the
 /// input is empty.
 Result<const Format*> format_for_reading(const Input& input);

@@ -20,6 +20,7 @@ struct CheckOptions {
     double near = -1;                     ///< search length for near misses; negative: by rule
     bool all_cells = false;               ///< also inactive cells are judged
     std::vector<std::string> only, skip;  ///< codes; `only` empty: all
+    std::string target;                   ///< of a simulator or mesher that the model is for (readiness.h); empty: none
     const Monitor* monitor = nullptr;
 };
 

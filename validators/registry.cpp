@@ -7,6 +7,7 @@
 #include "validators/cell_checks.h"
 #include "validators/corner_point.h"
 #include "validators/model_checks.h"
+#include "validators/readiness.h"
 
 namespace geomend::validators {
 
@@ -112,6 +113,17 @@ constexpr std::array table = {
     of_model("Q03", "two neighbours enclose less than 10 degrees", check_folds),
     of_model("Q04", "two surfaces leave a line at less than 5 degrees from each other", check_contact_angles),
     of_cells("Q10", "a corner of a face lies farther than the tolerance from the plane through the face", check_face_planes),
+    Check{"S01", "with --for: no object is of the kind that the target reads"},
+    Check{"S02", "with --for: an error of a family of checks, or another finding, that the target cannot live with"},
+    Check{"S03", "with --for: no active cell; for meshers no closed region"},
+    Check{"S04", "with --for flow: neither PORO nor PORV, no PERMX, or no value of them in active cells"},
+    Check{"S05", "with --for flow: PORO or NTG outside 0 to 1, PORV or permeabilities below 0, in active cells"},
+    Check{"S06", "with --for: a name is too long, has a character or beginning that the target refuses, or is there twice"},
+    Check{"S07", "with --for: cells of three dimensions of a type that the target has not"},
+    Check{"S08", "with --for abaqus or geos: cells without entity, cell set or attribute 'attribute'"},
+    Check{"S09", "with --for flow: local refinements, two porosities"},
+    Check{"S10", "with --for openfoam: outer faces that no named cell of two dimensions covers"},
+    Check{"S12", "with --for flow: no PERMY or PERMZ, no unit system"},
 };
 
 Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "the checks were stopped"); }
@@ -121,6 +133,8 @@ Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "the chec
 std::span<const Check> all_checks() { return table; }
 
 Result<void> known_codes(const CheckOptions& options) {
+    if (!options.target.empty() && find_target(options.target) == nullptr)
+        return failure(FailureKind::usage, "F018", {}, "--for " + options.target + ": no such target (see geomend-validate(1))");
     for (const auto* list : {&options.only, &options.skip}) {
         for (const std::string& code : *list) {
             if (std::ranges::find(table, std::string_view(code), &Check::code) == table.end())
@@ -154,7 +168,7 @@ void run_all(const Scope& scope, const CheckOptions& options, void (*Check::*mem
 
 }  // namespace
 
-Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options) {
+Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged) {
     Checked result;
     result.lengths = lengths_of(dataset, options);
     auto models = topology::models_to_judge(dataset, result.lengths.tolerance);
@@ -167,6 +181,7 @@ Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options
         std::ranges::move(model.findings, std::back_inserter(result.findings));
         std::ranges::move(findings, std::back_inserter(result.findings));
         if (scope.stopped()) return stopped();
+        if (judged != nullptr) judged->push_back(std::move(model.brep));
     }
     for (const Object& object : dataset.objects) {
         const auto* mesh = std::get_if<CellMesh>(&object);

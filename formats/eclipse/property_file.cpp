@@ -125,7 +125,7 @@ Result<void> PropertyGrids::find_companion(const std::vector<PropertyPart>& part
     const auto unused = [&](const std::string& why) {
         findings.push_back(finding("F133", Severity::warning, "the grid '" + *name + "' is not used: " + why, {file_.input.name()}));
     };
-    const auto input = file_.input.companion(*name);
+    const auto input = file_.input.neighbour(*name);
     if (!input) {
         unused(input.why().error.message);
         return {};

@@ -87,7 +87,7 @@ private:
         for (const char* ending : {".INIT", ".FINIT", ".init", ".finit"}) {
             const std::string name = stem_of(file_.input) + ending;
             if (name == ending || !file_.input.has_companion(name)) continue;
-            const auto input = file_.input.companion(name);
+            const auto input = file_.input.neighbour(name);
             if (!input) continue;
             auto read = read_init(*input, options_);
             if (!read) {

@@ -9,7 +9,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <new>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -26,6 +28,12 @@ struct Input::Storage {
     ~Storage() {
         if (mapped != nullptr) ::munmap(mapped, mapped_size);
     }
+};
+
+// Which files were opened for one input; shared by all that belong to it.
+struct Input::Opened {
+    std::mutex mutex;
+    std::set<std::string> paths;
 };
 
 namespace {
@@ -123,6 +131,7 @@ Result<std::string> inflate_all(std::string_view packed, const std::string& name
 
 Result<Input> Input::open(const std::string& path) {
     Input input;
+    input.opened_ = std::make_shared<Opened>();
     const bool standard = path == "-";
     input.name_ = standard ? "standard input" : path;
     if (!standard) input.path_ = path;
@@ -160,8 +169,22 @@ Result<Input> Input::open(const std::string& path) {
     return input;
 }
 
+Result<std::string> Input::head(const std::string& path, std::size_t most) {
+    struct stat about {};
+    if (::stat(path.c_str(), &about) != 0) return unreadable("F001", {path}, "cannot stat: " + reason(errno));
+    if (!S_ISREG(about.st_mode)) return unreadable("F001", {path}, "this is not a plain file");
+    const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(::gzopen(path.c_str(), "rbe"), ::gzclose);  // plain bytes, too
+    if (file == nullptr) return unreadable("F001", {path}, "cannot open: " + reason(errno));
+    std::string bytes(most, '\0');
+    const int got = ::gzread(file.get(), bytes.data(), static_cast<unsigned>(most));
+    if (got < 0) return unreadable("F015", {path}, "the gzip data are damaged");
+    bytes.resize(static_cast<std::size_t>(got));
+    return bytes;
+}
+
 Input Input::from_memory(std::string bytes, std::string name) {
     Input input;
+    input.opened_ = std::make_shared<Opened>();
     auto storage = std::make_shared<Storage>();
     storage->buffer = std::move(bytes);
     input.bytes_ = storage->buffer;
@@ -189,6 +212,22 @@ bool Input::has_companion(std::string_view file_name) const {
 }
 
 Result<Input> Input::companion(std::string_view file_name) const {
+    auto found = neighbour(file_name);
+    if (!found) return found;
+    if (opened_ == nullptr) return found;
+    const std::lock_guard lock(opened_->mutex);
+    opened_->paths.insert(companion_path(file_name).string());
+    found->opened_ = opened_;
+    return found;
+}
+
+std::vector<std::string> Input::companions() const {
+    if (opened_ == nullptr) return {};
+    const std::lock_guard lock(opened_->mutex);
+    return {opened_->paths.begin(), opened_->paths.end()};
+}
+
+Result<Input> Input::neighbour(std::string_view file_name) const {
     const std::string path = companion_path(file_name).string();
     std::error_code error;
     if (file_name.empty() || !std::filesystem::is_regular_file(path, error)) {

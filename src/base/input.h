@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/result.h"
 
@@ -30,17 +31,28 @@ public:
     /// Size in bytes on disk (compressed files: as compressed).
     std::uint64_t stored_size() const { return stored_size_; }
 
-    /// Opens a file that this one names: relative names are looked up beside this file. Names that go up or
-    /// are absolute are taken as they stand. The failure (F010) tells the path that was tried.
+    /// Opens a file that this one names and that is a part of it: relative names are looked up beside this file. Names
+    /// that go up or are absolute are taken as they stand. The failure (F010) tells the path that was tried.
     Result<Input> companion(std::string_view file_name) const;
+    /// The same for a file that is a model of its own (the grid beside a file of properties): it is not counted among
+    /// the companions.
+    Result<Input> neighbour(std::string_view file_name) const;
     /// Whether companion() would find a regular file.
     bool has_companion(std::string_view file_name) const;
+    /// Paths of the companions opened so far, by this input, its copies and its companions; ascending, each once.
+    std::vector<std::string> companions() const;
+
+    /// The first bytes of a regular file (inflated), to judge what it is: at most `most`, and never more are read or
+    /// inflated than needed for them. Failure F001 as of open().
+    static Result<std::string> head(const std::string& path, std::size_t most);
 
 private:
     struct Storage;
+    struct Opened;
     std::filesystem::path companion_path(std::string_view file_name) const;
 
     std::shared_ptr<const Storage> storage_;
+    std::shared_ptr<Opened> opened_;
     std::string_view bytes_;
     std::string name_;
     std::filesystem::path path_;

@@ -42,7 +42,7 @@ bool fails(const CheckArguments& a, std::span<const Finding> findings) {
 }
 
 Inspect inspection(const CheckArguments& a, DebrisFolder& debris, std::size_t files) {
-    const bool page = a.report.ends_with(".html"), write = !a.debris.empty();
+    const bool page = draws_page(a), write = !a.debris.empty();
     if (!page && !write) return {};
     return [page, write, files, &debris](const Dataset& dataset, std::span<const Brep> breps, ReportedFile& file) -> Result<void> {
         file.scene = make_scene(dataset, breps);

@@ -28,6 +28,9 @@ Result<validators::CheckOptions> check_options(const CommonOptions& common, cons
 /// True where a finding is at or above the severity of --fail-on.
 bool fails(const CheckArguments& arguments, std::span<const Finding> findings);
 
+/// Whether the report is a page, which draws the model.
+inline bool draws_page(const CheckArguments& arguments) { return arguments.report.ends_with(".html"); }
+
 /// What is done with the findings of a file before its dataset is gone: with --report FILE.html the model is drawn, with
 /// --debris what they mark is written. Empty where there is nothing to do. `debris` must outlive it. `files` is their number.
 Inspect inspection(const CheckArguments& arguments, DebrisFolder& debris, std::size_t files);

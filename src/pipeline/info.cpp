@@ -215,7 +215,7 @@ FileSummary summarise(const std::string& path, const Dataset& dataset) {
     return summary;
 }
 
-FileSummary summarise(const std::string& path, const LoadOptions& options) {
+FileSummary summarise(const std::string& path, const LoadOptions& options, const topology::ComplexityOptions* complexity) {
     FileSummary failed;
     failed.file = path;
     auto dataset = load(path, options);
@@ -225,7 +225,12 @@ FileSummary summarise(const std::string& path, const LoadOptions& options) {
     }
     try {
         topology::build_breps(*dataset);
-        return summarise(path, *dataset);
+        FileSummary summary = summarise(path, *dataset);
+        for (std::size_t b = 0; complexity != nullptr && b < dataset->breps.size(); ++b)
+            summary.breps[b].complexity = topology::complexity(*dataset->breps[b], *complexity);
+        if (complexity != nullptr && complexity->monitor != nullptr && complexity->monitor->stopped())
+            summary.error = failure(FailureKind::cancelled, "F022", {path}, "measuring was stopped");
+        return summary;
     } catch (const std::bad_alloc&) {
         failed.error = failure(FailureKind::limit, "F023", {path}, "there is not enough memory for this model");
         return failed;

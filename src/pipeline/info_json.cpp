@@ -74,6 +74,7 @@ Json brep_json(const BrepSummary& b, bool named) {
     }
     j["region_volumes"] = std::move(volumes);
     if (b.universe_volume) j["universe_volume"] = *b.universe_volume;
+    if (named && b.complexity) j["complexity"] = complexity_json(*b.complexity);
     return j;
 }
 
@@ -127,6 +128,7 @@ Json file_json(const FileSummary& f) {
         for (const BrepSummary& b : f.breps) each.push_back(brep_json(b, true));
         j["breps"] = std::move(each);
     }
+    if (f.breps.size() == 1 && f.breps[0].complexity) j["complexity"] = complexity_json(*f.breps[0].complexity);
     if (f.connections) j["connections"] = Json{{"internal", f.connections->internal}, {"nnc", f.connections->nnc}};
     if (f.crs.stated) j["crs"] = crs_json(f.crs);
     Json findings = Json::array();

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "base/number_text.h"
+#include "pipeline/complexity_report.h"
 #include "pipeline/info.h"
 
 namespace geomend {
@@ -103,6 +104,7 @@ std::string brep_text(const BrepSummary& b) {
         text += '\n';
     }
     if (b.universe_volume) text += "    all together: volume " + short_number(*b.universe_volume) + '\n';
+    if (b.complexity) text += complexity_text(*b.complexity);
     return text;
 }
 

@@ -10,6 +10,10 @@
 
 namespace geomend {
 
+namespace topology {
+struct Complexity;
+}
+Json complexity_json(const topology::Complexity& complexity);
 Json losses_json(std::span<const Loss> losses);
 
 }  // namespace geomend

@@ -24,14 +24,16 @@ Result<const Format*> named_format(const std::string& name, const Input& input) 
 
 }  // namespace
 
-Result<Dataset> load(const std::string& path, const LoadOptions& options) {
+Result<Dataset> load(const std::string& path, const LoadOptions& options, std::vector<std::string>* companions) {
     auto input = Input::open(path);
     if (!input) return std::move(input).why();
     if (input->bytes().empty()) return unreadable("F002", {input->name()}, "the file is empty");
     auto format = options.from.empty() ? format_for_reading(*input) : named_format(options.from, *input);
     if (!format) return std::move(format).why();
     try {
-        return (*format)->read(*input, {options.options, options.monitor});
+        auto dataset = (*format)->read(*input, {options.options, options.monitor});
+        if (companions != nullptr) *companions = input->companions();
+        return dataset;
     } catch (const std::bad_alloc&) {
         return failure(FailureKind::limit, "F023", {input->name()}, "there is not enough memory to read this file");
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/monitor.h"
 #include "formats/format.h"
@@ -17,6 +18,7 @@ struct LoadOptions {
 };
 
 /// Reads one file ("-" is standard input) with the format that fits it. No topology is built.
-Result<Dataset> load(const std::string& path, const LoadOptions& options);
+/// \param companions gets the paths of the further files that were read for it, ascending; nullptr: nobody asks
+Result<Dataset> load(const std::string& path, const LoadOptions& options, std::vector<std::string>* companions = nullptr);
 
 }  // namespace geomend

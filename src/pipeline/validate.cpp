@@ -5,6 +5,8 @@
 #include <map>
 #include <new>
 
+#include "validators/readiness.h"
+
 namespace geomend {
 
 namespace {
@@ -36,7 +38,8 @@ void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
 
 }  // namespace
 
-Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options) {
+Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options,
+                              std::vector<Brep>* judged) {
     if (auto known = validators::known_codes(options); !known) return std::move(known).why();
     ReportedFile file;
     file.file = path;
@@ -57,11 +60,17 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         take(*checked);
     }
     if (std::ranges::any_of(dataset.objects, has_model_checks)) {
-        auto checked = validators::check_models(dataset, options);
+        auto checked = validators::check_models(dataset, options, judged);
         if (!checked) return std::move(checked).why();
         take(*checked);
     }
     tell_unchecked(dataset, file.findings);
+    if (const validators::Target* target = validators::find_target(options.target)) {
+        auto ready = validators::readiness(dataset, *target, file.tolerance, file.findings);
+        if (!ready) return std::move(ready).why();
+        std::ranges::copy_if(*ready, std::back_inserter(file.findings),
+                             [&](const Finding& f) { return validators::wanted(options, f.code); });
+    }
     if (has_errors(file.findings)) file.valid = false;
     else if (all_judged) file.valid = true;
     return file;
@@ -70,12 +79,15 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
 Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_options, const validators::CheckOptions& options,
                               const Inspect& inspect) {
     if (auto known = validators::known_codes(options); !known) return std::move(known).why();
-    auto dataset = load(path, load_options);
+    std::vector<std::string> companions;
+    auto dataset = load(path, load_options, &companions);
     if (!dataset) return std::move(dataset).why();
     try {
-        auto file = validate(path, *dataset, options);
+        std::vector<Brep> judged;
+        auto file = validate(path, *dataset, options, inspect ? &judged : nullptr);
+        if (file) file->companions = std::move(companions);
         if (!file || !inspect) return file;
-        auto inspected = inspect(*dataset, dataset->breps, *file);
+        auto inspected = inspect(*dataset, judged, *file);
         if (!inspected) return std::move(inspected).why();
         return file;
     } catch (const std::bad_alloc&) {
@@ -87,6 +99,9 @@ ReportedFile unreadable_file(const std::string& path, const Failure& why) {
     ReportedFile file;
     file.file = path;
     file.valid = false;
+    file.outcome = why.kind == FailureKind::limit      ? FileOutcome::limit
+                   : why.kind == FailureKind::internal ? FileOutcome::crashed
+                                                       : FileOutcome::unreadable;
     file.findings.push_back(why.error);
     file.findings.insert(file.findings.end(), why.also.begin(), why.also.end());
     return file;

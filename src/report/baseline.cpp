@@ -175,8 +175,14 @@ void leave_out_known(ReportedFile& file, const Baseline::File& earlier) {
         }
     }
     std::vector<Finding> left, out;
-    for (std::size_t f = 0; f < known.size(); ++f) (known[f] ? out : left).push_back(std::move(file.findings[f]));
+    const bool marked = file.scene && file.scene->marks.size() == known.size();
+    std::vector<SceneMark> marks;
+    for (std::size_t f = 0; f < known.size(); ++f) {
+        if (marked && !known[f]) marks.push_back(std::move(file.scene->marks[f]));
+        (known[f] ? out : left).push_back(std::move(file.findings[f]));
+    }
     file.findings = std::move(left);
+    if (marked) file.scene->marks = std::move(marks);
     file.known = count_by_severity(out);
 }
 

@@ -44,7 +44,7 @@ std::vector<const Baseline::File*> baseline_files(const Baseline& baseline, cons
 /// - one of them lists no more than a part of its elements, or none, and there are no more than before; where neither
 ///   elements nor entities are given the words of the message must be the same, too, but for numbers.
 /// Each finding of the earlier report stands for one. `valid` stays as it is: it speaks of all findings.
-/// \pre file.debris and file.scene are not made yet
+/// The marks of a scene that is there already go with their findings. \pre file.debris is not made yet
 void leave_out_known(ReportedFile& file, const Baseline::File& earlier);
 
 }  // namespace geomend

@@ -18,6 +18,9 @@ inline std::string json_text(const Json& json) { return json.dump(1, ' ', false,
 /// "info", "warning", "error".
 const char* to_string(Severity severity);
 
+struct RunSummary;
+Json summary_json(const RunSummary& summary);
+
 /// Elements of kind "cell-ijk" go out as triples [i,j,k] of kind "cell", those of "pillar-ij" and "column-ij" as pairs.
 Json finding_json(const Finding& finding);
 Json failure_json(const Failure& failure);

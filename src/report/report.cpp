@@ -36,6 +36,8 @@ Result<const Form*> form_of(const std::string& path) {
 Json file_json(const ReportedFile& file, std::size_t most) {
     Json j{{"file", file.file}};
     if (file.valid) j["valid"] = *file.valid;
+    if (file.outcome != FileOutcome::judged) j["outcome"] = to_string(file.outcome);
+    if (!file.companions.empty()) j["companions"] = file.companions;
     const SeverityCounts counts = count_by_severity(file.findings);
     j["counts"] = {{"error", counts.error}, {"warning", counts.warning}, {"info", counts.info}};
     if (file.known) j["known"] = {{"error", file.known->error}, {"warning", file.known->warning}, {"info", file.known->info}};
@@ -62,6 +64,11 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     }
     j["steps"] = std::move(steps);
     return j;
+}
+
+const char* to_string(FileOutcome outcome) {
+    constexpr const char* words[] = {"judged", "unreadable", "limit", "crashed"};
+    return words[static_cast<std::size_t>(outcome)];
 }
 
 SeverityCounts count_by_severity(std::span<const Finding> findings) {
@@ -92,7 +99,10 @@ std::string report_json(const Report& report) {
         near = std::max(near, file.near);
         files.push_back(file_json(file, report.most_findings));
     }
-    return json_text(Json{{"schema", 1}, {"tool", report.tool}, {"tolerance", tolerance}, {"near", near}, {"files", std::move(files)}});
+    Json all{{"schema", 1}, {"tool", report.tool}, {"tolerance", tolerance}, {"near", near}};
+    if (report.summary) all["summary"] = summary_json(*report.summary);
+    all["files"] = std::move(files);
+    return json_text(all);
 }
 
 Result<void> report_form(const std::string& path) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "report/run_summary.h"
 #include "report/scene.h"
 
 namespace geomend {
@@ -18,6 +19,16 @@ struct ReportedStep {
     Finding what;
 };
 
+/// What became of one file of a run.
+enum class FileOutcome : std::uint8_t {
+    judged,      ///< read and checked
+    unreadable,  ///< what stopped the reader is among its findings, as for the next two
+    limit,       ///< a time or memory limit was hit
+    crashed      ///< our own fault
+};
+/// "judged", "unreadable", "limit", "crashed".
+const char* to_string(FileOutcome outcome);
+
 /// Numbers of findings by severity.
 struct SeverityCounts {
     std::uint64_t error = 0, warning = 0, info = 0;
@@ -27,10 +38,12 @@ SeverityCounts count_by_severity(std::span<const Finding> findings);
 /// What was found in one file.
 struct ReportedFile {
     std::string file;
+    FileOutcome outcome = FileOutcome::judged;
     std::optional<bool> valid;  ///< no error; nothing where not all of the file could be judged and no error was found
     double tolerance = 0, near = 0;
     std::vector<Finding> findings;
     std::vector<ReportedStep> steps;               ///< of a repair
+    std::vector<std::string> companions;           ///< paths of further files that were read for it, ascending
     std::optional<SeverityCounts> known;           ///< findings that an earlier report has, too, and that are left out here
     std::vector<std::vector<std::string>> debris;  ///< files written for each finding; empty where none were
     std::optional<Scene> scene;                    ///< for pages; its marks are those of `findings`, in the same order
@@ -40,6 +53,7 @@ struct Report {
     std::string tool;  ///< "geomend 0.1.0"
     std::vector<ReportedFile> files;
     std::size_t most_findings = static_cast<std::size_t>(-1);  ///< listed for each file; all are counted
+    std::optional<RunSummary> summary;                         ///< of a run over many files
 };
 
 /// The schema that INTERFACE states (1): files with findings, worst first.

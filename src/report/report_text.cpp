@@ -29,6 +29,7 @@ public:
 
     void file(const ReportedFile& file, std::size_t most) {
         const SeverityCounts n = count_by_severity(file.findings);
+        if (file.outcome != FileOutcome::judged) return without_verdict(file, most);
         const char* state = !file.valid ? "not fully checked" : *file.valid ? "valid" : "not valid";
         text_ += file.file + ": " +
                  painted(state, !file.valid   ? "33"
@@ -50,6 +51,12 @@ public:
 private:
     std::string painted(const std::string& word, const char* colour) const {
         return colour_ ? std::string("\033[1;") + colour + "m" + word + "\033[0m" : word;
+    }
+
+    void without_verdict(const ReportedFile& file, std::size_t most) {
+        constexpr const char* words[] = {"", "cannot be read", "stopped at a limit", "crashed"};
+        text_ += file.file + ": " + painted(words[static_cast<std::size_t>(file.outcome)], "31") + '\n';
+        by_entity(file, most);
     }
 
     void by_entity(const ReportedFile& file, std::size_t most) {
@@ -121,7 +128,7 @@ private:
 std::string report_text(const Report& report, bool colour) {
     Text text(colour);
     for (const ReportedFile& file : report.files) text.file(file, report.most_findings);
-    return text.take();
+    return text.take() + (report.summary ? summary_text(*report.summary) : std::string());
 }
 
 }  // namespace geomend

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "base/monitor.h"
+#include "cli/exit_status.h"
+#include "pipeline/find_files.h"
+#include "pipeline/validate_many.h"
+
+namespace geomend::cli {
+
+/// Limits of each file of a run over many, and whether this process is the worker for one of them.
+struct WorkerArguments {
+    double seconds = 600;
+    double megabytes = 0;  ///< 0: none; where it is not given, four fifths of the machine's memory
+    bool is_worker = false;
+    bool limits_given = false;
+};
+
+void add_worker_arguments(CLI::App& command, WorkerArguments& arguments);
+
+/// First of all in a worker: its limits. Nothing elsewhere.
+void settle_worker(const WorkerArguments& arguments, std::size_t threads);
+
+/// Whether files go to workers: more than one, found in folders or by patterns, or under limits that were asked for.
+bool need_workers(const FoundFiles& files, const WorkerArguments& arguments);
+
+/// Judges them there, with the options that this command was given. The status gets the worst of those that could not be
+/// judged, which are told on standard error.
+Result<Report> judge_in_workers(const CLI::App& command, const FoundFiles& files, const WorkerArguments& arguments, std::size_t threads,
+                                const Monitor* monitor, ExitStatus& status);
+
+}  // namespace geomend::cli

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/readiness.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "base/codes.h"
+#include "grid/transmissibility.h"
+#include "topology/brep_from_dataset.h"
+#include "validators/found_cells.h"
+#include "validators/grid_scope.h"
+
+namespace geomend::validators {
+
+namespace {
+
+// What is known of the targets, from their manuals and from what they did with models given to them.
+
+constexpr std::array flow_burdens = {
+    TargetBurden{"C04", "cells that do not touch pass nothing on, but by PINCH"},
+    TargetBurden{"C05", "cells without thickness hold nothing and part what lies above from what lies below"},
+    TargetBurden{"C15", "ACTNUM is read as inactive (0) or active"},
+    TargetBurden{"C16", "these cells are made inactive"},
+    TargetBurden{"C17", "parts of their own are solved with nothing that joins them"},
+};
+constexpr std::array mesher_burdens = {
+    TargetBurden{"B15", "elements of the size of the gap fill it"},
+    TargetBurden{"B17", "facets that coincide are told as crossing"},
+    TargetBurden{"B22", "a vertex is put in, and the meshes do not match there"},
+    TargetBurden{"B23", "elements of the size of the gap fill it, or the region leaks"},
+    TargetBurden{"B24", "elements of the size of the gap fill it"},
+    TargetBurden{"M01", "elements as small as the distance are made"},
+    TargetBurden{"M03", "elements as flat as the triangle are made"},
+    TargetBurden{"Q01", "elements as bad as the triangle are made"},
+    TargetBurden{"Q04", "no element there can have a larger angle, and refinement may not end"},
+};
+constexpr std::array cell_burdens = {
+    TargetBurden{"M24", "the cells on both sides are not connected"},
+    TargetBurden{"M27", "the cells on both sides are not connected"},
+};
+constexpr std::array openfoam_burdens = {
+    TargetBurden{"M24", "the cells on both sides are not connected"},
+    TargetBurden{"M27", "the cells on both sides are not connected"},
+    TargetBurden{"M28", "checkMesh tells unused points"},
+};
+
+using enum CellType;
+constexpr std::array abaqus_types = {tetrahedron, pyramid, wedge, hexahedron, quadratic_tetrahedron, quadratic_wedge, quadratic_hexahedron};
+constexpr std::array geos_types = {tetrahedron, pyramid, wedge, hexahedron, pentagonal_prism, hexagonal_prism};
+constexpr std::array openfoam_types = {tetrahedron, pyramid, wedge, hexahedron, pentagonal_prism, hexagonal_prism, polyhedron};
+
+constexpr NameRule any_name{};
+constexpr NameRule abaqus_name{80, true, false, true, false, "\"',*=/\\"};
+constexpr NameRule gmsh_name{127, false, true, false, true, "\"\n"};
+constexpr NameRule openfoam_name{256, false, false, true, true, "\"'/;{}$#"};
+
+constexpr std::array targets = {
+    Target{"abaqus", "Abaqus", TargetInput::cells, "M", cell_burdens, abaqus_name, abaqus_types, false, true},
+    Target{"flow", "OPM Flow", TargetInput::corner_point, "C", flow_burdens, any_name, {}, false, false},
+    Target{"geos", "GEOS", TargetInput::cells, "M", cell_burdens, any_name, geos_types, false, true},
+    Target{"gmsh", "Gmsh", TargetInput::surfaces, "BM", mesher_burdens, gmsh_name, {}, false, false},
+    Target{"openfoam", "OpenFOAM", TargetInput::cells, "M", openfoam_burdens, openfoam_name, openfoam_types, true, false},
+    Target{"tetgen", "TetGen", TargetInput::surfaces, "BM", mesher_burdens, any_name, {}, false, false},
+};
+
+bool has_cells(const CellMesh& mesh) {
+    return std::ranges::any_of(mesh.types, [](CellType t) { return dimension(t) == 3; });
+}
+
+bool takes(const Target& target, const Object& object) {
+    switch (target.input) {
+        case TargetInput::corner_point: {
+            const auto* grid = std::get_if<CornerPointGrid>(&object);
+            return grid != nullptr && has_geometry(*grid);
+        }
+        case TargetInput::surfaces:
+            return std::holds_alternative<Surface>(object) || std::holds_alternative<CellMesh>(object);
+        case TargetInput::cells:
+            break;
+    }
+    const auto* mesh = std::get_if<CellMesh>(&object);
+    return mesh != nullptr && has_cells(*mesh);
+}
+
+const char* wanted_kind(TargetInput input) {
+    constexpr std::array words = {"a corner-point grid with COORD and ZCORN", "surfaces", "cells of three dimensions"};
+    return words[static_cast<std::size_t>(input)];
+}
+
+// What a finding of another check means to the target; empty: nothing.
+std::string_view consequence_of(const Finding& f, const Target& target) {
+    if (f.code.empty()) return {};
+    for (const TargetBurden& burden : target.burdens) {
+        if (f.code == burden.code) return burden.consequence;
+    }
+    const bool stops = f.severity == Severity::error && target.families.find(f.code[0]) != std::string_view::npos;
+    return stops ? std::string_view("it stops there, or its results are wrong") : std::string_view{};
+}
+
+// One finding for each code that matters.
+void check_other_findings(const Target& target, std::span<const Finding> found, std::vector<Finding>& findings) {
+    std::map<std::string, Finding> by_code;
+    for (const Finding& f : found) {
+        const std::string_view consequence = consequence_of(f, target);
+        if (consequence.empty()) continue;
+        const auto [at, is_new] = by_code.try_emplace(f.code);
+        Finding& s = at->second;
+        if (is_new) {
+            s = target_finding("S02", {});
+            s.severity = Severity::warning;
+            s.message = std::string(consequence);
+        }
+        if (f.severity == Severity::error) s.severity = Severity::error;
+        ++s.count;
+        const std::size_t room = listed_elements - std::min(listed_elements, s.entities.size());
+        s.entities.insert(s.entities.end(), f.entities.begin(),
+                          f.entities.begin() + static_cast<std::ptrdiff_t>(std::min(room, f.entities.size())));
+    }
+    for (auto& [code, s] : by_code) {
+        const CodeInfo* row = find_code(code);
+        s.message = code + " (" + counted(s.count, "finding", "findings") +
+                    (row != nullptr ? ": " + std::string(row->meaning) : std::string()) + "): for " + std::string(target.title) +
+                    " this means that " + s.message;
+        findings.push_back(std::move(s));
+    }
+}
+
+}  // namespace
+
+std::span<const Target> all_targets() { return targets; }
+
+const Target* find_target(std::string_view name) {
+    const auto row = std::ranges::find(targets, name, &Target::name);
+    return row == targets.end() ? nullptr : &*row;
+}
+
+Finding target_finding(std::string_view code, std::string message) {
+    Finding f;
+    f.code = code;
+    const CodeInfo* row = find_code(code);
+    f.severity = row != nullptr ? row->severity : Severity::error;
+    f.message = std::move(message);
+    return f;
+}
+
+Result<std::vector<Finding>> readiness(const Dataset& dataset, const Target& target, double tolerance, std::span<const Finding> found) {
+    std::vector<Finding> findings;
+    if (std::ranges::none_of(dataset.objects, [&](const Object& o) { return takes(target, o); })) {
+        findings.push_back(target_finding(
+            "S01", std::string(target.title) + " needs " + wanted_kind(target.input) + ": the file holds nothing of the kind"));
+        return findings;
+    }
+    check_other_findings(target, found, findings);
+    for (const Object& object : dataset.objects) {
+        if (!takes(target, object)) continue;
+        if (const auto* grid = std::get_if<CornerPointGrid>(&object)) check_grid_for_flow(*grid, findings);
+        if (target.input == TargetInput::cells) check_cells_for(target, std::get<CellMesh>(object), findings);
+    }
+    if (target.input == TargetInput::surfaces) {
+        if (auto done = check_regions(dataset, target, tolerance, findings); !done) return std::move(done).why();
+    }
+    if (target.names.longest > 0) check_names(dataset, target, findings);
+    return findings;
+}
+
+}  // namespace geomend::validators

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "validators/found_cells.h"
+#include "validators/readiness.h"
+
+// What a black-oil simulator needs of a corner-point grid beside sound cells.
+
+namespace geomend::validators {
+
+namespace {
+
+Finding about(const CornerPointGrid& grid, std::string_view code, std::string message) {
+    Finding f = target_finding(code, std::move(message));
+    f.entities = {{"corner-point-grid", grid.info.name}};
+    return f;
+}
+
+const Attribute* cell_attribute(const CornerPointGrid& grid, const char* name) {
+    const Attribute* a = find_attribute(grid.info.attributes, name, AttributeLocation::cell);
+    return a != nullptr && value_count(*a) == grid.cell_count() * a->components ? a : nullptr;
+}
+
+// Values that active cells cannot have: missing ones, and those out of range.
+struct BadValues {
+    FoundCells missing, outside;
+};
+
+BadValues bad_values(const CornerPointGrid& grid, const Attribute& a, double least, double most) {
+    BadValues bad;
+    for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
+        if (!grid.is_active(cell)) continue;
+        const double value = value_as_double(a, cell * a.components);
+        if (!std::isfinite(value) || is_no_data(a, value)) bad.missing.add(cell, 0);
+        else if (value < least || value > most) bad.outside.add(cell, std::abs(value));
+    }
+    return bad;
+}
+
+struct Property {
+    const char* name;
+    double least, most;
+};
+constexpr double unbounded = std::numeric_limits<double>::max();
+constexpr std::array properties = {Property{"PORO", 0, 1},          Property{"PORV", 0, unbounded},  Property{"NTG", 0, 1},
+                                   Property{"PERMX", 0, unbounded}, Property{"PERMY", 0, unbounded}, Property{"PERMZ", 0, unbounded}};
+
+void check_values(const CornerPointGrid& grid, const Property& p, std::vector<Finding>& findings) {
+    const Attribute* a = cell_attribute(grid, p.name);
+    if (a == nullptr) return;
+    const BadValues bad = bad_values(grid, *a, p.least, p.most);
+    const std::string name = p.name;
+    // NTG and PORV may be given for some cells only: 1, and what follows from PORO, stand for the rest.
+    const bool may_be_missing = name == "NTG" || name == "PORV";
+    if (bad.missing.count > 0 && !may_be_missing) {
+        Finding f = about(grid, "S04", name + " has no value in " + counted(bad.missing.count, "active cell", "active cells"));
+        list_cells(grid, bad.missing, f);
+        findings.push_back(std::move(f));
+    }
+    if (bad.outside.count > 0) {
+        Finding f = about(grid, "S05",
+                          name + " is " + (p.most == 1 ? "below 0 or above 1" : "below 0") + " in " +
+                              counted(bad.outside.count, "active cell", "active cells"));
+        list_cells(grid, bad.outside, f);
+        findings.push_back(std::move(f));
+    }
+}
+
+void check_properties(const CornerPointGrid& grid, std::vector<Finding>& findings) {
+    const auto has = [&](const char* name) { return cell_attribute(grid, name) != nullptr; };
+    if (!has("PORO") && !has("PORV")) findings.push_back(about(grid, "S04", "there is neither PORO nor PORV: OPM Flow stops"));
+    if (!has("PERMX")) findings.push_back(about(grid, "S04", "there is no PERMX: OPM Flow stops"));
+    for (const char* name : {"PERMY", "PERMZ"}) {
+        if (has("PERMX") && !has(name))
+            findings.push_back(about(grid, "S12", std::string("there is no ") + name + ": PERMX is taken for it"));
+    }
+    for (const Property& p : properties) check_values(grid, p, findings);
+}
+
+}  // namespace
+
+void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& findings) {
+    if (grid.host)
+        return findings.push_back(about(grid, "S09", "this grid refines '" + grid.host->grid + "': OPM Flow takes no local refinements"));
+    if (grid.porosity != CornerPointGrid::Porosity::single)
+        findings.push_back(about(grid, "S09", "the grid has two porosities: OPM Flow takes one"));
+    if (!misfit(grid).empty()) return;
+    if (active_count(grid) == 0) return findings.push_back(about(grid, "S03", "no cell is active: there is nothing to simulate"));
+    check_properties(grid, findings);
+    if (grid.unit_system.empty())
+        findings.push_back(about(grid, "S12", "the unit system is not stated: METRIC is taken (metres, millidarcy, bar)"));
+}
+
+}  // namespace geomend::validators
