@@ -98,6 +98,8 @@ constexpr std::array catalogue = {
     CodeInfo{"F142", warning, "an operation names an array that is not there: kept, not applied", "read the whole deck"},
     CodeInfo{"F151", info, "connections of negligible transmissibility are not listed", ""},
     CodeInfo{"F152", info, "volumes of polyhedra beside those of trilinear cells", ""},
+    CodeInfo{"F153", info, "active cells without enough pore volume have no computed connections",
+             "geomend repair --step minpv makes them inactive"},
     CodeInfo{"F160", info, "no check exists yet for objects of this kind", ""},
     CodeInfo{"F161", info, "a grid has no geometry: only its records were checked", "give the file that holds COORD and ZCORN"},
 };

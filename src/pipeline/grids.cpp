@@ -77,9 +77,33 @@ void add_connection(CornerPointGrid& grid, std::map<std::pair<std::uint64_t, std
     }
 }
 
+// Cells that simulators leave out for their pore volume.
+void tell_left_out(const CornerPointGrid& grid, const grid::SimulatedCells& cells, std::vector<Finding>& findings) {
+    const std::size_t count = cells.without_pores.size() + cells.below_minpv.size();
+    if (count == 0) return;
+    Finding told;
+    told.code = "F153";
+    told.severity = Severity::info;
+    told.count = count;
+    told.element_kind = "cell";
+    for (const auto* list : {&cells.without_pores, &cells.below_minpv}) {
+        for (std::size_t n = 0; n < list->size() && told.index.size() < 100; ++n)
+            told.index.push_back(static_cast<std::int64_t>((*list)[n]));
+    }
+    const auto [i, j, k] = grid.ijk(static_cast<std::size_t>(told.index.front()));
+    told.message = std::to_string(cells.without_pores.size()) + " active cells without pore volume and " +
+                   std::to_string(cells.below_minpv.size()) + " below MINPV take no part, as in simulators (the first is (" +
+                   std::to_string(i + 1) + "," + std::to_string(j + 1) + "," + std::to_string(k + 1) + ")); " +
+                   std::to_string(cells.bridges.size()) + " pairs are joined past them";
+    told.entities.push_back({"grid", grid.info.name, -1});
+    findings.push_back(std::move(told));
+}
+
 Result<void> compute_connections(CornerPointGrid& grid, std::vector<Finding>& findings) {
     constexpr double negligible = 1e-6;
-    const grid::Connections found = grid::connections(grid);
+    grid::SimulatedCells cells = grid::simulated_cells(grid);
+    tell_left_out(grid, cells, findings);
+    const grid::Connections found = grid::connections(grid, std::move(cells));
     std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> known;
     for (std::size_t c = 0; c < grid.connections.size(); ++c)
         known.try_emplace(std::minmax(grid.connections[c].first, grid.connections[c].second), c);
