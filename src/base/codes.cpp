@@ -35,7 +35,7 @@ constexpr std::array catalogue = {
     CodeInfo{"C17", info, "the active cells fall into several parts that do not touch", ""},
     CodeInfo{"C18", info, "a fault is stated where there is no throw, or there is throw where no fault is stated", ""},
     CodeInfo{"C19", warning, "single precision moves a corner by more than the tolerance",
-             "write coordinates relative to a local origin, with MAPAXES"},
+             "convert --option origin=local writes coordinates from a local origin, with MAPAXES"},
     CodeInfo{"C20", error, "a fault record lies outside the grid or is not on one face", "correct FAULTS"},
     CodeInfo{"C21", info, "an active cell or column has no active neighbour", "repair --step drop-isolated"},
     CodeInfo{"C22", info, "a cell is extremely flat or long", ""},
@@ -100,6 +100,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F152", info, "volumes of polyhedra beside those of trilinear cells", ""},
     CodeInfo{"F153", info, "active cells without enough pore volume have no computed connections",
              "geomend repair --step minpv makes them inactive"},
+    CodeInfo{"F154", info, "coordinates were given a local origin", ""},
     CodeInfo{"F160", info, "no check exists yet for objects of this kind", ""},
     CodeInfo{"F161", info, "a grid has no geometry: only its records were checked", "give the file that holds COORD and ZCORN"},
 };
