@@ -343,6 +343,12 @@ Trouble DeckReader::companion_properties() {
     const std::string name = fs::path(base).stem().string() + ".properties.grdecl";
     const std::string_view bytes = input_->bytes();
     const bool named = bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096)).find(name) != std::string_view::npos;
+    if (named && !input_->has_companion(name)) {
+        const fs::path tried = fs::path(input_->name()).parent_path() / name;
+        findings_.push_back(
+            finding("F143", {input_->name()},
+                    "the deck names the file " + shown(name) + " with further properties, which is missing: tried " + tried.string()));
+    }
     if (named && input_->has_companion(name)) {
         auto opened = input_->companion(name);
         if (!opened) return std::move(opened).why();

@@ -96,6 +96,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F134", info, "cells of a grid are not in the file: taken as inactive", ""},
     CodeInfo{"F141", info, "the numbers of cells are not stated: taken from the faults", "give them with --option dims=NX,NY,NZ"},
     CodeInfo{"F142", warning, "an operation names an array that is not there: kept, not applied", "read the whole deck"},
+    CodeInfo{"F143", warning, "the file of further properties that a deck names is missing", "copy it beside the deck"},
     CodeInfo{"F151", info, "connections of negligible transmissibility are not listed", ""},
     CodeInfo{"F152", info, "volumes of polyhedra beside those of trilinear cells", ""},
     CodeInfo{"F153", info, "active cells without enough pore volume have no computed connections",

@@ -5,6 +5,7 @@
 
 #include "base/input.h"
 #include "formats/registry.h"
+#include "pipeline/deck_companions.h"
 
 namespace geomend {
 
@@ -31,7 +32,11 @@ Result<Dataset> load(const std::string& path, const LoadOptions& options) {
     auto format = options.from.empty() ? format_for_reading(*input) : named_format(options.from, *input);
     if (!format) return std::move(format).why();
     try {
-        return (*format)->read(*input, {options.options, options.monitor});
+        auto dataset = (*format)->read(*input, {options.options, options.monitor});
+        if (dataset && (*format)->family == "grdecl") {
+            if (auto followed = follow_deck_companions(*dataset, *input, options); !followed) return std::move(followed).why();
+        }
+        return dataset;
     } catch (const std::bad_alloc&) {
         return failure(FailureKind::limit, "F023", {input->name()}, "there is not enough memory to read this file");
     }
