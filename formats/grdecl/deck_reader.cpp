@@ -164,6 +164,9 @@ Trouble DeckReader::keyword(const Item& word) {
             keep_text(word.at, in().at());
             return {};
         }
+        if (word_ == "ADDZCORN" && !probing_)
+            losses_.push_back({LossClass::substance, grid().grid.info.name, "what ADDZCORN adds to the corner depths",
+                               "it is kept as text, not applied (line " + std::to_string(where(word.at).line) + ")", 1});
         return keep(word.at, word_, true);
     }
     if (section_ == Section::runspec) return keep(word.at, word_, true);
