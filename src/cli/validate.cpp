@@ -132,7 +132,7 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     ExitStatus status = ExitStatus::done;
     const FoundFiles files = find_files(o.files);
     const bool many = o.files.size() > 1 || need_workers(files, o);
-    const auto all =
+    auto all =
         many ? judge_many(command, o, files, monitor, baseline, debris, status) : judge_here(o, load, *checks, baseline, debris, status);
     if (!all) return report(all.why());
     if (!o.report.empty()) {
@@ -140,6 +140,7 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     }
     if (o.json) return worse(status, print(report_json(*all)));
     if (o.quiet) return status;
+    all->all_notes = o.verbose;
     return worse(status, print(report_text(*all, ::isatty(STDOUT_FILENO) == 1)));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <span>
 
 #include "base/codes.h"
 #include "report/elements.h"
@@ -12,6 +14,7 @@ namespace geomend {
 namespace {
 
 constexpr std::size_t shown_elements = 8;
+constexpr std::size_t few_notes = 8;  // so many are told one by one in any case
 
 std::string rounded(double value) {
     char text[32];
@@ -25,7 +28,7 @@ std::string counted(std::uint64_t count, const char* one, const char* many) {
 
 class Text {
 public:
-    explicit Text(bool colour) : colour_(colour) {}
+    Text(bool colour, bool all_notes) : colour_(colour), all_notes_(all_notes) {}
 
     void file(const ReportedFile& file, std::size_t most) {
         const SeverityCounts n = count_by_severity(file.findings);
@@ -61,7 +64,10 @@ private:
 
     void by_entity(const ReportedFile& file, std::size_t most) {
         const auto sorted = worst_first(file.findings);
-        const std::size_t shown = std::min(most, sorted.size());
+        std::size_t shown = std::min(most, sorted.size());
+        const auto notes = static_cast<std::size_t>(std::ranges::count(file.findings, Severity::info, &Finding::severity));
+        const bool summarise = !all_notes_ && notes > few_notes && most >= sorted.size();
+        if (summarise) shown = sorted.size() - notes;  // they come last
         // Entities in the order of their worst finding.
         std::vector<std::pair<std::string, std::vector<const Finding*>>> groups;
         for (std::size_t i = 0; i < shown; ++i) {
@@ -75,7 +81,28 @@ private:
             text_ += "  " + name + '\n';
             for (const Finding* f : findings) finding(*f);
         }
+        if (summarise) return notes_by_code(std::span(sorted).subspan(shown));
         if (sorted.size() > shown) text_ += "  ... and " + counted(sorted.size() - shown, "more finding", "more findings") + '\n';
+    }
+
+    void notes_by_code(std::span<const Finding* const> notes) {
+        std::map<std::string, std::vector<const Finding*>> by_code;
+        for (const Finding* f : notes) by_code[f->code].push_back(f);
+        text_ += "  notes (one by one with --verbose)\n";
+        for (const auto& [code, findings] : by_code) {
+            text_ += "    " + painted("note   ", "36") + ' ' + code + "  ";
+            if (findings.size() == 1) {
+                text_ += findings[0]->message + '\n';
+                continue;
+            }
+            const CodeInfo* row = find_code(code);
+            text_ += std::to_string(findings.size()) + " times: " + (row != nullptr ? std::string(row->meaning) : std::string()) + ":";
+            std::size_t named = 0;
+            for (const Finding* f : findings) {
+                if (named++ < 4 && !f->entities.empty()) text_ += (named == 1 ? " '" : ", '") + f->entities[0].name + "'";
+            }
+            text_ += findings.size() > 4 ? ", ...\n" : "\n";
+        }
     }
 
     void finding(const Finding& f) {
@@ -88,7 +115,7 @@ private:
         further_entities(f);
         elements(f);
         const CodeInfo* row = find_code(f.code);
-        if (row != nullptr && !row->fix.empty()) text_ += indent() + "to mend it: " + std::string(row->fix) + '\n';
+        if (row != nullptr && !row->fix.empty() && f.severity > Severity::info) text_ += indent() + "to mend it: " + std::string(row->fix) + '\n';
     }
 
     void step(const ReportedStep& s) {
@@ -119,14 +146,14 @@ private:
 
     static std::string indent() { return std::string(18, ' '); }
 
-    bool colour_;
+    bool colour_, all_notes_;
     std::string text_;
 };
 
 }  // namespace
 
 std::string report_text(const Report& report, bool colour) {
-    Text text(colour);
+    Text text(colour, report.all_notes);
     for (const ReportedFile& file : report.files) text.file(file, report.most_findings);
     return text.take() + (report.summary ? summary_text(*report.summary) : std::string());
 }

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// All checks of a Model3d of 782,000 triangles, 880 surfaces and 128 regions (sixteen copies of a real model, where the real
+// data is at hand), reading included, against CGAL's sequential self_intersections on the same triangles in the same run.
+#include <benchmark/benchmark.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "formats/gocad/write_gocad.h"
+#include "peak_memory.h"
+#include "pipeline/validate.h"
+#include "support/real_data.h"
+#include "topology/brep_from_dataset.h"
+#ifdef GEOMEND_WITH_CGAL
+#include "cgal_intersections.h"
+#endif
+
+namespace {
+
+using namespace geomend;
+
+/// Copies of a model with its statements, side by side in one.
+Dataset copies_of(const Dataset& one, std::uint32_t copies, double spacing) {
+    Dataset all;
+    all.format = one.format;
+    all.variant = one.variant;
+    all.models.resize(1);
+    StatedModel& model = all.models[0];
+    model.name = one.models[0].name;
+    model.crs = one.models[0].crs;
+    for (std::uint32_t c = 0; c < copies; ++c) {
+        const auto objects = static_cast<std::uint32_t>(all.objects.size()), faces = static_cast<std::uint32_t>(model.faces.size());
+        const auto shifted = [&](Vec3 p) {
+            p[0] += spacing * (c % 4);
+            p[1] += spacing * (c / 4);
+            return p;
+        };
+        const std::string mark = "_" + std::to_string(c);
+        for (Object object : one.objects) {
+            auto& surface = std::get<Surface>(object);
+            for (Vec3& p : surface.points) p = shifted(p);
+            surface.info.name += mark;
+            all.objects.push_back(std::move(object));
+        }
+        for (StatedModel::Face face : one.models[0].faces) {
+            face.object += objects;
+            face.number += faces;
+            face.interface_name += mark;
+            if (face.key) {
+                for (Vec3& p : *face.key) p = shifted(p);
+            }
+            model.faces.push_back(std::move(face));
+        }
+        for (StatedModel::Region region : one.models[0].regions) {
+            for (auto& side : region.sides) side.face += faces;
+            if (region.universe && c > 0) {
+                for (auto& known : model.regions) {
+                    if (known.universe) known.sides.insert(known.sides.end(), region.sides.begin(), region.sides.end());
+                }
+                continue;
+            }
+            if (!region.universe) region.name += mark;
+            model.regions.push_back(std::move(region));
+        }
+    }
+    for (std::size_t r = 0; r < model.regions.size(); ++r) model.regions[r].number = static_cast<std::int64_t>(model.faces.size() + 1 + r);
+    return all;
+}
+
+/// The file that is checked, on disk; empty where there is no real data.
+const std::string& model_file() {
+    static const std::string path = [] {
+        const auto real = test::real_data("gocad/modelA4.ml");
+        if (!real) return std::string();
+        const auto one = load(real->string(), {});
+        if (!one) return std::string();
+        const auto name = std::filesystem::temp_directory_path() / ("bench_checks_" + std::to_string(::getpid()) + ".ml");
+        OutputSet files(name);
+        if (!gocad::write_model3d(copies_of(*one, 16, 20000), files, {}) || !files.commit()) return std::string();
+        return name.string();
+    }();
+    return path;
+}
+
+void all_checks(benchmark::State& state) {
+    const std::string& path = model_file();
+    if (path.empty()) return state.SkipWithError("no real data");
+    const ThreadBudget budget(static_cast<std::size_t>(state.range(0)));
+    std::size_t findings = 0;
+    for (auto _ : state) {
+        const auto file = validate(path, {}, {});
+        findings = file ? file->findings.size() : 0;
+    }
+    state.counters["findings"] = static_cast<double>(findings);
+    state.counters["peak_MB"] = bench::status_bytes("VmHWM:") / 1e6;
+}
+
+#ifdef GEOMEND_WITH_CGAL
+void cgal_self_intersections(benchmark::State& state) {
+    const std::string& path = model_file();
+    if (path.empty()) return state.SkipWithError("no real data");
+    const auto data = load(path, {});
+    const auto models = topology::models_to_judge(*data, 0);
+    const BrepData& brep = *models->front().brep;
+    std::vector<Triangle> triangles;
+    for (const auto& surface : brep.surfaces) {
+        for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+            const auto t = surface.polygons[p];
+            triangles.push_back({surface.nodes[t[0]].value, surface.nodes[t[1]].value, surface.nodes[t[2]].value});
+        }
+    }
+    const bench::CgalMesh mesh(brep.vertices, triangles);
+    std::size_t pairs = 0;
+    for (auto _ : state) pairs = mesh.self_intersections().size();
+    state.counters["pairs"] = static_cast<double>(pairs);
+}
+#endif
+
+}  // namespace
+
+BENCHMARK(all_checks)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(1)->Arg(2);
+#ifdef GEOMEND_WITH_CGAL
+BENCHMARK(cgal_self_intersections)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
+#endif
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+    if (!model_file().empty()) std::filesystem::remove(model_file());
+    return 0;
+}
