@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Intersections of triangle soups, against CGAL's sequential self_intersections on the same triangles. Models: folded
 // horizons with faults through them, from 10^4 to 10^7 triangles; and, where the real data is at hand, sixteen copies of modelA4.
-//   bench_intersections --check FILE.ml...   compares the pairs found in a file with CGAL's instead, one by one
+//   bench_intersections --check FILE.ml...   compares the pairs found in a file, and in two copies of it a
+//   little apart, with CGAL's instead, one by one
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 
 #include "base/parallel.h"
 #include "geometry/intersections.h"
+#include "geometry/near_misses.h"
 #include "peak_memory.h"
 #include "soup_models.h"
 #include "support/real_data.h"
@@ -62,7 +64,50 @@ void tree_only(benchmark::State& state) {
     tell(state, soup.triangles.size(), 0);
 }
 
+void borders(benchmark::State& state) {
+    const Soup& soup = model(state.range(0));
+    if (soup.triangles.empty()) return state.SkipWithError("no real data");
+    const Borders free = free_borders(soup);
+    const TriangleTree tree(soup.vertices, soup.triangles);
+    const ThreadBudget budget(static_cast<std::size_t>(state.range(1)));
+    std::size_t misses = 0;
+    for (auto _ : state) misses = near_misses(tree, soup.groups, free.edges, free.groups, near_length(soup)).size();
+    tell(state, soup.triangles.size(), misses);
+}
+
+void insides(benchmark::State& state) {
+    const Soup& soup = model(state.range(0));
+    if (soup.triangles.empty()) return state.SkipWithError("no real data");
+    const TriangleTree tree(soup.vertices, soup.triangles);
+    const ThreadBudget budget(static_cast<std::size_t>(state.range(1)));
+    std::size_t found = 0;
+    for (auto _ : state) found = closest_pairs(tree, soup.groups, near_length(soup)).size();
+    tell(state, soup.triangles.size(), found);
+}
+
 #ifdef GEOMEND_WITH_CGAL
+void say_near(const Soup& soup) {
+    const Borders free = free_borders(soup);
+    const TriangleTree tree(soup.vertices, soup.triangles);
+    for (const double part : {1.0, 5.0, 0.1}) {
+        const double near = part * near_length(soup);
+        const auto misses = near_misses(tree, soup.groups, free.edges, free.groups, near);
+        const auto close = closest_pairs(tree, soup.groups, near);
+        std::printf("  within %g: %zu of %zu free border edges, %zu pairs of surfaces\n", near, misses.size(), free.edges.size(),
+                    close.size());
+        for (std::size_t i = 0; i < std::min<std::size_t>(misses.size(), 5); ++i) {
+            const NearMiss& m = misses[i];
+            std::printf("    surface %u edge %u-%u, surface %u triangle %u: %g at %g %g %g\n", free.groups[m.border_edge],
+                        free.edges[m.border_edge][0], free.edges[m.border_edge][1], soup.groups[m.triangle], m.triangle, m.distance,
+                        m.on_edge[0], m.on_edge[1], m.on_edge[2]);
+        }
+        for (std::size_t i = 0; i < std::min<std::size_t>(close.size(), 5); ++i) {
+            const ClosePair& c = close[i];
+            std::printf("    surfaces %u and %u: %g at %g %g %g\n", c.group_a, c.group_b, c.distance, c.on_a[0], c.on_a[1], c.on_a[2]);
+        }
+    }
+}
+
 void cgal(benchmark::State& state) {
     const Soup& soup = model(state.range(0));
     if (soup.triangles.empty()) return state.SkipWithError("no real data");
@@ -81,8 +126,8 @@ bool more_than_shared(const Soup& soup, const std::array<std::uint32_t, 2>& pair
 }
 
 /// Says how the pairs differ; 0 where they are the same.
-int check(const char* path) {
-    const Soup soup = copies_of(path, 1);
+int check(const char* path, std::size_t copies, double spacing) {
+    const Soup soup = copies_of(path, copies, spacing);
     std::set<std::array<std::uint32_t, 2>> mine, theirs;
     std::array<std::size_t, 5> kinds{};
     int wrong = 0;
@@ -106,6 +151,7 @@ int check(const char* path) {
                 path, soup.triangles.size(), mine.size(), kinds[1], kinds[2], kinds[3], kinds[4], wrong);
     std::printf("  CGAL's mesh: %zu pairs, %zu of them in more than vertices and edges of equal position; %zu only here, %zu only there\n",
                 all, theirs.size(), only_mine, only_theirs);
+    if (copies == 1) say_near(soup);
     return wrong == 0 && only_mine == 0 && only_theirs == 0 ? 0 : 1;
 }
 #endif
@@ -118,6 +164,8 @@ void sizes(benchmark::internal::Benchmark* b) {
     }
 }
 BENCHMARK(ours)->Apply(sizes);
+BENCHMARK(borders)->Unit(benchmark::kMillisecond)->UseRealTime()->Args({0, 0})->Args({0, 1});
+BENCHMARK(insides)->Unit(benchmark::kMillisecond)->UseRealTime()->Args({0, 0})->Args({0, 1});
 BENCHMARK(tree_only)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(0)->Arg(1000000);
 #ifdef GEOMEND_WITH_CGAL
 BENCHMARK(cgal)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(0)->Arg(10000)->Arg(100000)->Arg(1000000);
@@ -129,7 +177,7 @@ int main(int argc, char** argv) {
 #ifdef GEOMEND_WITH_CGAL
     if (argc > 1 && std::strcmp(argv[1], "--check") == 0) {
         int result = 0;
-        for (int i = 2; i < argc; ++i) result |= check(argv[i]);
+        for (int i = 2; i < argc; ++i) result |= check(argv[i], 1, 0) | check(argv[i], 2, 0.0137);
         return result;
     }
 #endif

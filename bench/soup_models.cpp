@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "base/input.h"
 #include "formats/gocad/read_gocad.h"
+#include "geometry/vectors.h"
 #include "topology/weld.h"
 
 namespace geomend::bench {
@@ -31,6 +33,33 @@ void add_sheet(Soup& soup, std::uint32_t n, const Place& place) {
 
 }  // namespace
 
+Borders free_borders(const Soup& soup) {
+    std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> uses;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [p, q] = std::minmax(soup.triangles[t][i], soup.triangles[t][(i + 1) % 3]);
+            uses.push_back({{p, q}, soup.groups[t]});
+        }
+    }
+    std::sort(uses.begin(), uses.end());
+    Borders borders;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const bool again = (i > 0 && uses[i - 1].first == uses[i].first) || (i + 1 < uses.size() && uses[i + 1].first == uses[i].first);
+        if (again) continue;
+        borders.edges.push_back(uses[i].first);
+        borders.groups.push_back(uses[i].second);
+    }
+    return borders;
+}
+
+double near_length(const Soup& soup) {
+    Vec3 centre{};
+    for (const Vec3& p : soup.vertices) centre = plus(centre, times(1.0 / double(soup.vertices.size()), p));
+    double largest = 0;
+    for (const Vec3& p : soup.vertices) largest = std::max(largest, dot(minus(p, centre), minus(p, centre)));
+    return 1e-3 * 2 * std::sqrt(largest);
+}
+
 Soup crossed_folds(std::size_t triangles) {
     Soup soup;
     const auto n = static_cast<std::uint32_t>(std::sqrt(double(triangles) / 2 / 12));
@@ -47,7 +76,7 @@ Soup crossed_folds(std::size_t triangles) {
     return soup;
 }
 
-Soup copies_of(const std::string& path, std::size_t copies) {
+Soup copies_of(const std::string& path, std::size_t copies, double spacing) {
     Soup once;
     const auto input = Input::open(path);
     if (!input) return once;
@@ -74,7 +103,7 @@ Soup copies_of(const std::string& path, std::size_t copies) {
     Soup all;
     for (std::size_t copy = 0; copy < copies; ++copy) {
         const auto first = static_cast<std::uint32_t>(all.vertices.size());
-        const double shift = 1.25 * (high - low) * double(copy);
+        const double shift = spacing * (high - low) * double(copy);
         for (const Vec3& p : once.vertices) all.vertices.push_back({p[0] + shift, p[1], p[2]});
         for (const Triangle& t : once.triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
         for (const std::uint32_t g : once.groups) all.groups.push_back(static_cast<std::uint32_t>(copy) * group + g);

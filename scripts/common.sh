@@ -11,7 +11,9 @@ build_packages=(g++ cmake ninja-build ccache
     libgtest-dev librapidcheck-dev libbenchmark-dev python3 scdoc)
 # Other programs' readers, against which the tests hold our files, and what checks the formatting.
 client_packages=(gmsh python3-vtk9 clang-format-14
-    libopm-simulators-bin libopm-grid-bin libopm-common-bin python3-opm-common)
+    libopm-simulators-bin libopm-grid-bin libopm-common-bin python3-opm-common chromium-headless-shell)
+# Brings vtk.js for HTML reports while they are built. An npm from elsewhere stays.
+command -v npm >/dev/null || client_packages+=(npm)
 
 say() { printf '%s\n' "== $*"; }
 fail() {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "grid/pore_volume.h"
 #include "validators/corner_point.h"
-#include "validators/pore_volume.h"
 
 // What matters to flow: C16, C17 and C21.
 
@@ -69,10 +69,10 @@ bool fits_in_32_bits(const CornerPointGrid& grid) { return grid.cell_count() < 0
 
 void check_pore_volumes(const GridScope& scope, std::vector<Finding>& findings) {
     const auto& grid = scope.grid();
-    if (!knows_pore_volumes(grid)) return;
-    const std::vector<double> volumes = pore_volumes(grid);
-    const std::vector<double> own_least = fitting_values(grid, "MINPVV", 0);
-    const double least = least_pore_volume(grid);
+    if (!grid::knows_pore_volumes(grid)) return;
+    const std::vector<double> volumes = grid::pore_volumes(grid);
+    const std::vector<double> own_least = grid::fitting_values(grid, "MINPVV", 0);
+    const double least = grid::least_pore_volume(grid);
     const auto found = find_cells(scope, [&](std::size_t cell, std::uint32_t, std::uint32_t, std::uint32_t) {
         const double bound = own_least.empty() ? least : own_least[cell];
         return Judgement{grid.is_active(cell) && volumes[cell] < bound, bound - volumes[cell]};

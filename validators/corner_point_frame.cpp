@@ -96,7 +96,8 @@ void check_single_precision(const GridScope& scope, std::vector<Finding>& findin
     Finding f = cells_finding(scope, "C19",
                               "single precision, as EGRID, GRID and ROFF files have it, moves corners of " +
                                   counted(found.count, "cell", "cells") + " by up to " + rounded(found.worst) + " (" +
-                                  cell_text(grid, found.worst_cell) + "), more than the tolerance of " + rounded(scope.tolerance()),
+                                  cell_text(grid, found.worst_cell) + "), more than the tolerance of " + rounded(scope.tolerance()) +
+                                  "; written with --option origin=local, coordinates count from a round origin near the grid",
                               found);
     f.measures = {{"shift", found.worst}};
     findings.push_back(std::move(f));

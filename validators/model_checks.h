@@ -31,7 +31,7 @@ void check_region_overlap(const ModelScope&, std::vector<Finding>&);      // B14
 void check_thin_regions(const ModelScope&, std::vector<Finding>&);        // B15
 void check_outside_surfaces(const ModelScope&, std::vector<Finding>&);    // B16
 void check_radial_order(const ModelScope&, std::vector<Finding>&);        // B17
-void check_stated_borders(const ModelScope&, std::vector<Finding>&);       // B19
+void check_stated_borders(const ModelScope&, std::vector<Finding>&);      // B19
 void check_intersections(const ModelScope&, std::vector<Finding>&);       // B02 B08 B10 B11 B20 B22
 void check_near_misses(const ModelScope&, std::vector<Finding>&);         // B23 B24
 void check_region_names(const ModelScope&, std::vector<Finding>&);        // G01

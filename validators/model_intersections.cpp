@@ -58,11 +58,41 @@ bool on_line_edge(const ModelScope& scope, const LineEdges& lines, const std::ar
     return false;
 }
 
+/// How a triangle lies to the plane of another one.
+struct Lie {
+    double depth;     ///< how far it reaches through, on the side where it reaches less
+    double farthest;  ///< the distance of its farthest corner
+};
+
+Lie lie_of(const ModelScope& scope, const std::array<std::uint32_t, 3>& t, const std::array<std::uint32_t, 3>& plane) {
+    const auto& v = scope.brep().vertices;
+    const Vec3 n = cross(minus(v[plane[1]], v[plane[0]]), minus(v[plane[2]], v[plane[0]]));
+    const double length = std::sqrt(dot(n, n));
+    double above = 0, below = 0;
+    for (const std::uint32_t corner : t) {
+        const double distance = dot(minus(v[corner], v[plane[0]]), n) / length;
+        above = std::max(above, distance);
+        below = std::max(below, -distance);
+    }
+    return {std::min(above, below), std::max(above, below)};
+}
+
+/// What a crossing is once the tolerance is granted: a border that reaches through by no more only touches.
+Meeting judged_kind(const ModelScope& scope, const TriangleMeetingPair& pair) {
+    if (pair.how.kind != Meeting::crossing) return pair.how.kind;
+    const auto& a = scope.triangles()[pair.a];
+    const auto& b = scope.triangles()[pair.b];
+    const Lie ab = lie_of(scope, a, b), ba = lie_of(scope, b, a);
+    const double tolerance = scope.lengths().tolerance;
+    if (std::min(ab.farthest, ba.farthest) <= tolerance) return Meeting::overlap;
+    return std::min(ab.depth, ba.depth) <= tolerance ? Meeting::touch : Meeting::crossing;
+}
+
 using SurfacePair = std::pair<std::uint32_t, std::uint32_t>;
 
 std::map<SurfacePair, Common> gather(const ModelScope& scope) {
     std::map<SurfacePair, Common> all;
-    const auto pairs = intersections(scope.brep().vertices, scope.triangles(), scope.monitor());
+    const auto pairs = intersections(scope.tree(), scope.monitor());
     if (pairs.empty()) return all;
     const LineEdges lines(scope);
     constexpr std::size_t most_segments = 100000;
@@ -73,14 +103,15 @@ std::map<SurfacePair, Common> gather(const ModelScope& scope) {
         if (sa == sb && scope.polygon_of(pair.b) == polygon) continue;  // a polygon that is not plane
         common.polygons.push_back(polygon);
         if (sa == sb) common.polygons.push_back(scope.polygon_of(pair.b));
-        switch (pair.how.kind) {
+        const Meeting kind = judged_kind(scope, pair);
+        switch (kind) {
             case Meeting::none:
                 break;
             case Meeting::point:
                 ++common.point;
                 break;
             case Meeting::touch:
-                if (on_line_edge(scope, lines, scope.triangles()[pair.a], pair.how.segment) ||
+                if (pair.how.kind == Meeting::crossing || on_line_edge(scope, lines, scope.triangles()[pair.a], pair.how.segment) ||
                     on_line_edge(scope, lines, scope.triangles()[pair.b], pair.how.segment))
                     ++common.border;
                 else ++common.inside;
@@ -92,8 +123,8 @@ std::map<SurfacePair, Common> gather(const ModelScope& scope) {
                 ++common.overlap;
                 break;
         }
-        if (pair.how.kind == Meeting::point && common.points.size() < listed_elements) common.points.push_back(pair.how.segment[0]);
-        if (pair.how.kind != Meeting::point && common.segments.size() < most_segments) common.segments.push_back(pair.how.segment);
+        if (kind == Meeting::point && common.points.size() < listed_elements) common.points.push_back(pair.how.segment[0]);
+        if (kind != Meeting::point && common.segments.size() < most_segments) common.segments.push_back(pair.how.segment);
     }
     return all;
 }

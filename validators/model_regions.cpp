@@ -32,44 +32,6 @@ bool has_free_border(const ModelScope& scope, const BrepData::Surface& surface) 
     return std::ranges::any_of(surface.lines, [&](const auto& use) { return scope.free_lines()[use.line.value] != 0; });
 }
 
-/// Per side, the sides that it faces, each with the line between them.
-struct Walks {
-    struct Step {
-        std::uint32_t side, line;
-    };
-    std::vector<std::vector<Step>> steps;
-};
-
-Walks walks_of(const ModelScope& scope) {
-    Walks walks;
-    walks.steps.resize(2 * scope.brep().surfaces.size());
-    for (const auto& join : scope.model().found.joins) {
-        walks.steps[join.first].push_back({join.second, join.line});
-        walks.steps[join.second].push_back({join.first, join.line});
-    }
-    return walks;
-}
-
-/// The line, with nothing beyond it, by which the shortest way from the back of a surface to its front goes round.
-std::uint32_t way_round(const Walks& walks, std::uint32_t surface) {
-    std::vector<std::uint32_t> from(walks.steps.size(), no_index), line(walks.steps.size(), no_index);
-    std::vector<std::uint32_t> queue{2 * surface};
-    from[2 * surface] = 2 * surface;
-    for (std::size_t k = 0; k < queue.size() && from[2 * surface + 1] == no_index; ++k) {
-        for (const auto& step : walks.steps[queue[k]]) {
-            if (from[step.side] != no_index) continue;
-            from[step.side] = queue[k];
-            line[step.side] = step.line;
-            queue.push_back(step.side);
-        }
-    }
-    if (from[2 * surface + 1] == no_index) return no_index;
-    for (std::uint32_t side = 2 * surface + 1; side != 2 * surface; side = from[side]) {
-        if ((from[side] ^ 1u) == side) return line[side];
-    }
-    return no_index;
-}
-
 /// The regions that the file's own lists put on the two sides of each surface; none: no_index, the Universe: its own number.
 std::vector<std::array<std::uint32_t, 2>> stated_sides(const ModelScope& scope) {
     const BrepData& brep = scope.brep();
@@ -167,48 +129,78 @@ void check_free_ends(const ModelScope& scope, std::vector<Finding>& findings) {
     });
 }
 
+namespace {
+
+/// Lines with nothing beyond them, around which a region goes from one side of a surface to the other: the borders of holes.
+/// Where faults end there is no hole, unless nothing else is there.
+std::vector<std::uint32_t> hole_lines(const ModelScope& scope, std::uint32_t region) {
+    const auto& found = scope.model().found;
+    std::vector<std::uint32_t> holes, tips;
+    for (const auto& join : found.joins) {
+        if ((join.first ^ 1u) != join.second || found.region_of_side[join.first] != region) continue;
+        (may_end_freely(scope.brep().surfaces[join.first / 2].role) ? tips : holes).push_back(join.line);
+    }
+    return holes.empty() ? tips : holes;
+}
+
+Finding leak_finding(const ModelScope& scope, std::uint32_t region, const std::vector<std::uint32_t>& surfaces) {
+    const BrepData& brep = scope.brep();
+    Finding finding =
+        finding_of("B12", region_name(scope, region) + " leaks: it lies on both sides of " + quoted(brep.surfaces[surfaces[0]].name));
+    if (surfaces.size() > 1) finding.message += " and of " + counted(surfaces.size() - 1, "other surface", "other surfaces");
+    std::set<std::string> owners;
+    const auto lines = hole_lines(scope, region);
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (const auto& use : brep.surfaces[s].lines) {
+            if (std::ranges::find(lines, use.line.value) != lines.end()) owners.insert(quoted(brep.surfaces[s].name));
+        }
+    }
+    if (!owners.empty()) {
+        finding.message += "; its sides meet around the free border of " + *owners.begin();
+        if (owners.size() > 1) finding.message += ", " + *std::next(owners.begin()) + (owners.size() > 2 ? ", ..." : "");
+    }
+    for (const std::uint32_t l : lines) mark_line(scope, l, finding);
+    finding.element_kind = "surface";
+    finding.count = surfaces.size();
+    for (const std::uint32_t s : surfaces) {
+        if (finding.entities.size() >= listed_elements) break;
+        finding.entities.push_back(surface_ref(scope, s));
+        finding.index.push_back(s);
+    }
+    return finding;
+}
+
+}  // namespace
+
 void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
     const BrepData& brep = scope.brep();
     const auto& found = scope.model().found;
     if (found.region_of_side.empty()) return;
-    const Walks walks = walks_of(scope);
     const auto stated = stated_sides(scope);
-    std::map<std::pair<bool, std::uint32_t>, Finding> by_hole;  // errors and information apart
+    std::map<std::uint32_t, std::vector<std::uint32_t>> leaking;  // per region
+    std::vector<std::uint32_t> internal;
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
         const auto& surface = brep.surfaces[s];
-        if (surface.polygons.size() == 0 || found.region_of_side[2 * s] != found.region_of_side[2 * s + 1]) continue;
         const std::uint32_t region = found.region_of_side[2 * s];
+        if (surface.polygons.size() == 0 || region != found.region_of_side[2 * s + 1]) continue;
         const bool lists_differ = stated[s][0] != stated[s][1] && stated[s][0] != no_index && stated[s][1] != no_index;
         const bool separates =
             is_stratigraphic(surface.role) || surface.role == FeatureRole::boundary || surface.role == FeatureRole::topography;
-        const bool loose_outside = region == no_index && !scope.model().regions_stated;  // nothing is said to be closed
-        if (loose_outside && !(separates && !found.regions.empty())) continue;
-        const bool error = lists_differ || (separates && (region != no_index || scope.model().regions_stated));
-        const bool quiet = !error && region == no_index;  // B16 tells
-        if (quiet) continue;
-        const std::uint32_t line = way_round(walks, s);
-        Finding& finding = by_hole[{!error, line}];
-        if (finding.code.empty()) {
-            finding = finding_of("B12", error ? region_name(scope, region) + " leaks: it lies on both sides of " + quoted(surface.name)
-                                              : quoted(surface.name) + " lies inside " + region_name(scope, region) + " on both sides");
-            if (!error) finding.severity = Severity::info;
-            if (line != no_index) {
-                for (std::uint32_t o = 0; error && o < brep.surfaces.size(); ++o) {
-                    const bool owner = std::ranges::any_of(brep.surfaces[o].lines, [&](const auto& use) { return use.line.value == line; });
-                    if (owner) finding.message += "; they meet around the free border of " + quoted(brep.surfaces[o].name);
-                }
-                mark_line(scope, line, finding);
-            }
-            finding.element_kind = "surface";
-        }
-        ++finding.count;
-        if (finding.entities.size() < listed_elements) {
-            finding.entities.push_back(surface_ref(scope, s));
-            finding.index.push_back(s);
-        }
+        const bool closed_is_meant = region != no_index || scope.model().regions_stated || !found.regions.empty();
+        if (lists_differ || (separates && closed_is_meant)) leaking[region].push_back(s);
+        else if (region != no_index) internal.push_back(s);  // outside of all regions: B16
     }
-    for (auto& [hole, finding] : by_hole) {
-        if (finding.count > 1) finding.message += " (and so with " + counted(finding.count - 1, "other surface", "other surfaces") + ")";
+    for (const auto& [region, surfaces] : leaking) findings.push_back(leak_finding(scope, region, surfaces));
+    for (const std::uint32_t s : internal) {
+        const std::uint32_t region = found.region_of_side[2 * s];
+        Finding finding =
+            finding_of("B12", quoted(brep.surfaces[s].name) + " lies inside " + region_name(scope, region) + " with both sides");
+        finding.severity = Severity::info;
+        finding.entities.push_back(surface_ref(scope, s));
+        finding.count = 1;
+        for (const auto& use : brep.surfaces[s].lines) {
+            if (scope.free_lines()[use.line.value] != 0) mark_line(scope, use.line.value, finding);
+        }
         findings.push_back(std::move(finding));
     }
 }

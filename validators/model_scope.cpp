@@ -97,6 +97,11 @@ ModelScope::ModelScope(const Dataset& dataset, const topology::JudgedModel& mode
     for (std::size_t l = 0; l < uses.size(); ++l) free_line_[l] = uses[l] == 1 ? 1 : 0;
 }
 
+const TriangleTree& ModelScope::tree() const {
+    if (!tree_) tree_ = std::make_unique<TriangleTree>(brep().vertices, triangles_);
+    return *tree_;
+}
+
 std::uint32_t ModelScope::surface_of(std::uint32_t triangle) const {
     const auto above = std::upper_bound(first_triangle_.begin(), first_triangle_.end(), triangle);
     return static_cast<std::uint32_t>(above - first_triangle_.begin() - 1);

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "geometry/triangle_tree.h"
 #include "topology/brep_from_dataset.h"
 #include "validators/grid_scope.h"
 
@@ -40,6 +42,8 @@ public:
     const Vec3& vertex_of_node(const BrepData::Surface& surface, std::uint32_t node) const {
         return brep().vertices[surface.nodes[node].value];
     }
+    /// A search tree over triangles(), made when first asked for. Not for several threads at once.
+    const TriangleTree& tree() const;
     /// Where the lines of one surface alone run: its free borders.
     const std::vector<std::uint8_t>& free_lines() const { return free_line_; }
 
@@ -52,6 +56,7 @@ private:
     std::vector<std::uint32_t> first_triangle_;  // per surface, and the end
     std::vector<std::uint32_t> polygon_;         // per triangle; empty where all polygons are triangles
     std::vector<std::uint8_t> free_line_;
+    mutable std::unique_ptr<TriangleTree> tree_;
 };
 
 /// True for roles whose surfaces may end anywhere.

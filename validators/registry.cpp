@@ -53,6 +53,8 @@ constexpr std::array table = {
     of_model("B19", "a BORDER record names two points that no triangle of the surface has as an edge", check_stated_borders),
     of_model("B20", "triangles of two surfaces have an area in common; exact", check_intersections),
     of_model("B22", "triangles of two surfaces have single points in common that they do not share; exact", check_intersections),
+    of_model("B23", "an edge of a free border comes closer to a surface than the search length, without meeting it", check_near_misses),
+    of_model("B24", "two surfaces come closer than the search length away from what they share", check_near_misses),
     Check{"C01", "an array has another length than the dimensions ask for; nothing else is then checked"},
     Check{"C02", "a corner or pillar of an active cell is not finite, or 1e20 or more", check_coordinates},
     Check{"C03", "on a pillar the bottom lies above the top by more than the tolerance", check_inverted},
@@ -166,7 +168,7 @@ void run_all(const Scope& scope, const CheckOptions& options, void (*Check::*mem
 
 }  // namespace
 
-Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options) {
+Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged) {
     Checked result;
     result.lengths = lengths_of(dataset, options);
     auto models = topology::models_to_judge(dataset, result.lengths.tolerance);
@@ -179,6 +181,7 @@ Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options
         std::ranges::move(model.findings, std::back_inserter(result.findings));
         std::ranges::move(findings, std::back_inserter(result.findings));
         if (scope.stopped()) return stopped();
+        if (judged != nullptr) judged->push_back(std::move(model.brep));
     }
     for (const Object& object : dataset.objects) {
         const auto* mesh = std::get_if<CellMesh>(&object);

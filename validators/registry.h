@@ -42,8 +42,9 @@ struct Checked {
 
 /// Runs all wanted checks of the surfaces and cells of a Dataset: of each model that it states, of all other surfaces
 /// together, and of each cell mesh. Never changes it. What the file's claims disagree with is told, too. Cost: near-linear.
+/// \param judged where not null: the boundary representations that findings are about are added to it
 /// Failure (cancelled) when the monitor stops it.
-Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options);
+Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged = nullptr);
 
 /// Runs all wanted checks of a corner-point grid. Never changes it. Cost: linear in cells but for columns whose cells
 /// overlap. Failure (cancelled) when the monitor stops it.

@@ -39,9 +39,11 @@ double diagonal_of(const CornerPointGrid& grid) {
 void add_rounding_loss(const Rounding& rounding, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses) {
     if (rounding.changed == 0) return;
     const bool harmless = rounding.largest <= largest_harmless_shift * diagonal_of(grid);
+    const char* way_out =
+        harmless ? "" : ": --option origin=local lets coordinates count from a round origin near the grid, told by MAPAXES";
     add_loss(losses, {harmless ? LossClass::identity : LossClass::substance, grid.info.name,
                       "coordinates rounded to single precision, by at most " + number_text(rounding.largest),
-                      std::string(title) + " files store float32", rounding.changed});
+                      std::string(title) + " files store float32" + way_out, rounding.changed});
 }
 
 bool is_head(std::string_view name) { return name == "FILEHEAD" || name == "GRIDHEAD"; }

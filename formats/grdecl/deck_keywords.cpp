@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/text_cursor.h"
+#include "formats/grdecl/companions.h"
 #include "formats/grdecl/deck_reader.h"
 
 namespace geomend::grdecl {
@@ -239,7 +240,7 @@ Trouble DeckReader::import_file() {
     keep_text(word_at_, in().at());
     losses_.push_back({LossClass::substance,
                        {},
-                       "what IMPORT takes from " + shown(record->text(0)),
+                       companion_loss("IMPORT", trimmed(record->text(0))),
                        "binary records are read as a file of their own: convert it by itself",
                        1});
     return {};

@@ -164,6 +164,9 @@ Trouble DeckReader::keyword(const Item& word) {
             keep_text(word.at, in().at());
             return {};
         }
+        if (word_ == "ADDZCORN" && !probing_)
+            losses_.push_back({LossClass::substance, grid().grid.info.name, "what ADDZCORN adds to the corner depths",
+                               "it is kept as text, not applied (line " + std::to_string(where(word.at).line) + ")", 1});
         return keep(word.at, word_, true);
     }
     if (section_ == Section::runspec) return keep(word.at, word_, true);
@@ -343,6 +346,12 @@ Trouble DeckReader::companion_properties() {
     const std::string name = fs::path(base).stem().string() + ".properties.grdecl";
     const std::string_view bytes = input_->bytes();
     const bool named = bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096)).find(name) != std::string_view::npos;
+    if (named && !input_->has_companion(name)) {
+        const fs::path tried = fs::path(input_->name()).parent_path() / name;
+        findings_.push_back(
+            finding("F143", {input_->name()},
+                    "the deck names the file " + shown(name) + " with further properties, which is missing: tried " + tried.string()));
+    }
     if (named && input_->has_companion(name)) {
         auto opened = input_->companion(name);
         if (!opened) return std::move(opened).why();

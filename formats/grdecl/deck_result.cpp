@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/text_cursor.h"
+#include "formats/grdecl/companions.h"
 #include "formats/grdecl/deck_reader.h"
 
 namespace geomend::grdecl {
@@ -46,8 +47,7 @@ Result<Dataset> DeckReader::finish() {
     for (std::size_t g = 0; g < texts.size(); ++g) {
         GridText& text = texts[g];
         if (text.geometry_file && text.depths.empty()) {
-            losses_.push_back({LossClass::substance, text.grid.info.name,
-                               "the geometry, which GDFILE takes from " + shown(*text.geometry_file),
+            losses_.push_back({LossClass::substance, text.grid.info.name, companion_loss("GDFILE", *text.geometry_file),
                                "convert that file, with this one as its properties", 1});
         }
         text.grid.unit_system = unit_system_;

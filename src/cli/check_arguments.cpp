@@ -41,16 +41,16 @@ bool fails(const CheckArguments& a, std::span<const Finding> findings) {
     return std::ranges::any_of(findings, [&](const Finding& f) { return f.severity >= least; });
 }
 
-Inspect inspection(const CheckArguments& a, DebrisFolder& debris) {
+Inspect inspection(const CheckArguments& a, DebrisFolder& debris, std::size_t files) {
     const bool page = draws_page(a), write = !a.debris.empty();
     if (!page && !write) return {};
-    return [page, write, &debris](const Dataset& dataset, ReportedFile& file) -> Result<void> {
-        file.scene = make_scene(dataset);
-        mark_findings(*file.scene, dataset, file.findings);
+    return [page, write, files, &debris](const Dataset& dataset, std::span<const Brep> breps, ReportedFile& file) -> Result<void> {
+        file.scene = make_scene(dataset, breps);
+        mark_findings(*file.scene, dataset, breps, file.findings);
         if (write) {
             if (auto written = debris.write(file); !written) return written;
         }
-        if (page) thin(*file.scene, page_triangles);
+        if (page) thin(*file.scene, page_triangles(files));
         else file.scene.reset();
         return {};
     };

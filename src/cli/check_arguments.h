@@ -32,8 +32,8 @@ bool fails(const CheckArguments& arguments, std::span<const Finding> findings);
 inline bool draws_page(const CheckArguments& arguments) { return arguments.report.ends_with(".html"); }
 
 /// What is done with the findings of a file before its dataset is gone: with --report FILE.html the model is drawn, with
-/// --debris what they mark is written. Empty where there is nothing to do. `debris` must outlive it.
-Inspect inspection(const CheckArguments& arguments, DebrisFolder& debris);
+/// --debris what they mark is written. Empty where there is nothing to do. `debris` must outlive it. `files` is their number.
+Inspect inspection(const CheckArguments& arguments, DebrisFolder& debris, std::size_t files);
 
 /// Failure where --report or --debris could not be followed at the end: told before the work.
 Result<void> check_targets(const CheckArguments& arguments, const DebrisFolder& debris);

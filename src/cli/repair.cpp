@@ -72,7 +72,7 @@ ExitStatus run(const RepairOptions& o) {
     const Monitor monitor = make_monitor(o);
     auto request = request_of(o, monitor);
     if (!request) return report(request.why());
-    request->inspect = inspection(o, debris);
+    request->inspect = inspection(o, debris, 1);
     auto repaired = repair_file(*request);
     if (!repaired) return report(repaired.why());
     const bool valid = count_by_severity(repaired->file.findings).error == 0;

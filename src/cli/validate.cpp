@@ -46,10 +46,10 @@ Result<Report> judge_here(const ValidateOptions& o, const LoadOptions& load, con
     const std::string& path = o.files.front();
     const Earlier earlier = baseline_files(baseline, {path});
     tell_gaps(o, {path}, earlier);
-    const Inspect show = inspection(o, debris);
-    auto file = validate(path, load, checks, [&](const Dataset& dataset, ReportedFile& found) -> Result<void> {
+    const Inspect show = inspection(o, debris, 1);
+    auto file = validate(path, load, checks, [&](const Dataset& dataset, std::span<const Brep> breps, ReportedFile& found) -> Result<void> {
         if (earlier[0] != nullptr) leave_out_known(found, *earlier[0]);
-        return show ? show(dataset, found) : Result<void>();
+        return show ? show(dataset, breps, found) : Result<void>();
     });
     if (!file) {
         const FailureKind kind = file.why().kind;
@@ -94,12 +94,12 @@ ExitStatus work(const ValidateOptions& o, const LoadOptions& load, const validat
     Report said = empty_report(o);
     said.most_findings = static_cast<std::size_t>(-1);
     const std::string& path = o.files.front();
-    auto file = validate(path, load, checks, [&](const Dataset& dataset, ReportedFile& found) -> Result<void> {
+    auto file = validate(path, load, checks, [&](const Dataset& dataset, std::span<const Brep> breps, ReportedFile& found) -> Result<void> {
         if (!draw) return {};
         // As they will stand in the report: marks come in the order of their findings.
         std::ranges::stable_sort(found.findings, [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
-        found.scene = make_scene(dataset);
-        mark_findings(*found.scene, dataset, found.findings);
+        found.scene = make_scene(dataset, breps);
+        mark_findings(*found.scene, dataset, breps, found.findings);
         if (draws_page(o)) thin(*found.scene, page_triangles);
         else found.scene->parts.clear();
         return {};

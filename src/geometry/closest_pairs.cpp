@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -15,13 +14,21 @@ namespace geomend {
 
 namespace {
 
-constexpr std::size_t vertices_per_chunk = 1024;
-constexpr int tries_per_pair = 16;  // descents that end in a smallest distance, for each two groups
+constexpr std::size_t fours_per_block = 4;    // the triangles whose vertices look about together
+constexpr std::size_t blocks_per_chunk = 64;  // what one thread does at a time
+constexpr int tries_per_pair = 16;            // descents that end in a smallest distance, for each two groups
+constexpr std::uint32_t mixed = 0xffffffff;   // four triangles of more than one group
 
-/// A vertex that is near a group it is not on, and the closest triangle of that group.
-struct NearVertex {
-    std::uint32_t vertex, group, triangle;
+/// The triangle of another group (by its place in the tree) that is closest to a vertex.
+struct NearGroup {
+    std::uint32_t group, triangle;
     Closest closest;
+};
+
+/// A vertex that is closer to another group than its neighbours on its own group are.
+struct Start {
+    std::uint32_t group, vertex;
+    NearGroup other;
 };
 
 /// A place where two surfaces are close, on the way to where they are closest.
@@ -30,44 +37,155 @@ struct Place {
     Closest closest;
 };
 
+/// Finds starts among the vertices of some triangles.
+class StartSearch {
+public:
+    StartSearch(const SurfaceDistance& soup, std::span<const std::uint32_t> four_groups, double near, std::vector<Start>& starts)
+        : soup_(soup), four_groups_(four_groups), near_(near), around_(soup.tree()), starts_(starts) {}
+
+    void run(std::size_t block) {
+        const auto& fours = soup_.tree().levels().front();
+        const std::size_t first = block * fours_per_block, last = std::min(fours.size(), first + fours_per_block);
+        std::uint32_t own = four_groups_[first];
+        for (std::size_t four = first; four != last; ++four) own = four_groups_[four] == own ? own : mixed;
+        around_.collect(soup_.tree().widened(outer_box(fours, first, last), near_),
+                        [&](std::size_t four) { return own == mixed || four_groups_[four] != own; });
+        if (around_.empty()) return;
+        for (std::size_t i = 4 * first; i < std::min(4 * last, soup_.tree().size()); ++i) {
+            for (const std::uint32_t v : soup_.tree().triangle(i)) {
+                if (soup_.around(v).front() == i) look_about(v);
+            }
+        }
+    }
+
+private:
+    const SurfaceDistance& soup_;
+    const std::span<const std::uint32_t> four_groups_;
+    const double near_;
+    Neighbourhood around_;
+    std::vector<NearGroup> near_groups_;
+    std::vector<std::uint32_t> beside_;
+    std::vector<Start>& starts_;
+
+    void look_about(std::uint32_t vertex) {
+        const Vec3& point = soup_.position(vertex);
+        const std::uint32_t own = soup_.group(soup_.around(vertex).front());
+        near_groups_.clear();
+        find_groups_beside(vertex, own);
+        around_.visit_triangles(soup_.tree().box(point, point, near_), [&](std::size_t i) {
+            const auto t = static_cast<std::uint32_t>(i);
+            const std::uint32_t group = soup_.group(t);
+            if (group == own || std::find(beside_.begin(), beside_.end(), group) != beside_.end()) return;
+            NearGroup* known = nullptr;
+            for (NearGroup& n : near_groups_) {
+                if (n.group == group) known = &n;
+            }
+            if (known == nullptr) {
+                known = &near_groups_.emplace_back(NearGroup{group, t, {}});
+                known->closest.distance = near_;
+            }
+            if (soup_.tree().is_farther(point, i, known->closest.distance)) return;
+            const Closest closest = closest_points(point, soup_.corners(t));
+            if (closest.distance < known->closest.distance) *known = {group, t, closest};
+        });
+        for (const NearGroup& other : near_groups_) {
+            if (other.closest.distance == 0 || other.closest.distance >= near_ || joined(vertex, other)) continue;
+            for (const std::uint32_t group : soup_.groups_at(vertex)) {
+                if (neighbours_are_farther(vertex, group, other)) starts_.push_back({group, vertex, other});
+            }
+        }
+    }
+
+    /// Groups that the vertex is on; those that its neighbours are on, too, where all of these are on its only group: they are
+    /// closer.
+    void find_groups_beside(std::uint32_t vertex, std::uint32_t own) {
+        beside_.clear();
+        const auto add_groups_at = [&](std::uint32_t v) {
+            for (const std::uint32_t t : soup_.around(v)) {
+                const std::uint32_t group = soup_.group(t);
+                if (group != own && (beside_.empty() || beside_.back() != group)) beside_.push_back(group);
+            }
+        };
+        add_groups_at(vertex);
+        if (!beside_.empty()) return;
+        for (const std::uint32_t t : soup_.around(vertex)) {
+            for (const std::uint32_t v : soup_.triangle(t)) add_groups_at(v);
+        }
+    }
+
+    /// A third group passes through both points.
+    bool joined(std::uint32_t vertex, const NearGroup& other) const {
+        const auto there = soup_.groups_around_part(other.triangle, other.closest.second_part);
+        return std::ranges::any_of(there, [&](std::uint32_t group) { return soup_.on_group(vertex, group); });
+    }
+
+    /// Whether a triangle of the group, among those near the block, comes closer to the point than `distance`.
+    bool has_closer(const Vec3& point, std::uint32_t group, double distance) const {
+        bool found = false;
+        around_.visit_triangles(soup_.tree().box(point, point, distance), [&](std::size_t i) {
+            const auto t = static_cast<std::uint32_t>(i);
+            if (found || soup_.group(t) != group || soup_.tree().is_farther(point, i, distance)) return;
+            found = closest_points(point, soup_.corners(t)).distance < distance;
+        });
+        return found;
+    }
+
+    bool neighbours_are_farther(std::uint32_t vertex, std::uint32_t own, const NearGroup& other) const {
+        const std::array<Vec3, 3> closest = soup_.corners(other.triangle);
+        const auto all_neighbours = [&](const auto& is_farther) {
+            return std::ranges::all_of(soup_.around(vertex), [&](std::uint32_t t) {
+                return soup_.group(t) != own ||
+                       std::ranges::all_of(soup_.triangle(t), [&](std::uint32_t v) { return v == vertex || is_farther(v); });
+            });
+        };
+        const double distance = other.closest.distance;
+        // Nearly always a neighbour is closer to the same triangle already.
+        return all_neighbours([&](std::uint32_t v) { return closest_points(soup_.position(v), closest).distance >= distance; }) &&
+               all_neighbours([&](std::uint32_t v) { return !soup_.on_group(v, other.group); }) &&
+               all_neighbours([&](std::uint32_t v) { return !has_closer(soup_.position(v), other.group, distance); });
+    }
+};
+
 class PairSearch {
 public:
     PairSearch(const SurfaceDistance& soup, double near) : soup_(soup), near_(near) {}
 
-    bool find_near_vertices(std::size_t vertices, const Monitor* monitor) {
-        std::vector<std::vector<NearVertex>> parts((vertices + vertices_per_chunk - 1) / vertices_per_chunk);
+    /// False when stopped.
+    bool find_starts(const Monitor* monitor) {
+        const std::size_t fours = soup_.tree().levels().front().size();
+        const std::vector<std::uint32_t> groups = groups_of_fours(fours);
+        const std::size_t blocks = (fours + fours_per_block - 1) / fours_per_block;
+        std::vector<std::vector<Start>> parts((blocks + blocks_per_chunk - 1) / blocks_per_chunk);
         parallel_for_each_index(parts.size(), [&](std::size_t part) {
             if (monitor != nullptr && monitor->stopped()) return;
-            const std::size_t last = std::min(vertices, (part + 1) * vertices_per_chunk);
-            for (std::size_t v = part * vertices_per_chunk; v < last; ++v) add_near(static_cast<std::uint32_t>(v), parts[part]);
+            StartSearch search(soup_, groups, near_, parts[part]);
+            const std::size_t last = std::min(blocks, (part + 1) * blocks_per_chunk);
+            for (std::size_t block = part * blocks_per_chunk; block != last; ++block) search.run(block);
         });
-        for (const auto& part : parts) near_vertices_.insert(near_vertices_.end(), part.begin(), part.end());
+        for (const auto& part : parts) starts_.insert(starts_.end(), part.begin(), part.end());
+        const auto distance = [](const Start& start) { return start.other.closest.distance; };
+        std::ranges::stable_sort(starts_, {}, distance);
         return monitor == nullptr || !monitor->stopped();
     }
 
     std::vector<ClosePair> pairs() {
-        for (const Start& start : starts()) {
-            const std::pair key = std::minmax(start.group, start.from->group);
-            Best& best = best_[key];
+        std::map<std::pair<std::uint32_t, std::uint32_t>, Best> all;
+        for (const Start& start : starts_) {
+            Best& best = all[{std::min(start.group, start.other.group), std::max(start.group, start.other.group)}];
             if (best.tries == tries_per_pair) continue;
             const auto found = descend(start);
             if (!found) continue;
             ++best.tries;
             if (best.tries == 1 || found->distance < best.pair.distance) best.pair = *found;
         }
-        std::vector<ClosePair> all;
-        for (const auto& [key, best] : best_) {
-            if (best.tries > 0) all.push_back(best.pair);
+        std::vector<ClosePair> list;
+        for (const auto& [groups, best] : all) {
+            if (best.tries > 0) list.push_back(best.pair);
         }
-        return all;
+        return list;
     }
 
 private:
-    /// A vertex that is closer to the group of `from` than its neighbours on its own group are.
-    struct Start {
-        std::uint32_t group;
-        const NearVertex* from;
-    };
     struct Best {
         int tries = 0;
         ClosePair pair{};
@@ -75,88 +193,38 @@ private:
 
     const SurfaceDistance& soup_;
     const double near_;
-    std::vector<NearVertex> near_vertices_;  ///< by vertex, then by group
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Best> best_;
+    std::vector<Start> starts_;  ///< the closest first
 
-    void add_near(std::uint32_t vertex, std::vector<NearVertex>& list) const {
-        if (soup_.around(vertex).empty()) return;
-        const Vec3& point = soup_.position(vertex);
-        const std::uint32_t own = soup_.group(soup_.around(vertex).front());
-        const std::size_t first = list.size();
-        soup_.tree().visit_triangles(soup_.tree().box(point, point, near_), [&](std::size_t i) {
-            const std::uint32_t t = soup_.tree().number(i), group = soup_.group(t);
-            if (group == own || soup_.on_group(vertex, group)) return;
-            const Closest closest = closest_points(point, soup_.corners(t));
-            if (closest.distance >= near_) return;
-            const auto known = std::find_if(list.begin() + first, list.end(), [&](const NearVertex& n) { return n.group == group; });
-            if (known == list.end()) list.push_back({vertex, group, t, closest});
-            else if (closest.distance < known->closest.distance) *known = {vertex, group, t, closest};
-        });
-        std::sort(list.begin() + first, list.end(), [](const NearVertex& p, const NearVertex& q) { return p.group < q.group; });
-    }
-
-    /// Distance of a vertex from a group: 0 on it, HUGE_VAL where it is not near.
-    double distance(std::uint32_t vertex, std::uint32_t group) const {
-        if (soup_.on_group(vertex, group)) return 0;
-        const auto at = std::lower_bound(near_vertices_.begin(), near_vertices_.end(), std::pair{vertex, group},
-                                         [](const NearVertex& n, const auto& key) {
-                                             return std::pair{n.vertex, n.group} < key;
-                                         });
-        return at != near_vertices_.end() && at->vertex == vertex && at->group == group ? at->closest.distance : HUGE_VAL;
-    }
-
-    bool neighbours_are_farther(const NearVertex& from, std::uint32_t own) const {
-        for (const std::uint32_t t : soup_.around(from.vertex)) {
-            if (soup_.group(t) != own) continue;
-            for (const std::uint32_t v : soup_.triangle(t)) {
-                if (v != from.vertex && distance(v, from.group) < from.closest.distance) return false;
-            }
+    std::vector<std::uint32_t> groups_of_fours(std::size_t count) const {
+        std::vector<std::uint32_t> groups(count);
+        for (std::size_t i = 0; i < soup_.tree().size(); ++i) {
+            const std::uint32_t group = soup_.group(static_cast<std::uint32_t>(i));
+            if (i % 4 == 0) groups[i / 4] = group;
+            if (groups[i / 4] != group) groups[i / 4] = mixed;
         }
-        return true;
-    }
-
-    /// The closest first.
-    std::vector<Start> starts() const {
-        std::vector<std::vector<Start>> parts((near_vertices_.size() + vertices_per_chunk - 1) / vertices_per_chunk);
-        parallel_for_each_index(parts.size(), [&](std::size_t part) {
-            const std::size_t last = std::min(near_vertices_.size(), (part + 1) * vertices_per_chunk);
-            for (std::size_t i = part * vertices_per_chunk; i < last; ++i) {
-                const NearVertex& from = near_vertices_[i];
-                if (from.closest.distance == 0) continue;
-                for (const std::uint32_t own : soup_.groups_at(from.vertex)) {
-                    if (neighbours_are_farther(from, own)) parts[part].push_back({own, &from});
-                }
-            }
-        });
-        std::vector<Start> all;
-        for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-        std::stable_sort(all.begin(), all.end(),
-                         [](const Start& p, const Start& q) { return p.from->closest.distance < q.from->closest.distance; });
-        return all;
+        return groups;
     }
 
     /// Moves both points over their surfaces for as long as they come closer. Nothing where they meet or where the place does not count.
     std::optional<ClosePair> descend(const Start& start) const {
-        const NearVertex& from = *start.from;
-        const auto around = soup_.around_edge(from.vertex, from.vertex, start.group);
-        if (around.empty()) return std::nullopt;
-        const std::uint32_t t = around.front();
-        Place place{t, from.triangle, from.closest};
+        const std::uint32_t other = start.other.group;
+        const std::uint32_t t = soup_.around_edge(start.vertex, start.vertex, start.group).front();
+        Place place{t, start.other.triangle, start.other.closest};
         for (unsigned i = 0; i < 3; ++i) {
-            if (soup_.triangle(t)[i] == from.vertex) place.closest.first_part = 1u << i;
+            if (soup_.triangle(t)[i] == start.vertex) place.closest.first_part = 1u << i;
         }
         while (true) {
-            const auto next = closest_around(place, start.group, from.group);
+            const auto next = closest_around(place, start.group, other);
             if (!next) return std::nullopt;
             if (next->closest.distance >= place.closest.distance - soup_.rounding(place.closest.on_first)) break;
             place = *next;
         }
         if (lie_on_one_group(place)) return std::nullopt;
-        if (soup_.common_vertex_within(2 * near_, place.closest.on_first, start.group, from.group)) return std::nullopt;
+        if (soup_.common_vertex_within(2 * near_, place.closest.on_first, start.group, other)) return std::nullopt;
         const Closest& c = place.closest;
-        if (start.group < from.group)
-            return ClosePair{start.group, from.group, place.triangle_a, place.triangle_b, c.distance, c.on_first, c.on_second};
-        return ClosePair{from.group, start.group, place.triangle_b, place.triangle_a, c.distance, c.on_second, c.on_first};
+        const std::uint32_t a = soup_.tree().number(place.triangle_a), b = soup_.tree().number(place.triangle_b);
+        if (start.group < other) return ClosePair{start.group, other, a, b, c.distance, c.on_first, c.on_second};
+        return ClosePair{other, start.group, b, a, c.distance, c.on_second, c.on_first};
     }
 
     /// The closest of the triangles around both points; nothing where any of them meet.
@@ -188,13 +256,17 @@ private:
 
 }  // namespace
 
-std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const Triangle> triangles, std::span<const std::uint32_t> groups,
-                                     double near, const Monitor* monitor) {
+std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const std::uint32_t> groups, double near, const Monitor* monitor) {
     if (tree.size() == 0 || !(near > 0)) return {};
-    const SurfaceDistance soup(tree, triangles, groups);
+    const SurfaceDistance soup(tree, groups);
     PairSearch search(soup, near);
-    if (!search.find_near_vertices(tree.vertices().size(), monitor)) return {};
+    if (!search.find_starts(monitor)) return {};
     return search.pairs();
+}
+
+std::vector<ClosePair> closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                                     std::span<const std::uint32_t> groups, double near, const Monitor* monitor) {
+    return closest_pairs(TriangleTree(vertices, triangles), groups, near, monitor);
 }
 
 }  // namespace geomend

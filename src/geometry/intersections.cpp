@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
@@ -13,62 +12,31 @@ namespace geomend {
 
 namespace {
 
-constexpr std::size_t fours_per_block = 4;     // the triangles that walk through the tree together: 16
-constexpr std::size_t blocks_per_chunk = 256;  // what one thread does at a time
-constexpr std::size_t chunks_per_round = 64;   // between looks at the limit and at the monitor
+constexpr std::size_t chunk_level = 4;         // what one thread does at a time: a node of this level, 1024 triangles
+constexpr std::size_t chunks_per_round = 256;  // between looks at the limit and at the monitor
 
-/// Pairs of the triangles in one block with those that come after them in the tree's order.
-class BlockSearch {
+/// Pairs of the triangles in one node with these and those that come after them in the tree's order.
+class NodeSearch {
 public:
-    BlockSearch(const TriangleTree& tree, std::vector<TriangleMeetingPair>& found) : tree_(tree), found_(found) {}
+    NodeSearch(const TriangleTree& tree, std::size_t most) : tree_(tree), most_(most) {}
 
-    void run(std::size_t block) {
-        const auto& fours = tree_.levels().front();
-        const std::size_t first = block * fours_per_block, last = std::min(fours.size(), first + fours_per_block);
-        collect(first, last);
-        for (std::size_t four = first; four != last; ++four) {
-            for (std::size_t k = 0; k < 4 && 4 * four + k < tree_.size(); ++k) search(4 * four + k, fours[four].box(k));
-        }
+    std::vector<TriangleMeetingPair> run(std::size_t level, std::size_t node) {
+        const auto with = [&](std::size_t other) {
+            if (other < node || found_.size() >= most_) return;
+            tree_.visit_pairs(level, node, other, [&](std::size_t i, std::size_t first, unsigned hits) {
+                const Separator own(corners(tree_.triangle(i)));
+                visit_bits(hits, [&](std::size_t k) { test(i, first + k, own); });
+            });
+        };
+        if (level + 1 == tree_.levels().size()) with(node);
+        else tree_.visit_nodes(level, tree_.outer_box(level, node), with);
+        return std::move(found_);
     }
 
 private:
     const TriangleTree& tree_;
-    std::vector<TriangleMeetingPair>& found_;
-    std::vector<std::size_t> near_;      ///< fours whose outer box overlaps that of the block, none before it
-    std::vector<FourBoxes> near_boxes_;  ///< their outer boxes, four by four
-
-    void collect(std::size_t first, std::size_t last) {
-        const auto& fours = tree_.levels().front();
-        FourBoxes own;
-        for (std::size_t k = 0; k < 4; ++k) own.set(k, fours[std::min(first + k, last - 1)].around());
-        near_.clear();
-        near_boxes_.clear();
-        tree_.visit_fours(own.around(), [&](std::size_t four) {
-            if (four < first) return;
-            if (near_.size() % 4 == 0) near_boxes_.push_back(empty_boxes());
-            near_boxes_.back().set(near_.size() % 4, fours[four].around());
-            near_.push_back(four);
-        });
-    }
-
-    void search(std::size_t i, const Box& box) {
-        const auto& fours = tree_.levels().front();
-        std::optional<Separator> own;
-        for (std::size_t group = 0; group < near_boxes_.size(); ++group) {
-            const unsigned hit = near_boxes_[group].overlapping(box);
-            for (std::size_t k = 0; hit >> k != 0; ++k) {
-                if ((hit >> k & 1u) == 0) continue;
-                const std::size_t four = near_[4 * group + k];
-                if (4 * four + 3 <= i) continue;
-                const unsigned pairs = fours[four].overlapping(box);
-                for (std::size_t m = 0; pairs >> m != 0; ++m) {
-                    if ((pairs >> m & 1u) == 0 || 4 * four + m <= i) continue;
-                    if (!own) own.emplace(corners(tree_.triangle(i)));
-                    test(i, 4 * four + m, *own);
-                }
-            }
-        }
-    }
+    const std::size_t most_;
+    std::vector<TriangleMeetingPair> found_;
 
     std::array<Vec3, 3> corners(const Triangle& t) const {
         const auto vertices = tree_.vertices();
@@ -96,15 +64,6 @@ private:
         if (!ascending) std::swap(pair.a, pair.b);
         found_.push_back(pair);
     }
-
-    static FourBoxes empty_boxes() {
-        FourBoxes boxes;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            boxes.low[axis].fill(HUGE_VALF);
-            boxes.high[axis].fill(-HUGE_VALF);
-        }
-        return boxes;
-    }
 };
 
 }  // namespace
@@ -117,18 +76,13 @@ std::vector<TriangleMeetingPair> intersections(std::span<const Vec3> vertices, s
 std::vector<TriangleMeetingPair> intersections(const TriangleTree& tree, const Monitor* monitor, std::size_t most) {
     std::vector<TriangleMeetingPair> found;
     if (tree.size() == 0) return found;
-    const std::size_t fours = tree.levels().front().size();
-    const std::size_t blocks = (fours + fours_per_block - 1) / fours_per_block;
-    const std::size_t chunks = (blocks + blocks_per_chunk - 1) / blocks_per_chunk;
+    const std::size_t level = std::min(chunk_level, tree.levels().size() - 1);
+    const std::size_t chunks = tree.levels()[level].size();
     for (std::size_t round = 0; round < chunks && found.size() < most; round += chunks_per_round) {
         if (monitor != nullptr && monitor->stopped()) break;
         const std::size_t size = std::min(chunks_per_round, chunks - round);
         std::vector<std::vector<TriangleMeetingPair>> parts(size);
-        parallel_for_each_index(size, [&](std::size_t part) {
-            BlockSearch search(tree, parts[part]);
-            const std::size_t first = (round + part) * blocks_per_chunk, last = std::min(blocks, first + blocks_per_chunk);
-            for (std::size_t block = first; block != last && parts[part].size() < most; ++block) search.run(block);
-        });
+        parallel_for_each_index(size, [&](std::size_t part) { parts[part] = NodeSearch(tree, most).run(level, round + part); });
         for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
         if (monitor != nullptr) monitor->progress("intersections", static_cast<double>(round + size) / static_cast<double>(chunks));
     }

@@ -2,6 +2,7 @@
 #include "geometry/near_misses.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -15,7 +16,10 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-/// The triangle of a group that is closest to a border edge, without those that share a vertex with it.
+/// A border that keeps near for so many times `near` belongs to no wedge, unless that is one of less than 6 degrees.
+constexpr double far_along = 10;
+
+/// The triangle of a group (by its place in the tree) that is closest to a border edge, without those that share a vertex with it.
 struct Candidate {
     std::uint32_t group = 0, triangle = 0;
     Closest closest{};
@@ -115,7 +119,8 @@ public:
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
             std::sort(candidates_[e].begin(), candidates_[e].end(), [](const auto& p, const auto& q) { return p.group < q.group; });
             for (const Candidate& c : candidates_[e]) {
-                if (c.is_miss) found.push_back({e, c.triangle, c.closest.distance, c.closest.on_first, c.closest.on_second});
+                if (c.is_miss)
+                    found.push_back({e, soup_.tree().number(c.triangle), c.closest.distance, c.closest.on_first, c.closest.on_second});
             }
         }
         return found;
@@ -143,7 +148,8 @@ private:
         for (std::size_t k = 0; k < 3; ++k) std::tie(low[k], high[k]) = std::minmax({segment[0][k], segment[1][k]});
         std::vector<std::uint32_t> ring;  // the vertices of the triangles around the edge
         soup_.tree().visit_triangles(soup_.tree().box(low, high, near_), [&](std::size_t i) {
-            const std::uint32_t t = soup_.tree().number(i), group = soup_.group(t);
+            const auto t = static_cast<std::uint32_t>(i);
+            const std::uint32_t group = soup_.group(t);
             const Triangle& corners = soup_.triangle(t);
             if (std::ranges::any_of(corners, [&](std::uint32_t v) { return v == p || v == q; })) return;
             if (group == groups_[e]) {
@@ -168,7 +174,7 @@ private:
         const std::vector<std::uint32_t> ring = c.group == groups_[e] ? ring_around(e) : std::vector<std::uint32_t>{};
         bool near = false;
         soup_.tree().visit_triangles(soup_.tree().box(far, far, near_), [&](std::size_t i) {
-            const std::uint32_t t = soup_.tree().number(i);
+            const auto t = static_cast<std::uint32_t>(i);
             if (near || soup_.group(t) != c.group || has_any_of(soup_.triangle(t), ring)) return;
             near = closest_points(far, soup_.corners(t)).distance < near_;
         });
@@ -207,11 +213,12 @@ private:
     };
 
     /// Follows the border from a vertex on another group for as long as it keeps near that group: when it comes back to the
-    /// group or ends, the edges passed are the border of a hole.
+    /// group or ends, or has come far, the edges passed are the border of a hole.
     void follow(std::uint32_t edge, std::size_t start, std::uint32_t group) {
         std::vector<Step> path;
         std::uint32_t from = edges_[edge][start];
         Candidate before{group, 0, {}};
+        double length = 0;
         while (path.size() < edges_.size()) {
             const std::uint32_t to = edges_[edge][edges_[edge][0] == from ? 1 : 0];
             if (soup_.on_group(to, group)) {
@@ -221,7 +228,13 @@ private:
             }
             Candidate here{group, 0, {}};
             here.closest = soup_.from_group(soup_.position(to), group, near_, here.triangle);
-            if (here.closest.distance == 0 || here.closest.distance >= near_) return;
+            if (here.closest.distance == 0) return;
+            if (here.closest.distance >= near_) {
+                if (length > far_along * near_) keep(path);
+                return;
+            }
+            const Vec3 step = minus(soup_.position(to), soup_.position(from));
+            length += std::sqrt(dot(step, step));
             path.push_back({edge, here.closest.distance > before.closest.distance ? here : before});
             const std::vector<std::uint32_t> next = others(edge, to);
             if (next.empty()) return keep(path);
@@ -260,11 +273,10 @@ private:
 
 }  // namespace
 
-std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const Triangle> triangles, std::span<const std::uint32_t> groups,
-                                  std::span<const Edge> border_edges, std::span<const std::uint32_t> border_groups, double near,
-                                  const Monitor* monitor) {
+std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const std::uint32_t> groups, std::span<const Edge> border_edges,
+                                  std::span<const std::uint32_t> border_groups, double near, const Monitor* monitor) {
     if (border_edges.empty() || tree.size() == 0 || !(near > 0)) return {};
-    const SurfaceDistance soup(tree, triangles, groups);
+    const SurfaceDistance soup(tree, groups);
     BorderSearch search(soup, border_edges, border_groups, near);
     if (!search.find_candidates(monitor)) return {};
     search.spread();
@@ -277,7 +289,7 @@ std::vector<NearMiss> near_misses(std::span<const Vec3> vertices, std::span<cons
                                   std::span<const std::uint32_t> groups, std::span<const Edge> border_edges,
                                   std::span<const std::uint32_t> border_groups, double near, const Monitor* monitor) {
     if (border_edges.empty()) return {};
-    return near_misses(TriangleTree(vertices, triangles), triangles, groups, border_edges, border_groups, near, monitor);
+    return near_misses(TriangleTree(vertices, triangles), groups, border_edges, border_groups, near, monitor);
 }
 
 }  // namespace geomend

@@ -27,9 +27,9 @@ struct NearMiss {
 /// around them). A miss is one of
 /// - a place where the distance is smallest, as above, with the border edges next to it, up to where the distance stops growing
 ///   (edges with one end beyond `near` only where there are no others);
-/// - a run of edges, all of whose vertices are closer than `near`, from a vertex of the other group to another such vertex, or to
-///   the end of the border: a hole in a contact, or a strip narrower than `near`. Its edges are told with the distance at the
-///   end that is farther off.
+/// - a run of edges, all of whose vertices are closer than `near`, from a vertex of the other group to another such vertex, to
+///   the end of the border, or for more than 10 `near`: a hole in a contact, or a strip narrower than `near`. Its edges are told
+///   with the distance at the end that is farther off.
 /// At most one for each border edge and group of triangles: ascending by edge, then by group.
 /// \param groups the surface of each triangle; patches of one geological surface may share a group
 /// \param border_edges two vertex numbers each; \param border_groups the group of each, that of the triangle beside it
@@ -37,7 +37,7 @@ struct NearMiss {
 /// \param monitor may stop the search: nothing is returned then
 /// \pre arrays agree in length, indices are in range, coordinates finite, fewer than 1.4e9 triangles
 /// Cost: linear where `near` is no longer than some edges; 16 bytes per triangle besides the tree.
-std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const Triangle> triangles, std::span<const std::uint32_t> groups,
+std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const std::uint32_t> groups,
                                   std::span<const std::array<std::uint32_t, 2>> border_edges, std::span<const std::uint32_t> border_groups,
                                   double near, const Monitor* monitor = nullptr);
 /// The same, with a tree of its own.
@@ -59,7 +59,10 @@ struct ClosePair {
 /// The search starts from vertices that are closer to the other group than their neighbours are: where no vertex of either
 /// surface comes within `near` of the other although two edges do, that is not found.
 /// Parameters and cost as for near_misses().
-std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const Triangle> triangles, std::span<const std::uint32_t> groups,
-                                     double near, const Monitor* monitor = nullptr);
+std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const std::uint32_t> groups, double near,
+                                     const Monitor* monitor = nullptr);
+/// The same, with a tree of its own.
+std::vector<ClosePair> closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                                     std::span<const std::uint32_t> groups, double near, const Monitor* monitor = nullptr);
 
 }  // namespace geomend

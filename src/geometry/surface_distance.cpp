@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "geometry/predicates.h"
+#include "base/parallel.h"
 #include "geometry/vectors.h"
 
 namespace geomend {
@@ -22,6 +22,13 @@ std::array<std::uint32_t, 2> ends_of(const Triangle& t, unsigned part) {
 
 }  // namespace
 
+SurfaceDistance::SurfaceDistance(const TriangleTree& tree, std::span<const std::uint32_t> groups)
+    : tree_(tree), vertices_(tree.vertices()), groups_(tree.size()), around_(vertices_.size(), tree.triangles()) {
+    parallel_blocks(tree.size(), 4096, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i != to; ++i) groups_[i] = groups[tree.number(i)];
+    });
+}
+
 bool SurfaceDistance::on_group(std::uint32_t vertex, std::uint32_t group) const {
     return std::ranges::any_of(around_.at(vertex), [&](std::uint32_t t) { return groups_[t] == group; });
 }
@@ -36,17 +43,17 @@ std::vector<std::uint32_t> SurfaceDistance::groups_at(std::uint32_t vertex) cons
 }
 
 std::vector<std::uint32_t> SurfaceDistance::around_part(std::uint32_t t, unsigned part, std::uint32_t group) const {
-    const auto [p, q] = ends_of(triangles_[t], part);
+    const auto [p, q] = ends_of(tree_.triangle(t), part);
     if (part == 7) return {t};
     return around_edge(p, q, group);
 }
 
 std::vector<std::uint32_t> SurfaceDistance::groups_around_part(std::uint32_t t, unsigned part) const {
     if (part == 7) return {groups_[t]};
-    const auto [p, q] = ends_of(triangles_[t], part);
+    const auto [p, q] = ends_of(tree_.triangle(t), part);
     std::vector<std::uint32_t> found;
     for (const std::uint32_t other : around_.at(p)) {
-        if (has(triangles_[other], q)) found.push_back(groups_[other]);
+        if (has(tree_.triangle(other), q)) found.push_back(groups_[other]);
     }
     return found;
 }
@@ -54,8 +61,7 @@ std::vector<std::uint32_t> SurfaceDistance::groups_around_part(std::uint32_t t, 
 std::vector<std::uint32_t> SurfaceDistance::around_edge(std::uint32_t p, std::uint32_t q, std::uint32_t group) const {
     std::vector<std::uint32_t> found;
     for (const std::uint32_t t : around_.at(p)) {
-        const Triangle& v = triangles_[t];
-        if (groups_[t] == group && has(v, q) && !in_line(vertices_[v[0]], vertices_[v[1]], vertices_[v[2]])) found.push_back(t);
+        if (groups_[t] == group && has(tree_.triangle(t), q)) found.push_back(t);
     }
     return found;
 }
@@ -69,8 +75,8 @@ Closest SurfaceDistance::from_group(const Vec3& point, std::uint32_t group, doub
     Closest best;
     best.distance = HUGE_VAL;
     tree_.visit_triangles(tree_.box(point, point, near), [&](std::size_t i) {
-        const std::uint32_t t = tree_.number(i);
-        if (groups_[t] != group) return;
+        const auto t = static_cast<std::uint32_t>(i);
+        if (groups_[t] != group || tree_.is_farther(point, i, std::min(near, best.distance))) return;
         const Closest found = closest_points(point, corners(t));
         if (found.distance >= near || found.distance >= best.distance) return;
         best = found;
@@ -82,7 +88,7 @@ Closest SurfaceDistance::from_group(const Vec3& point, std::uint32_t group, doub
 bool SurfaceDistance::common_vertex_within(double distance, const Vec3& point, std::uint32_t group_a, std::uint32_t group_b) const {
     bool found = false;
     tree_.visit_triangles(tree_.box(point, point, distance), [&](std::size_t i) {
-        if (found || groups_[tree_.number(i)] != group_b) return;
+        if (found || groups_[i] != group_b) return;
         for (const std::uint32_t v : tree_.triangle(i)) {
             const Vec3 d = minus(vertices_[v], point);
             found = found || (dot(d, d) <= distance * distance && on_group(v, group_a));

@@ -12,20 +12,21 @@
 
 namespace geomend {
 
-/// Questions about distances between the surfaces (groups of triangles) of a soup.
+/// Questions about distances between the surfaces (groups of triangles) of a soup. Triangles are named by their place in the
+/// tree's order, so that degenerate ones are left out and neighbours lie side by side in memory.
 class SurfaceDistance {
 public:
-    SurfaceDistance(const TriangleTree& tree, std::span<const Triangle> triangles, std::span<const std::uint32_t> groups)
-        : tree_(tree), vertices_(tree.vertices()), triangles_(triangles), groups_(groups), around_(vertices_.size(), triangles) {}
+    /// \param groups of the triangles as they are numbered in the soup
+    SurfaceDistance(const TriangleTree& tree, std::span<const std::uint32_t> groups);
 
     const TriangleTree& tree() const { return tree_; }
     std::span<const Vec3> positions() const { return vertices_; }
     const Vec3& position(std::uint32_t vertex) const { return vertices_[vertex]; }
-    const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
+    const Triangle& triangle(std::uint32_t t) const { return tree_.triangle(t); }
     std::uint32_t group(std::uint32_t t) const { return groups_[t]; }
     std::span<const std::uint32_t> around(std::uint32_t vertex) const { return around_.at(vertex); }
     std::array<Vec3, 3> corners(std::uint32_t t) const {
-        const Triangle& v = triangles_[t];
+        const Triangle& v = tree_.triangle(t);
         return {vertices_[v[0]], vertices_[v[1]], vertices_[v[2]]};
     }
 
@@ -34,7 +35,7 @@ public:
     std::vector<std::uint32_t> groups_at(std::uint32_t vertex) const;
 
     /// The triangles of a group around the part of a triangle that a point lies on (bits of corners as in Closest): those that
-    /// have all these corners. Degenerate ones are left out.
+    /// have all these corners.
     std::vector<std::uint32_t> around_part(std::uint32_t t, unsigned part, std::uint32_t group) const;
     std::vector<std::uint32_t> around_edge(std::uint32_t p, std::uint32_t q, std::uint32_t group) const;
 
@@ -57,8 +58,7 @@ public:
 private:
     const TriangleTree& tree_;
     std::span<const Vec3> vertices_;
-    std::span<const Triangle> triangles_;
-    std::span<const std::uint32_t> groups_;
+    std::vector<std::uint32_t> groups_;
     VertexTriangles around_;
 };
 

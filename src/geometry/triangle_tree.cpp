@@ -112,6 +112,12 @@ Box FourBoxes::around() const {
     return all;
 }
 
+Box outer_box(std::span<const FourBoxes> fours, std::size_t first, std::size_t last) {
+    Box all = empty_box;
+    for (std::size_t i = first; i != last; ++i) enclose(all, fours[i].around());
+    return all;
+}
+
 TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) : vertices_(vertices) {
     sort_triangles(triangles);
     make_boxes();
@@ -119,11 +125,22 @@ TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Trian
 
 Box TriangleTree::box(const Vec3& low, const Vec3& high, double distance) const {
     Box box{};
+    const double reach = distance > 0 ? distance + box_error_ : 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        box.low[k] = static_cast<float>(low[k] - distance - origin_[k]);
-        box.high[k] = static_cast<float>(high[k] + distance - origin_[k]);
+        box.low[k] = static_cast<float>(low[k] - origin_[k] - reach);
+        box.high[k] = static_cast<float>(high[k] - origin_[k] + reach);
     }
     return box;
+}
+
+Box TriangleTree::widened(const Box& box, double distance) const {
+    const auto by = static_cast<float>((distance + 2 * box_error_) * (1 + 1e-6));
+    Box wide = box;
+    for (std::size_t k = 0; k < 3; ++k) {
+        wide.low[k] = box.low[k] - by;
+        wide.high[k] = box.high[k] + by;
+    }
+    return wide;
 }
 
 void TriangleTree::sort_triangles(std::span<const Triangle> triangles) {
@@ -135,6 +152,7 @@ void TriangleTree::sort_triangles(std::span<const Triangle> triangles) {
         origin_[k] = extent.low[k] + 0.5 * (extent.high[k] - extent.low[k]);
         side = std::max(side, extent.high[k] - extent.low[k]);
     }
+    box_error_ = side * 0x1p-23;  // a float within side / 2 of 0 is rounded by 2^-25 of the side at most
     // A key is the place of the centre on the curve, followed by the number of the triangle; those left out come last.
     const auto number_bits = static_cast<unsigned>(std::bit_width(count));
     const unsigned bits = std::min(16u, (63 - number_bits) / 3);
@@ -191,6 +209,15 @@ void TriangleTree::make_boxes() {
         const std::vector<FourBoxes>& below = levels_.back();
         make_level(below.size(), [&](std::size_t i) { return below[i].around(); });
     }
+}
+
+void Neighbourhood::add(std::size_t four) {
+    if (fours_.size() % 4 == 0) {
+        FourBoxes& empty = boxes_.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k) empty.set(k, empty_box);
+    }
+    boxes_.back().set(fours_.size() % 4, tree_.levels().front()[four].around());
+    fours_.push_back(four);
 }
 
 }  // namespace geomend

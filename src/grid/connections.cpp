@@ -114,10 +114,14 @@ void load(const CornerPointGrid& grid, std::span<const std::uint8_t> present, co
     sides.ordered = in_order(sides.first, sides.first_active) && in_order(sides.second, sides.second_active);
 }
 
-Connections connections(const CornerPointGrid& grid) {
+Connections connections(const CornerPointGrid& grid) { return connections(grid, SimulatedCells{present_cells(grid), {}, {}, {}}); }
+
+Connections connections(const CornerPointGrid& grid, SimulatedCells cells) {
     Connections result;
     result.neighbours.assign(grid.cell_count(), 0);
-    result.present = present_cells(grid);
+    result.present = std::move(cells.present);
+    result.bridges = std::move(cells.bridges);
+    result.internal = result.bridges.size();
     std::vector<RowResult> rows(grid.dims[1]);
     parallel_blocks(rows.size(), 1, [&](std::size_t first, std::size_t last) {
         PairSides sides;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid/side_overlap.h"
+#include "grid/simulated_cells.h"
 #include "model/corner_point.h"
 
 // Which active cells touch. Cells of neighbouring columns do where their sides share area; cells of one column where
@@ -29,11 +30,16 @@ struct Connections {
     std::vector<NonNeighbour> others;      ///< sorted by direction, column, then cells
     std::uint64_t internal = 0;            ///< all pairs: neighbours and others
     std::vector<std::uint8_t> present;     ///< per cell, as present_cells() gives it
+    /// Pairs that a simulator joins though nothing of theirs touches, as SimulatedCells has them.
+    std::vector<std::array<std::size_t, 2>> bridges;
 };
 
 /// \pre misfit(grid) is empty; fewer than 2^32 cells
 /// Cost: linear in cells where columns are in order; quadratic in layers for columns whose cells overlap.
 Connections connections(const CornerPointGrid& grid);
+
+/// The same of the cells that a simulator keeps, with what it bridges.
+Connections connections(const CornerPointGrid& grid, SimulatedCells cells);
 
 /// The next present cell below, in the same column, or grid.cell_count().
 std::size_t next_below(const CornerPointGrid& grid, std::span<const std::uint8_t> present, std::size_t cell);

@@ -12,7 +12,8 @@ namespace geomend::grid {
 Result<CornerPointGrid> from_structured(const StructuredGrid& grid);
 
 /// Cells with attributes I, J and K (from 1) as corner-point grid. Pillars are the lines through the corners of
-/// hexahedra; corners of other cells are sorted onto them, so that wedges and other pinched cells come back, too. Cells
+/// hexahedra; corners of other cells are sorted onto them, so that wedges and other pinched cells come back, too, and
+/// where such a cell has three pillars its other corners make the fourth. Cells
 /// that are missing are inactive, without thickness, between their neighbours. Failure F021 names the first cell that
 /// does not fit, F007 says which attribute is missing.
 Result<CornerPointGrid> from_tagged_cells(const CellMesh& mesh);

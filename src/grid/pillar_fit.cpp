@@ -63,6 +63,44 @@ Failure PillarFit::misfit_of(std::size_t cell, const std::string& what) const {
     return why;
 }
 
+// The points beside the three known pillars of a cell, if they can be corners of the fourth. \param unknown its number
+std::vector<Vec3> PillarFit::points_of_unknown_pillar(const Pinched& pinched, std::size_t& unknown) const {
+    unsigned count = 0;
+    for (unsigned c = 0; c < 4; ++c) {
+        if (known_[pillar(pinched.cell, c)] != 0) continue;
+        unknown = pillar(pinched.cell, c);
+        ++count;
+    }
+    std::vector<Vec3> left;
+    if (count != 1) return left;
+    for (const Vec3& point : pinched.points) {
+        bool elsewhere = false;
+        for (unsigned c = 0; c < 4; ++c) {
+            const std::size_t p = pillar(pinched.cell, c);
+            elsewhere = elsewhere || (p != unknown && distance(p, point) <= allowed(p, point));
+        }
+        if (!elsewhere) left.push_back(point);
+    }
+    if (left.size() > 2) left.clear();
+    return left;
+}
+
+// One round over the pinched cells. \returns whether a pillar was found
+bool PillarFit::fit_pillars_of_pinched() {
+    std::vector<std::pair<std::size_t, Vec3>> found;
+    for (const Pinched& pinched : pinched_) {
+        std::size_t unknown = 0;
+        for (const Vec3& point : points_of_unknown_pillar(pinched, unknown)) found.emplace_back(unknown, point);
+    }
+    for (const auto& [p, point] : found) {
+        double* line = grid_.pillars.data() + 6 * p;
+        if (known_[p] == 0 || point[2] < line[2]) std::ranges::copy(point, line);
+        if (known_[p] == 0 || point[2] > line[5]) std::ranges::copy(point, line + 3);
+        known_[p] = 1;
+    }
+    return !found.empty();
+}
+
 // The highest and the lowest point on each pillar become top and bottom.
 bool PillarFit::sort_onto_pillars(const Pinched& pinched) {
     std::array<double, 4> top, bottom;
@@ -106,9 +144,11 @@ Result<CornerPointGrid> PillarFit::finish() {
         }
         grid_.activity[cells_[n]] = 1;
     }
+    while (!pinched_.empty() && fit_pillars_of_pinched()) {
+    }
     for (const Pinched& pinched : pinched_) {
         if (!sort_onto_pillars(pinched))
-            return misfit_of(pinched.cell, "its points do not lie on four pillars that hexahedra beside it define");
+            return misfit_of(pinched.cell, "its points do not lie on four pillars that the cells beside it define");
     }
     fill_missing_pillars();
     fill_missing_cells();

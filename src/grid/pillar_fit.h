@@ -18,8 +18,9 @@ public:
 
     /// Eight corners in the order of corner_index. \pre cell < nx ny nz
     void add(std::size_t cell, const std::array<Vec3, 8>& corners);
-    /// Points of a cell whose corners partly coincide; they are sorted onto the pillars in finish(). Points beside all
-    /// pillars are passed over where `loose`, else they do not fit.
+    /// Points of a cell whose corners partly coincide; they are sorted onto the pillars in finish(). Where three pillars of
+    /// such a cell are known, by hexahedra or in this way, its other points make the fourth. Points beside all pillars are
+    /// passed over where `loose`, else they do not fit.
     void add_points(std::size_t cell, std::vector<Vec3> points, bool loose);
 
     /// The grid; cells that were not added are inactive. Failure F021 names the first cell (by number) that is off its
@@ -36,6 +37,8 @@ private:
     void fit_pillars();
     double distance(std::size_t pillar, const Vec3& p) const;
     double allowed(std::size_t pillar, const Vec3& p) const;
+    std::vector<Vec3> points_of_unknown_pillar(const Pinched& pinched, std::size_t& unknown) const;
+    bool fit_pillars_of_pinched();
     bool sort_onto_pillars(const Pinched& pinched);
     void fill_missing_pillars();
     void fill_missing_cells();

@@ -57,8 +57,24 @@ struct Worker {
         const double one = half(cell_corners(grid, a[0], a[1], a[2]), face, area, first);
         const double two = half(cell_corners(grid, b[0], b[1], b[2]), opposite(face), area, second);
         if (one <= 0 || two <= 0) return 0;
-        return factor / (1 / one + 1 / two) * multipliers.of_face(first, face) * multipliers.of_face(second, opposite(face)) *
+        const double own = face == CellFace::k_plus ? downwards(first, second) : multipliers.of_face(first, face);
+        return factor / (1 / one + 1 / two) * own * multipliers.of_face(second, opposite(face)) *
                multipliers.between(first, second, face, neighbours);
+    }
+
+    // MULTZ of the upper cell, or with ALL the least down to the lower one.
+    double downwards(std::size_t upper, std::size_t lower) const {
+        double value = multipliers.of_face(upper, CellFace::k_plus);
+        if (!grid.pinch || !grid.pinch->multiplier_of_all) return value;
+        const std::size_t layer = std::size_t{grid.dims[0]} * grid.dims[1];
+        for (std::size_t cell = upper + layer; cell < lower; cell += layer)
+            value = std::min(value, multipliers.of_face(cell, CellFace::k_plus));
+        return value;
+    }
+
+    // Down to the next cell that is there, with the area of the upper one.
+    double vertical(std::size_t upper, std::size_t lower) const {
+        return connection(upper, lower, CellFace::k_plus, bottom_area(upper), lower == upper + std::size_t{grid.dims[0]} * grid.dims[1]);
     }
 
     Vec3 side_area(const ColumnPair& pair, const Side& one, const Side& two, std::uint32_t k) const {
@@ -150,9 +166,10 @@ Result<Transmissibilities> transmissibilities(const CornerPointGrid& grid, const
             const std::size_t below = next_below(grid, connections.present, cell);
             // Layers between that are no cells block the flow, unless PINCH bridges them.
             if (below != cell + std::size_t{grid.dims[0]} * grid.dims[1] && !grid.pinch) continue;
-            result.z[cell] = worker.connection(cell, below, CellFace::k_plus, worker.bottom_area(cell), true);
+            result.z[cell] = worker.vertical(cell, below);
         }
     });
+    for (const auto& [upper, lower] : connections.bridges) result.z[upper] = worker.vertical(upper, lower);
     for (const auto* parts : {&along_i, &along_j}) {
         for (const auto& part : *parts) result.others.insert(result.others.end(), part.begin(), part.end());
     }

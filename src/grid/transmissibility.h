@@ -21,11 +21,13 @@ double transmissibility_factor(std::string_view unit_system);
 
 /// Half-cell transmissibilities (NEWTRAN): of each cell the permeability of its direction times area vector dot d over
 /// d squared, with d from the mean of the corners to the mean of the face's own four corners; net to gross on sides;
-/// both halves in series; nothing flows down past cells without thickness unless the grid has PINCH. Then MULTX, MULTX-, ..., fault
-/// multipliers and multipliers between regions. Attributes PERMX (and PERMY, PERMZ, NTG, MULT*, MULTNUM, FLUXNUM, OPERNUM where they are
-/// there) of cells are used; PERMY and PERMZ are PERMX where they are missing. The rules are those of opm-simulators, so that its INIT has
-/// the same values. \pre connections = connections(grid) The unit is that of grid.unit_system (lengths in another unit of the grid are
-/// converted); where no system is stated, that which goes with the grid's unit of length. Errors: F007 where PERMX is missing.
+/// both halves in series; nothing flows down past cells without thickness unless the grid has PINCH, but always over bridges, with the area
+/// of the upper cell. Then MULTX, MULTX-, ... (past further cells MULTZ of the upper one, or with PINCH(5) ALL the least), fault
+/// multipliers and multipliers between regions (pairs that are not next to each other are NNC). Attributes PERMX (and PERMY, PERMZ, NTG,
+/// MULT*, MULTNUM, FLUXNUM, OPERNUM where they are there) of cells are used; PERMY and PERMZ are PERMX where they are missing. The rules
+/// are those of opm-simulators, so that its INIT has the same values. \pre connections = connections(grid), or that of its simulated cells.
+/// The unit is that of grid.unit_system (lengths in another unit of the grid are converted); where no system is stated, that which goes
+/// with the grid's unit of length. Errors: F007 where PERMX is missing.
 Result<Transmissibilities> transmissibilities(const CornerPointGrid& grid, const Connections& connections);
 
 /// Values of a cell attribute as doubles, missing ones as `fallback`; empty where there is no such attribute.

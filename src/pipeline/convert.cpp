@@ -6,6 +6,7 @@
 
 #include "base/output.h"
 #include "formats/registry.h"
+#include "pipeline/grid_origin.h"
 #include "pipeline/grids.h"
 #include "pipeline/merge.h"
 #include "pipeline/shape.h"
@@ -102,6 +103,7 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Cha
     }
     if (auto made = make_like(*dataset, **format, request); !made) return std::move(made).why();
     if (auto done = apply_grid_options(*dataset, request.load.options); !done) return std::move(done).why();
+    if (auto moved = move_grid_origins(*dataset, **format, request.load.options); !moved) return std::move(moved).why();
     if (auto shaped = shape_grids(*dataset, **format, request.load.options); !shaped) return std::move(shaped).why();
     shape_for(*dataset, **format);
 

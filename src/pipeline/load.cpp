@@ -5,6 +5,7 @@
 
 #include "base/input.h"
 #include "formats/registry.h"
+#include "pipeline/deck_companions.h"
 
 namespace geomend {
 
@@ -32,6 +33,9 @@ Result<Dataset> load(const std::string& path, const LoadOptions& options, std::v
     if (!format) return std::move(format).why();
     try {
         auto dataset = (*format)->read(*input, {options.options, options.monitor});
+        if (dataset && (*format)->family == "grdecl") {
+            if (auto followed = follow_deck_companions(*dataset, *input, options); !followed) return std::move(followed).why();
+        }
         if (companions != nullptr) *companions = input->companions();
         return dataset;
     } catch (const std::bad_alloc&) {

@@ -35,7 +35,7 @@ Result<void> mend(Dataset& dataset, const RepairRequest& request, RepairReport& 
     report.file = std::move(*after);
     for (auto& [step, what] : *done) report.file.steps.push_back({std::move(step), std::move(what)});
     if (request.inspect) {
-        if (auto inspected = request.inspect(dataset, report.file); !inspected) return inspected;
+        if (auto inspected = request.inspect(dataset, dataset.breps, report.file); !inspected) return inspected;
     }
     const bool errors = count_by_severity(report.file.findings).error > 0;
     if (errors && !request.keep_invalid)

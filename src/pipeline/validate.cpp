@@ -38,7 +38,8 @@ void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
 
 }  // namespace
 
-Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options) {
+Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options,
+                              std::vector<Brep>* judged) {
     if (auto known = validators::known_codes(options); !known) return std::move(known).why();
     ReportedFile file;
     file.file = path;
@@ -59,7 +60,7 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         take(*checked);
     }
     if (std::ranges::any_of(dataset.objects, has_model_checks)) {
-        auto checked = validators::check_models(dataset, options);
+        auto checked = validators::check_models(dataset, options, judged);
         if (!checked) return std::move(checked).why();
         take(*checked);
     }
@@ -82,10 +83,11 @@ Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_o
     auto dataset = load(path, load_options, &companions);
     if (!dataset) return std::move(dataset).why();
     try {
-        auto file = validate(path, *dataset, options);
+        std::vector<Brep> judged;
+        auto file = validate(path, *dataset, options, inspect ? &judged : nullptr);
         if (file) file->companions = std::move(companions);
         if (!file || !inspect) return file;
-        auto inspected = inspect(*dataset, *file);
+        auto inspected = inspect(*dataset, judged, *file);
         if (!inspected) return std::move(inspected).why();
         return file;
     } catch (const std::bad_alloc&) {

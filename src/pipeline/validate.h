@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "base/result.h"
 #include "model/dataset.h"
@@ -14,11 +15,13 @@ namespace geomend {
 /// Runs the checks that apply to each object; what the reader noticed is in the report, too. Objects of kinds that no
 /// check exists for are named (F160), and the file is then not called valid.
 /// Failure: a code of the options is of no check (usage), or stopped (cancelled).
-Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options);
+/// \param judged where not null: takes the boundary representations that findings are about
+Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options,
+                              std::vector<Brep>* judged = nullptr);
 
-/// Looks at a dataset and at what was found in it before the dataset is gone: to draw it, to write debris. May change the
-/// report; its failure ends the work.
-using Inspect = std::function<Result<void>(const Dataset&, ReportedFile&)>;
+/// Looks at a dataset, the B-Reps that were judged and what was found in them before they are gone: to draw them, to write
+/// debris. May change the report; its failure ends the work.
+using Inspect = std::function<Result<void>(const Dataset&, std::span<const Brep>, ReportedFile&)>;
 
 /// Reads a file and validates it. Failure as of load().
 Result<ReportedFile> validate(const std::string& path, const LoadOptions& load, const validators::CheckOptions& options,

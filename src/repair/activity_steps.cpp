@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/pore_volume.h"
 #include "repair/grid_steps.h"
 #include "validators/corner_point.h"
-#include "validators/pore_volume.h"
 
 // Steps that make cells inactive. Cells keep their numbers, so that faults and connections stay as they are; stated
 // connections that lead to a cell which is no longer there for the simulator are told.
@@ -70,13 +70,13 @@ StepReport drop_isolated(CornerPointGrid& grid, const GridScope& scope, const St
 }
 
 StepReport minpv(CornerPointGrid& grid, const GridScope& scope, const StepOptions&) {
-    if (!validators::knows_pore_volumes(grid)) {
+    if (!grid::knows_pore_volumes(grid)) {
         StepReport report;
         report.message = "pore volumes are not known: neither PORO nor PORV is there";
         return report;
     }
-    const std::vector<double> volumes = validators::pore_volumes(grid), own = validators::fitting_values(grid, "MINPVV", 0);
-    const double least = validators::least_pore_volume(grid);
+    const std::vector<double> volumes = grid::pore_volumes(grid), own = grid::fitting_values(grid, "MINPVV", 0);
+    const double least = grid::least_pore_volume(grid);
     return drop(grid, active_cells(scope, [&](std::size_t cell) { return volumes[cell] < (own.empty() ? least : own[cell]); }),
                 "below MINPV in pore volume");
 }

@@ -65,8 +65,9 @@ std::string report_junit(const Report& report);
 /// SARIF 2.1.0.
 std::string report_sarif(const Report& report);
 
-/// Triangles of a file that a page draws; of larger scenes it has fewer.
-inline constexpr std::size_t page_triangles = 250000;
+/// Most triangles that a page draws of each of some files; of larger scenes it has fewer. A million in all, so that pages
+/// stay below some 30 MB.
+std::size_t page_triangles(std::size_t files);
 
 /// One page that needs no network: the findings in a table that can be filtered, the text of each, and the model of each
 /// file that has a scene, with the findings marked where they are. Text of files never becomes markup.

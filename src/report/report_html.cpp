@@ -19,7 +19,7 @@ namespace geomend {
 
 namespace {
 
-constexpr std::size_t most_marked_points = 1500000;  // in one file: some 24 MB of page
+constexpr std::size_t most_marked_points = 1500000;  // some 24 MB of page
 
 // Positions relative to the origin, as single-precision words.
 class Positions {
@@ -92,26 +92,30 @@ std::size_t point_count(const SceneMark& mark) {
     return count;
 }
 
-// Marks go to the worst findings first, until there are too many. Gives the number of findings left without theirs.
-std::size_t put_marks(const ReportedFile& file, std::span<const Finding* const> listed, Json& findings) {
+// Marks go to the worst findings first, until there are `room` points in them. Gives the number of findings left without.
+std::size_t put_marks(const ReportedFile& file, std::span<const Finding* const> listed, std::size_t& room, Json& findings) {
     if (!file.scene || file.scene->marks.size() != file.findings.size()) return 0;
-    std::size_t points = 0, left_out = 0;
+    std::size_t left_out = 0;
     for (std::size_t i = 0; i < listed.size(); ++i) {
         const SceneMark& mark = file.scene->marks[static_cast<std::size_t>(listed[i] - file.findings.data())];
         if (mark.empty()) continue;
-        points += point_count(mark);
-        if (points > most_marked_points) ++left_out;
-        else findings[i]["mark"] = mark_json(mark, file.scene->origin);
+        const std::size_t points = point_count(mark);
+        if (points > room) {
+            ++left_out;
+            continue;
+        }
+        room -= points;
+        findings[i]["mark"] = mark_json(mark, file.scene->origin);
     }
     return left_out;
 }
 
-Json scene_json(const Scene& whole) {
+Json scene_json(const Scene& whole, std::size_t most_triangles) {
     Scene scene;
     scene.parts = whole.parts;
     scene.origin = whole.origin;
     scene.simplified = whole.simplified;
-    thin(scene, page_triangles);
+    thin(scene, most_triangles);
     std::size_t drawn = 0;
     Json parts = Json::array();
     for (const ScenePart& part : scene.parts) {
@@ -125,7 +129,10 @@ Json scene_json(const Scene& whole) {
                 {"parts", std::move(parts)}};
 }
 
-Json file_with_scene(const ReportedFile& file, std::size_t most) {
+bool is_empty(const Scene& scene) { return scene.parts.empty() && std::ranges::all_of(scene.marks, &SceneMark::empty); }
+
+Json file_with_scene(const ReportedFile& file, const Report& report, std::size_t& room) {
+    const std::size_t most = report.most_findings;
     Json j = file_json(file, most);
     const auto listed = worst_first(file.findings, most);
     for (Json& finding : j["findings"]) {  // they are in the marks
@@ -133,9 +140,9 @@ Json file_with_scene(const ReportedFile& file, std::size_t most) {
         finding.erase("polylines");
         finding.erase("index");
     }
-    const std::size_t unmarked = put_marks(file, listed, j["findings"]);
-    if (!file.scene || file.scene->parts.empty()) return j;
-    j["scene"] = scene_json(*file.scene);
+    const std::size_t unmarked = put_marks(file, listed, room, j["findings"]);
+    if (!file.scene || is_empty(*file.scene)) return j;
+    j["scene"] = scene_json(*file.scene, page_triangles(report.files.size()));
     if (unmarked > 0) j["scene"]["unmarked"] = unmarked;
     return j;
 }
@@ -177,9 +184,15 @@ constexpr std::string_view policy =
 
 }  // namespace
 
+std::size_t page_triangles(std::size_t files) {
+    constexpr std::size_t of_page = 1000000, most = 250000, least = 1000;
+    return std::clamp(of_page / std::max<std::size_t>(1, files), least, most);
+}
+
 std::string report_html(const Report& report) {
+    std::size_t room = most_marked_points;
     Json data{{"tool", report.tool}, {"meanings", meanings(report)}, {"files", Json::array()}};
-    for (const ReportedFile& file : report.files) data["files"].push_back(file_with_scene(file, report.most_findings));
+    for (const ReportedFile& file : report.files) data["files"].push_back(file_with_scene(file, report, room));
     std::string page =
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"";
     page.append(policy).append("\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");

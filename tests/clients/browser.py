@@ -146,3 +146,22 @@ class Browser:
         """A PNG of the page, or of the rectangle (x, y, width, height)."""
         more = {"clip": dict(zip(("x", "y", "width", "height", "scale"), (*clip, 1)))} if clip else {}
         return base64.b64decode(self.call("Page.captureScreenshot", format="png", **more)["data"])
+
+    def changed(self, before, after):
+        """The part of the pixels, from 0 to 1, that differ visibly between two pictures of the same size."""
+        one, other = (json.dumps("data:image/png;base64," + base64.b64encode(p).decode()) for p in (before, after))
+        return self.ask(f"""(async () => {{
+            const pixels = async (url) => {{
+                const image = new Image();
+                image.src = url;
+                await image.decode();
+                const canvas = new OffscreenCanvas(image.width, image.height), context = canvas.getContext('2d');
+                context.drawImage(image, 0, 0);
+                return context.getImageData(0, 0, image.width, image.height).data;
+            }};
+            const a = await pixels({one}), b = await pixels({other});
+            let count = 0;
+            for (let i = 0; i < a.length; i += 4)
+                if (Math.max(Math.abs(a[i] - b[i]), Math.abs(a[i + 1] - b[i + 1]), Math.abs(a[i + 2] - b[i + 2])) > 12) ++count;
+            return 4 * count / a.length;
+        }})()""")

@@ -50,7 +50,9 @@ void write_deck(const FlowCase& c) {
     };
     Numbers numbers;
     std::string rock;
-    if (c.constant_rock) {
+    if (!c.rock.empty()) {
+        rock = c.rock;
+    } else if (c.constant_rock) {
         rock = all("PORO", "0.2") + all("PERMX", "200") + all("PERMY", "200") + all("PERMZ", "20");
     } else {
         rock = array("PORO", n, 0.05, 0.35, numbers) + array("PERMX", n, 10, 500, numbers) + array("PERMY", n, 10, 500, numbers) +

@@ -16,6 +16,7 @@ struct FlowCase {
     std::array<std::uint32_t, 3> dims;
     std::string grid_section;    ///< further text of the grid section, behind the rock
     bool constant_rock = false;  ///< PORO 0.2, PERM 200/20 everywhere
+    std::string rock = {};       ///< text in place of that, where it is not empty
 };
 
 bool has_flow();

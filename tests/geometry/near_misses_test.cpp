@@ -76,9 +76,7 @@ Found search(const Soup& s, double near) {
     return f;
 }
 
-std::vector<ClosePair> pairs(const Soup& s, double near) {
-    return closest_pairs(TriangleTree(s.vertices, s.triangles), s.triangles, s.groups, near);
-}
+std::vector<ClosePair> pairs(const Soup& s, double near) { return closest_pairs(s.vertices, s.triangles, s.groups, near); }
 
 /// Takes equal positions for one vertex.
 Soup welded(const Soup& s) {
@@ -250,6 +248,84 @@ TEST(NearMisses, AnOpenSlitIsNone) {
     }
 }
 
+/// A wavy horizon and a fault that meets it along a wavy line of common vertices, with some of the fault's vertices on that line
+/// pulled off by a gap.
+struct Planted {
+    Soup soup;
+    std::vector<std::uint32_t> pulled;
+    double largest_gap = 0;
+};
+
+Planted plant(unsigned seed, double near, bool with_defect) {
+    std::mt19937 random(seed);
+    const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const double a = any(0, 0.3), b = any(0, 6), angle = any(25, 155) * std::numbers::pi / 180, swing = any(0, 0.3);
+    const auto height = [&](double x, double y) { return a * std::sin(0.7 * x + b) + a * std::cos(0.9 * y); };
+    const std::uint32_t length = 10;
+    Planted p;
+    Soup& s = p.soup;
+    const auto across = [&](double y) { return 8 + swing * std::sin(1.3 * y + b); };
+    s.add_sheet(16, 16, [&](double i, double j) {
+        const double x = i == 8 ? across(j) : i;
+        return Vec3{x, j, height(x, j)};
+    });
+    const std::uint32_t start = s.add_sheet(length, 6, [&](double i, double j) {
+        const double y = i + 3, x = across(y);
+        return Vec3{x + std::cos(angle) * j, y, height(x, y) + std::sin(angle) * j};
+    });
+    if (with_defect) {
+        auto first = static_cast<std::uint32_t>(any(0, length)), count = static_cast<std::uint32_t>(any(1, length));
+        count = std::min(count, length - first);
+        // A gap that opens towards the end of the border is one when it is long, else the beginning of a border that leaves.
+        const bool is_long = count > 10 * near + 1;
+        if (first == 0 && count + 1 < length && !is_long) first = 1;
+        if (first + count >= length && first > 0 && !is_long) count = length - 1 - first;
+        const double gap = any(0.1, 0.6) * near, slope = any(-0.03, 0.03) * near;
+        for (std::uint32_t i = first; i <= std::min(length, first + count); ++i) {
+            Vec3& v = s.vertices[start + i];
+            v[2] += gap + slope * (i - first);
+            p.pulled.push_back(i);
+            p.largest_gap = std::max(p.largest_gap, gap + slope * (i - first));
+        }
+    }
+    // Numbers after welding: found again by position.
+    std::vector<Vec3> places;
+    for (const std::uint32_t i : p.pulled) places.push_back(s.vertices[start + i]);
+    s = welded(s);
+    p.pulled.clear();
+    for (const Vec3& place : places)
+        p.pulled.push_back(static_cast<std::uint32_t>(std::find(s.vertices.begin(), s.vertices.end(), place) - s.vertices.begin()));
+    return p;
+}
+
+TEST(NearMisses, PlantedGapsAreFoundAndSoundContactsAreNot) {
+    for (unsigned seed = 0; seed < 400; ++seed) {
+        const double near = seed % 3 == 0 ? 0.1 : seed % 3 == 1 ? 0.5 : 1.2;
+        const Planted sound = plant(seed, near, false);
+        EXPECT_TRUE(search(sound.soup, near).misses.empty()) << "seed " << seed;
+        const Planted broken = plant(seed, near, true);
+        const Found f = search(broken.soup, near);
+        const auto told = f.vertices(fault);
+        for (const std::uint32_t v : broken.pulled) {
+            EXPECT_TRUE(std::binary_search(told.begin(), told.end(), v))
+                << "seed " << seed << ", " << broken.pulled.size() << " pulled off";
+        }
+        EXPECT_LE(f.smallest(), broken.largest_gap) << "seed " << seed;
+    }
+}
+
+TEST(NearMisses, OneBorderNearTwoSurfacesIsToldForEach) {
+    Soup s = fault_above_horizon([](double) { return 0.3; });
+    s.add_sheet(20, 20, [](double i, double j) { return Vec3{10.9, i, 0.1 + 0.2 * j}; });
+    const Found f = search(s, 0.5);
+    std::map<std::uint32_t, int> groups;
+    for (const NearMiss& m : f.misses) {
+        if (f.borders.groups[m.border_edge] == fault) ++groups[s.groups[m.triangle]];
+    }
+    EXPECT_EQ(groups[0], 10);
+    EXPECT_GE(groups[2], 10);
+}
+
 /// The same under another order of triangles, vertices and corners, elsewhere and at another size.
 TEST(NearMisses, AreTheSameInAnyOrderAndFrame) {
     std::mt19937 random(4);
@@ -301,7 +377,7 @@ TEST(NearMisses, DoNotDependOnThreadsAndCanBeStopped) {
     Monitor monitor;
     monitor.stop = &stop;
     EXPECT_TRUE(near_misses(s.vertices, s.triangles, s.groups, b.edges, b.groups, 0.5, &monitor).empty());
-    EXPECT_TRUE(closest_pairs(TriangleTree(s.vertices, s.triangles), s.triangles, s.groups, 0.5, &monitor).empty());
+    EXPECT_TRUE(closest_pairs(s.vertices, s.triangles, s.groups, 0.5, &monitor).empty());
     EXPECT_TRUE(near_misses({}, {}, {}, {}, {}, 1).empty());
 }
 

@@ -195,6 +195,13 @@ TEST(Elevations, AreTurnedAndTold) {
     EXPECT_EQ(grid_of(*d).info.crs.z_positive, ZPositive::elevation);
 }
 
+TEST(AddedDepths, AreNotAppliedAndTold) {
+    const auto d = read_text(small + "ADDZCORN\n 5 1 2 1 1 1 1 /\n/\nPORO\n 4*0.1 /\n");
+    ASSERT_TRUE(d) << why(d);
+    EXPECT_TRUE(loses_substance(d->losses));
+    EXPECT_NE(find_attribute(grid_of(*d).info.attributes, "PORO", AttributeLocation::cell), nullptr);
+}
+
 TEST(GeometryElsewhere, IsTold) {
     const auto d = read_text("SPECGRID\n 2 1 2 /\nGDFILE\n 'X.EGRID' /\nPORO\n 4*0.1 /\n");
     ASSERT_TRUE(d) << why(d);

@@ -53,6 +53,30 @@ TEST(FromTaggedCells, plain_cells_become_the_grid_that_they_came_from) {
     }
 }
 
+// Layers that wedge out towards a corner: no cell of the last columns is a hexahedron, and their last pillar stands in
+// pinched cells only.
+TEST(FromTaggedCells, columns_without_a_hexahedron_come_back_from_their_neighbours) {
+    CornerPointGrid grid = testing::brick_grid(4, 4, 3);
+    for (std::size_t p = 0; p < grid.pillars.size(); p += 6) grid.pillars[p + 3] += 3 + 0.05 * double(p);
+    testing::reshape(grid, [](std::uint32_t i, std::uint32_t j, std::uint32_t k, unsigned c, double) {
+        const std::uint32_t x = i + (c & 1u), y = j + ((c >> 1) & 1u);
+        const double thickness = (x >= 3 && y >= 3) || (x == 4 && y >= 2) ? 0.0 : 10.0;
+        return 1000 + thickness * (k + (c >> 2)) + (k == 2 && c >= 4 && thickness == 0 && x == 3 ? 4.0 : 0.0);
+    });
+    const CellMesh mesh = plain_cells(grid).mesh;
+    const auto back = from_tagged_cells(mesh);
+    ASSERT_TRUE(back.ok()) << back.why().error.message;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+        const auto at = [&](const char* name) {
+            return static_cast<std::uint32_t>(value_as_double(*find_attribute(mesh.info.attributes, name, AttributeLocation::cell), c) - 1);
+        };
+        const Corners p = cell_corners(grid, at("I"), at("J"), at("K")), q = cell_corners(*back, at("I"), at("J"), at("K"));
+        for (std::size_t n = 0; n < 8; ++n) {
+            for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(p[n][d], q[n][d], 1e-9);
+        }
+    }
+}
+
 TEST(FromTaggedCells, a_cell_off_its_pillars_is_named) {
     CellMesh mesh = plain_cells(testing::brick_grid(2, 2, 3)).mesh;
     // The first point of the second level of some pillar steps aside.

@@ -7,6 +7,9 @@
 #include <map>
 
 #include "grid/cell_geometry.h"
+#include "grid/cell_mesh.h"
+#include "grid/connections.h"
+#include "grid/from_cells.h"
 #include "grid/map_axes.h"
 #include "pipeline/load.h"
 #include "support/real_data.h"
@@ -94,6 +97,27 @@ TEST(GridEncodings, reek_is_the_same_as_grdecl_egrid_and_roff) {
 TEST(GridEncodings, simpleb8_is_the_same_in_all_its_encodings) {
     expect_agreement("cornerpoint/simpleb8/", {"simpleb8.grdecl", "E100_BO.EGRID", "E100_BO.FEGRID", "E100_BO.GRID"}, 22, 0);
 }
+
+class CellsOfRealGrids : public ::testing::TestWithParam<const char*> {};
+
+// Columns that wedge out hold no hexahedron; their pillars come from pinched cells.
+TEST_P(CellsOfRealGrids, come_back_as_the_grid_that_they_are_of) {
+    const auto file = test::real_data(std::string("cornerpoint/") + GetParam());
+    if (!file) GTEST_SKIP() << "no real data: " << GetParam();
+    auto dataset = load(file->string(), {});
+    ASSERT_TRUE(dataset.ok());
+    const auto& grid = std::get<CornerPointGrid>(dataset->objects.front());
+    const auto back = grid::from_tagged_cells(grid::plain_cells(grid).mesh);
+    ASSERT_TRUE(back.ok()) << back.why().error.message;
+    const double volume = grid::volume(grid);
+    EXPECT_NEAR(grid::volume(*back), volume, 1e-9 * volume);
+    EXPECT_EQ(grid::connections(*back).internal, grid::connections(grid).internal);
+    EXPECT_EQ(grid::connections(*back).others, grid::connections(grid).others);
+}
+
+INSTANTIATE_TEST_SUITE_P(Grids, CellsOfRealGrids,
+                         ::testing::Values("pygrdecl/20X20X6.GRDECL", "small/gridqc1.roff", "reek/reek_sim_grid.grdecl",
+                                           "simpleb8/simpleb8.grdecl", "small/banal6.grdecl", "pygrdecl/CP.GRDECL"));
 
 }  // namespace
 }  // namespace geomend

@@ -106,6 +106,37 @@ TEST(RegionsOfGrids, with_gaps_pinches_and_holes_hold_what_their_polyhedra_hold)
     }
 }
 
+// Depths from a few whole numbers: faces of neighbours, and tops and bottoms with a gap between, often have triangles in
+// common.
+TEST(RegionsOfGrids, with_many_coincidences_hold_what_their_polyhedra_hold) {
+    std::uint64_t state = 7;
+    const auto below = [&](std::uint32_t n) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return static_cast<std::uint32_t>((state >> 33) % n);
+    };
+    for (int round = 0; round < 100; ++round) {
+        SCOPED_TRACE(round);
+        CornerPointGrid grid = testing::brick_grid(5, 5, 4);
+        for (std::uint32_t j = 0; j < 5; ++j) {
+            for (std::uint32_t i = 0; i < 5; ++i) {
+                for (unsigned c = 0; c < 4; ++c) {
+                    double depth = 1000 + below(4);
+                    for (std::uint32_t k = 0; k < 4; ++k) {
+                        depth += below(6) == 0 ? 1 : 0;
+                        grid.depths[corner_index(grid.dims, i, j, k, c)] = depth;
+                        depth += 1 + below(3);
+                        grid.depths[corner_index(grid.dims, i, j, k, c + 4)] = depth;
+                    }
+                }
+            }
+        }
+        grid.activity.assign(grid.cell_count(), 1);
+        for (int n = 0; n < 10; ++n) grid.activity[below(100)] = 0;
+        expect_regions_as_polyhedra(grid);
+        if (::testing::Test::HasFailure()) return;
+    }
+}
+
 TEST(RegionsOfGrids, far_from_the_origin_and_of_the_other_hand_hold_what_their_polyhedra_hold) {
     CornerPointGrid grid = bent(9, 9, 6, 5.0);
     for (std::size_t p = 0; p < grid.pillars.size(); p += 3) {

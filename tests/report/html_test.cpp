@@ -174,6 +174,45 @@ TEST(HtmlReport, MarksStayWithTheirFindingAndKeepTheirPlace) {
     EXPECT_EQ(floats(j["scene"]["parts"][0]["points"]).size(), 27u);
 }
 
+TEST(HtmlReport, OfManyFilesEachIsDrawnWithFewerTriangles) {
+    Report report;
+    report.files.resize(50);
+    report.files[7].scene.emplace();
+    report.files[7].scene->parts = {square(200, "s")};
+    finish(*report.files[7].scene);
+    const Json scene = Json::parse(data_of(report_html(report)))["files"][7]["scene"];
+    EXPECT_TRUE(scene["simplified"]);
+    EXPECT_LE(scene["drawn"], 20000);
+    EXPECT_EQ(page_triangles(1), 250000u);
+    EXPECT_EQ(page_triangles(0), 250000u);
+    EXPECT_GE(page_triangles(1000000), 1000u);
+}
+
+TEST(HtmlReport, MarksAreShownEvenWhereThereIsNothingToDrawAroundThem) {
+    Report report = with_one_finding(finding("m"));
+    report.files[0].scene.emplace();
+    report.files[0].scene->marks.resize(1);
+    EXPECT_FALSE(Json::parse(data_of(report_html(report)))["files"][0].contains("scene"));
+    report.files[0].scene->marks[0].points = {{1, 2, 3}};
+    finish(*report.files[0].scene);
+    const Json file = Json::parse(data_of(report_html(report)))["files"][0];
+    EXPECT_TRUE(file.contains("scene"));
+    EXPECT_TRUE(file["findings"][0].contains("mark"));
+}
+
+TEST(HtmlReport, TellsHowManyFindingsAreNotMarkedWhereThereAreTooMany) {
+    Report report = with_one_finding(finding("m"));
+    report.files[0].findings.push_back(finding("n"));
+    report.files[0].scene.emplace();
+    report.files[0].scene->marks.resize(2);
+    report.files[0].scene->marks[0].points.assign(1600000, {1, 2, 3});
+    report.files[0].scene->marks[1].points = {{1, 2, 3}};
+    const Json file = Json::parse(data_of(report_html(report)))["files"][0];
+    EXPECT_EQ(file["scene"]["unmarked"], 1);
+    EXPECT_FALSE(file["findings"][0].contains("mark"));
+    EXPECT_TRUE(file["findings"][1].contains("mark"));
+}
+
 TEST(HtmlReport, TellsThatALargeModelIsDrawnSimplified) {
     Report report = with_one_finding(finding("m"));
     report.files[0].scene.emplace();

@@ -53,6 +53,9 @@ class ModelView {
     this.partBounds = this.parts.map((part) => grow(noBounds(), part.points));
     this.bounds = noBounds();
     for (const b of this.partBounds) if (b[3] >= b[0]) grow(this.bounds, b);
+    if (!(this.bounds[3] >= this.bounds[0])) {
+      for (const row of this.rows) if (row.fileIndex === index && this.markOf(row)) grow(this.bounds, row.bounds);
+    }
     this.strong.clear();
     this.view.show(this.parts.map((part) => ({...part, colour: roleColours[part.role] || roleColours.unknown})), this.bounds);
     this.stretchLimit();

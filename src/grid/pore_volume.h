@@ -6,9 +6,9 @@
 
 #include "model/corner_point.h"
 
-namespace geomend::validators {
+namespace geomend::grid {
 
-/// Values of a cell attribute as grid::cell_values gives them; empty also where their number is wrong (C01 tells that).
+/// Values of a cell attribute as cell_values() gives them; empty also where their number is wrong (C01 tells that).
 std::vector<double> fitting_values(const CornerPointGrid& grid, std::string_view name, double fallback);
 
 /// Whether the grid has porosities or pore volumes.
@@ -22,4 +22,4 @@ std::vector<double> pore_volumes(const CornerPointGrid& grid);
 /// MINPV, or 1e-6 where it is not stated, as simulators take it.
 double least_pore_volume(const CornerPointGrid& grid);
 
-}  // namespace geomend::validators
+}  // namespace geomend::grid

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "validators/pore_volume.h"
+#include "grid/pore_volume.h"
 
 #include <cmath>
 
 #include "grid/cell_geometry.h"
+#include "grid/map_axes.h"
 #include "grid/transmissibility.h"
 
-namespace geomend::validators {
+namespace geomend::grid {
 
 namespace {
-
-// Metres in a unit of length as grids spell it; 0 where it is not one of theirs.
-double metres(const std::string& unit) {
-    if (unit == "METRES" || unit == "m") return 1;
-    if (unit == "FEET" || unit == "ft") return 0.3048;
-    if (unit == "CM" || unit == "cm") return 0.01;
-    return 0;
-}
 
 // Cubic lengths of the grid in the unit of reservoir volume.
 double volume_factor(const CornerPointGrid& grid) {
@@ -34,7 +27,7 @@ double volume_factor(const CornerPointGrid& grid) {
 std::vector<double> fitting_values(const CornerPointGrid& grid, std::string_view name, double fallback) {
     const Attribute* a = find_attribute(grid.info.attributes, std::string(name), AttributeLocation::cell);
     if (a == nullptr || a->components != 1 || value_count(*a) != grid.cell_count()) return {};
-    return grid::cell_values(grid, name, fallback);
+    return cell_values(grid, name, fallback);
 }
 
 bool knows_pore_volumes(const CornerPointGrid& grid) {
@@ -47,7 +40,7 @@ std::vector<double> pore_volumes(const CornerPointGrid& grid) {
     std::vector<double> volumes;
     const std::vector<double> porosity = fitting_values(grid, "PORO", 0);
     if (!porosity.empty()) {
-        volumes = grid::cell_volumes(grid);
+        volumes = cell_volumes(grid);
         const double factor = volume_factor(grid);
         for (std::size_t c = 0; c < volumes.size(); ++c) volumes[c] = std::abs(volumes[c]) * factor * porosity[c];
         for (const char* name : {"NTG", "MULTPV"}) {
@@ -63,4 +56,4 @@ std::vector<double> pore_volumes(const CornerPointGrid& grid) {
     return volumes;
 }
 
-}  // namespace geomend::validators
+}  // namespace geomend::grid

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/grid_connections.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "grid/transmissibility.h"
+
+namespace geomend {
+
+namespace {
+
+// Attributes TRANX, TRANY, TRANZ.
+void set_attribute(CornerPointGrid& grid, const char* name, std::vector<double> values) {
+    std::erase_if(grid.info.attributes, [&](const Attribute& a) { return a.name == name && a.location == AttributeLocation::cell; });
+    Attribute a;
+    a.name = name;
+    a.location = AttributeLocation::cell;
+    a.values = std::move(values);
+    grid.info.attributes.push_back(std::move(a));
+}
+
+void add_connection(CornerPointGrid& grid, std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t>& known, std::uint64_t a,
+                    std::uint64_t b, std::optional<double> value) {
+    const auto [at, fresh] = known.try_emplace(std::minmax(a, b), grid.connections.size());
+    if (fresh) {
+        grid.connections.push_back({a, b, value});
+    } else if (value) {
+        auto& stated = grid.connections[at->second].transmissibility;
+        stated = stated.value_or(0) + *value;
+    }
+}
+
+// Cells that simulators leave out for their pore volume.
+void tell_left_out(const CornerPointGrid& grid, const grid::SimulatedCells& cells, std::vector<Finding>& findings) {
+    const std::size_t count = cells.without_pores.size() + cells.below_minpv.size();
+    if (count == 0) return;
+    Finding told;
+    told.code = "F153";
+    told.severity = Severity::info;
+    told.count = count;
+    told.element_kind = "cell";
+    for (const auto* list : {&cells.without_pores, &cells.below_minpv}) {
+        for (std::size_t n = 0; n < list->size() && told.index.size() < 100; ++n)
+            told.index.push_back(static_cast<std::int64_t>((*list)[n]));
+    }
+    const auto [i, j, k] = grid.ijk(static_cast<std::size_t>(told.index.front()));
+    told.message = std::to_string(cells.without_pores.size()) + " active cells without pore volume and " +
+                   std::to_string(cells.below_minpv.size()) + " below MINPV take no part, as in simulators (the first is (" +
+                   std::to_string(i + 1) + "," + std::to_string(j + 1) + "," + std::to_string(k + 1) + ")); " +
+                   std::to_string(cells.bridges.size()) + " pairs are joined past them";
+    told.entities.push_back({"grid", grid.info.name, -1});
+    findings.push_back(std::move(told));
+}
+
+}  // namespace
+
+Result<void> compute_connections(CornerPointGrid& grid, std::vector<Finding>& findings) {
+    constexpr double negligible = 1e-6;
+    grid::SimulatedCells cells = grid::simulated_cells(grid);
+    tell_left_out(grid, cells, findings);
+    const grid::Connections found = grid::connections(grid, std::move(cells));
+    std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> known;
+    for (std::size_t c = 0; c < grid.connections.size(); ++c)
+        known.try_emplace(std::minmax(grid.connections[c].first, grid.connections[c].second), c);
+    const bool permeable = find_attribute(grid.info.attributes, "PERMX", AttributeLocation::cell) != nullptr;
+    if (!permeable) {
+        for (const auto& pair : found.others) add_connection(grid, known, pair.first, pair.second, std::nullopt);
+        return {};
+    }
+    auto values = grid::transmissibilities(grid, found);
+    if (!values) return std::move(values).why();
+    std::uint64_t left_out = 0;
+    for (std::size_t c = 0; c < found.others.size(); ++c) {
+        if (values->others[c] < negligible) ++left_out;
+        else add_connection(grid, known, found.others[c].first, found.others[c].second, values->others[c]);
+    }
+    set_attribute(grid, "TRANX", std::move(values->x));
+    set_attribute(grid, "TRANY", std::move(values->y));
+    set_attribute(grid, "TRANZ", std::move(values->z));
+    if (left_out == 0) return {};
+    Finding told;
+    told.code = "F151";
+    told.severity = Severity::info;
+    told.count = left_out;
+    told.message = std::to_string(left_out) + " of " + std::to_string(found.others.size()) +
+                   " pairs of cells that touch across layers have a transmissibility below 1e-6: no connection is listed for them";
+    told.entities.push_back({"grid", grid.info.name, -1});
+    findings.push_back(std::move(told));
+    return {};
+}
+
+}  // namespace geomend
