@@ -220,6 +220,7 @@ std::string this_program() { return "/proc/self/exe"; }
 
 void become_worker(const OwnLimits& limits) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (limits.parent != 0 && ::getppid() != limits.parent) ::raise(SIGKILL);  // it died before we asked
     set_limit(RLIMIT_CORE, 0, 0);
     if (limits.processor_seconds > 0) {
         const auto seconds = static_cast<rlim_t>(std::ceil(limits.processor_seconds));

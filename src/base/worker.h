@@ -47,10 +47,11 @@ std::string this_program();
 struct OwnLimits {
     double processor_seconds = 0;    ///< of all its threads; 0: no limit
     std::uint64_t memory_bytes = 0;  ///< of memory that it writes to, mapped files not counted; 0: no limit
+    std::int64_t parent = 0;         ///< number of the process that started it; 0: not known
 };
 
 /// For a worker, first of all: sets its limits, so that memory beyond them is refused (std::bad_alloc) and time ends with
-/// SIGXCPU; writes no core file; dies with its parent; and asks the system to end it before others when memory is short.
+/// SIGXCPU; writes no core file; dies with its parent, at once where that is gone already; and asks the system to end it before others when memory is short.
 /// In builds with address sanitiser the memory limit is left out, because that reserves terabytes.
 void become_worker(const OwnLimits& limits);
 

@@ -119,7 +119,7 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     if (!checks) return report(checks.why());
     checks->target = o.target;
     const LoadOptions load{o.from, std::move(*options), &monitor};
-    if (o.is_worker) return work(o, load, *checks);
+    if (o.is_worker()) return work(o, load, *checks);
 
     DebrisFolder debris(o.debris, o.max_findings);
     if (auto targets = check_targets(o, debris); !targets) return report(targets.why());

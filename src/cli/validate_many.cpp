@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "cli/validate_many.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -17,7 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 3> not_passed_on = {"help", "threads", "progress"};
 
 std::vector<std::string> worker_command(const CLI::App& command) {
-    std::vector<std::string> all = {this_program(), command.get_name(), "--worker"};
+    std::vector<std::string> all = {this_program(), command.get_name(), "--worker", std::to_string(::getpid())};
     for (const CLI::Option* option : command.get_options()) {
         if (option->get_positional() || option->get_lnames().empty()) continue;
         const std::string& name = option->get_lnames().front();
@@ -56,12 +58,13 @@ void add_worker_arguments(CLI::App& command, WorkerArguments& a) {
             "Most memory for one file of many; 0 is no limit (default four fifths of the machine's)")
         ->type_name("MB")
         ->check(CLI::NonNegativeNumber);
-    command.add_flag("--worker", a.is_worker)->group("");
+    command.add_option("--worker", a.parent)->group("");
 }
 
 void settle_worker(const WorkerArguments& a, std::size_t threads) {
-    if (!a.is_worker) return;
+    if (!a.is_worker()) return;
     OwnLimits limits;
+    limits.parent = a.parent;
     limits.processor_seconds = a.seconds * static_cast<double>(std::max<std::size_t>(1, threads));
     // More than a machine has is no limit, and would not fit the number.
     limits.memory_bytes = a.megabytes < 1e12 ? static_cast<std::uint64_t>(a.megabytes * 1e6) : 0;
@@ -69,7 +72,7 @@ void settle_worker(const WorkerArguments& a, std::size_t threads) {
 }
 
 bool need_workers(const FoundFiles& files, const WorkerArguments& a) {
-    if (a.is_worker) return false;
+    if (a.is_worker()) return false;
     return files.files.size() != 1 || files.folders_or_patterns || a.limits_given;
 }
 

@@ -15,9 +15,10 @@ namespace geomend::cli {
 /// Limits of each file of a run over many, and whether this process is the worker for one of them.
 struct WorkerArguments {
     double seconds = 600;
-    double megabytes = 0;  ///< 0: none; where it is not given, four fifths of the machine's memory
-    bool is_worker = false;
+    double megabytes = 0;     ///< 0: none; where it is not given, four fifths of the machine's memory
+    std::int64_t parent = 0;  ///< of a worker: the process that started it; 0: this is none
     bool limits_given = false;
+    bool is_worker() const { return parent != 0; }
 };
 
 void add_worker_arguments(CLI::App& command, WorkerArguments& arguments);

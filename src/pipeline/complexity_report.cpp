@@ -49,16 +49,18 @@ ByKind totals(const Complexity& c) {
     return m2;
 }
 
-Json by_kind_json(const ByKind& m) {
+// Counts go out as whole numbers.
+Json by_kind_json(const ByKind& m, bool counts) {
     Json j = Json::object();
+    const auto number = [&](double value) { return counts ? Json(static_cast<std::uint64_t>(value)) : Json(value); };
     const auto add = [&](const char* key, const std::optional<double>& value) {
-        if (value) j[key] = *value;
+        if (value) j[key] = number(*value);
     };
     add("regions", m.regions);
     add("surfaces", m.surfaces);
     add("lines", m.lines);
     add("corners", m.corners);
-    if (!j.empty()) j["total"] = m.total();
+    if (!j.empty()) j["total"] = number(m.total());
     return j;
 }
 
@@ -102,14 +104,14 @@ std::string complexity_text(const Complexity& c) {
 
 Json complexity_json(const Complexity& c) {
     Json j{{"size", c.size}, {"angle", c.angle}, {"box", c.box_by_role ? "role" : "outside"}};
-    j["m1"] = by_kind_json(c.m1);
+    j["m1"] = by_kind_json(c.m1, true);
     Json m2 = Json::object();
     if (c.regions) m2["regions"] = terms_json(*c.regions);
     if (c.surfaces) m2["surfaces"] = terms_json(*c.surfaces);
     if (c.lines) m2["lines"] = terms_json(*c.lines);
     if (!m2.empty()) m2["total"] = c.m2();
     j["m2"] = std::move(m2);
-    j["m3"] = by_kind_json(c.m3);
+    j["m3"] = by_kind_json(c.m3, false);
     if (c.cells) {
         const auto& k = *c.cells;
         j["cells"] = {

@@ -22,7 +22,9 @@ SurfaceTriangles triangulated(const BrepData::Surface& surface);
 
 /// A B-Rep made ready to be measured: triangles, positions relative to the middle of the model, and what is of the box.
 struct MeasuredModel {
+    /// \pre the B-Rep outlives it
     explicit MeasuredModel(const BrepData& brep);
+    explicit MeasuredModel(BrepData&&) = delete;
 
     const BrepData& brep;
     std::vector<Vec3> points;  ///< of model vertices, relative to `origin`

@@ -24,7 +24,7 @@ using namespace geomend;
 int eat() {
     std::vector<std::unique_ptr<std::vector<char>>> all;
     try {
-        for (int block = 0; block < 4096; ++block) all.push_back(std::make_unique<std::vector<char>>(1u << 20, 'x'));
+        for (int block = 0; block < 512; ++block) all.push_back(std::make_unique<std::vector<char>>(1u << 20, 'x'));
     } catch (const std::bad_alloc&) {
         std::fputs("refused\n", stderr);
         return 5;
@@ -89,11 +89,11 @@ int main(int argc, char** argv) {
     }
     if (what == "orphan") return leave_a_child();
     if (what == "eat") {
-        become_worker({0, std::uint64_t(number) << 20});
+        become_worker({0, std::uint64_t(number) << 20, 0});
         return eat();
     }
     if (what == "spin") {
-        become_worker({double(number), 0});
+        become_worker({double(number), 0, 0});
         return spin();
     }
     if (what == "flood") {

@@ -173,7 +173,8 @@ ModelMaker strip() {
 }
 
 TEST(Complexity, OfThicknessOfSurfacesGoesAlongThem) {
-    const MeasuredModel model(brep_of(strip()));
+    const BrepData model_brep = brep_of(strip());
+    const MeasuredModel model(model_brep);
     EXPECT_NEAR(topology::thin_parts_of_surfaces(model, 31)[0], 800. / 860, 1e-12);
     EXPECT_NEAR(topology::thin_parts_of_surfaces(model, 29)[0], 0, 1e-12);
     EXPECT_NEAR(topology::thin_parts_of_surfaces(model, 401)[0], 1, 1e-12);
@@ -182,7 +183,8 @@ TEST(Complexity, OfThicknessOfSurfacesGoesAlongThem) {
     bent.add(
         "bent", FeatureRole::fault,
         test::joined({quad({0, 0, 0}, {400, 0, 0}, {400, 15, 0}, {0, 15, 0}), quad({0, 15, 0}, {400, 15, 0}, {400, 15, 15}, {0, 15, 15})}));
-    const MeasuredModel folded(brep_of(std::move(bent)));
+    const BrepData folded_brep = brep_of(std::move(bent));
+    const MeasuredModel folded(folded_brep);
     EXPECT_NEAR(topology::thin_parts_of_surfaces(folded, 31)[0], 800. / 860, 1e-12);
     EXPECT_NEAR(topology::thin_parts_of_surfaces(folded, 29)[0], 0, 1e-12);
 }
@@ -202,9 +204,11 @@ TEST(Complexity, OfShapeIsHalfForAHemisphereAndNoneForAPlane) {
         }
     }
     m.add("dome", FeatureRole::horizon, dome);
-    const MeasuredModel model(brep_of(std::move(m)));
+    const BrepData model_brep = brep_of(std::move(m));
+    const MeasuredModel model(model_brep);
     EXPECT_NEAR(topology::surface_shape(model, 0), 0.5, 1e-3);
-    const MeasuredModel flat(brep_of(strip()));
+    const BrepData flat_brep = brep_of(strip());
+    const MeasuredModel flat(flat_brep);
     EXPECT_NEAR(topology::surface_shape(flat, 0), 0, 1e-12);
     EXPECT_NEAR(topology::line_shape(flat, 0), 1 - 400. / 430, 0.05);  // the border goes round
 }
@@ -220,7 +224,8 @@ TEST(Complexity, OfShapeOfASemicircle) {
     // A second surface on the diameter, so that the arc is a line of its own.
     m.add("half", FeatureRole::fault, half_disk);
     m.add("wall", FeatureRole::fault, {{Vec3{-1, 0, 0}, Vec3{0, 0, 0}, Vec3{0, 0, -1}}, {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 0, -1}}});
-    const MeasuredModel model(brep_of(std::move(m)));
+    const BrepData model_brep = brep_of(std::move(m));
+    const MeasuredModel model(model_brep);
     double arc = 0;
     for (std::size_t l = 0; l < model.brep.lines.size(); ++l) {
         if (model.brep.lines[l].vertices.size() > n) arc = topology::line_shape(model, l);

@@ -211,7 +211,7 @@ TEST(ReadinessForCells, NamesThatATargetRefuses) {
     mesh.entities[1].name = "walls";
     EXPECT_EQ(ready(of(mesh), "abaqus").size(), 1u);
     EXPECT_EQ(ready(of(mesh), "openfoam").size(), 0u);
-    mesh.entities[0].name = "r\xc3\xb6ck";
+    mesh.entities[0].name = "rock \xc3\xb6";
     EXPECT_EQ(ready(of(mesh), "abaqus").size(), 1u);
 }
 
