@@ -21,11 +21,14 @@ public:
     NodeSearch(const TriangleTree& tree, std::size_t most) : tree_(tree), most_(most) {}
 
     std::vector<TriangleMeetingPair> run(std::size_t level, std::size_t node) {
+        const std::size_t size = std::size_t{4} << (2 * level), end = std::min(tree_.size(), (node + 1) * size);
+        first_ = node * size;
+        for (std::size_t i = first_; i < end; ++i) own_.emplace_back(corners(i));
         const auto with = [&](std::size_t other) {
             if (other < node || found_.size() >= most_) return;
             tree_.visit_pairs(level, node, other, [&](std::size_t i, std::size_t first, unsigned hits) {
-                const Separator own(corners(tree_.triangle(i)));
-                visit_bits(hits, [&](std::size_t k) { test(i, first + k, own); });
+                if (found_.size() >= most_) return;
+                visit_bits(hits, [&](std::size_t k) { test(i, first + k); });
             });
         };
         if (level + 1 == tree_.levels().size()) with(node);
@@ -36,14 +39,17 @@ public:
 private:
     const TriangleTree& tree_;
     const std::size_t most_;
+    std::size_t first_ = 0;
+    std::vector<Separator> own_;  ///< of the triangles of the node, from first_ on
     std::vector<TriangleMeetingPair> found_;
 
-    std::array<Vec3, 3> corners(const Triangle& t) const {
+    std::array<Vec3, 3> corners(std::size_t i) const {
+        const Triangle& t = tree_.triangle(i);
         const auto vertices = tree_.vertices();
         return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
     }
 
-    void test(std::size_t i, std::size_t j, const Separator& own) {
+    void test(std::size_t i, std::size_t j) {
         const Triangle &a = tree_.triangle(i), &b = tree_.triangle(j);
         Corners a_shared = 0, b_shared = 0;
         for (unsigned m = 0; m < 3; ++m) {
@@ -53,7 +59,8 @@ private:
                 b_shared |= same << n;
             }
         }
-        const std::array<Vec3, 3> other = corners(b);
+        const Separator& own = own_[i - first_];
+        const std::array<Vec3, 3> other = corners(j);
         if (own.clear_of(other, a_shared, b_shared)) return;
         if (Separator(other).clear_of(own.corners(), b_shared, a_shared)) return;
         TriangleMeetingPair pair{tree_.number(i), tree_.number(j), {}};

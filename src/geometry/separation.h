@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -18,7 +19,8 @@ using Corners = unsigned;
 ///
 /// Two triangles meet in nothing but their shared corners where a plane through these has the other corners of one strictly on
 /// one side and the other triangle on the other side or in the plane. Tried are the triangle's own plane and the planes through its
-/// edges along the axis that its normal follows most: for neighbours in a surface one of these nearly always does. The signs are
+/// edges along the axis that its normal follows most: for neighbours in a surface one of these nearly always does; and through a
+/// shared corner the plane across the direction in which the triangle leaves it, for neighbours on the lines of its edges. The signs are
 /// taken in plain arithmetic, and only where they are larger than all rounding: "yes" is exact, "no" only means unsure.
 class Separator {
 public:
@@ -35,7 +37,7 @@ public:
 
     /// \param own, its which corners the two share, of this and of the other
     bool clear_of(const std::array<Vec3, 3>& other, Corners own, Corners its) const {
-        return clear_of_edge_planes(other, own, its) || clear_of_plane(other, its);
+        return clear_of_edge_planes(other, own, its) || clear_of_plane(other, its) || clear_across_corner(other, own, its);
     }
 
 private:
@@ -47,6 +49,7 @@ private:
 
     // Sums of sizes are replaced by products of the largest differences. Two terms of four roundings: 8 * 2^-53 = 9e-16 for
     // areas; six terms of eight roundings: 48 * 2^-53 = 5.4e-15 for volumes.
+    static constexpr double length_error = 2e-15;  // three terms of four roundings: 1.4e-15
     static constexpr double area_error = 1e-15;
     static constexpr double volume_error = 6e-15;
 
@@ -86,6 +89,24 @@ private:
             if (highest < -area_error * std::max(std::abs(ex), std::abs(ey)) * reach) return true;
         }
         return false;
+    }
+
+    /// A single shared corner: the triangle leaves it on one side of a plane, the other one on the other.
+    bool clear_across_corner(const std::array<Vec3, 3>& other, Corners own, Corners its) const {
+        if (own == 0 || (own & (own - 1)) != 0) return false;
+        const auto shared = static_cast<std::size_t>(std::countr_zero(own));
+        const Vec3& p = corner_[shared];
+        const Vec3 u = minus(corner_[(shared + 1) % 3], p), v = minus(corner_[(shared + 2) % 3], p);
+        const Vec3 ahead = plus(u, v);  // any direction would do
+        double reach = 0, highest = -HUGE_VAL;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if ((its >> k & 1u) != 0) continue;
+            const Vec3 w = minus(other[k], p);
+            highest = std::max(highest, dot(ahead, w));
+            reach = std::max(reach, largest(w));
+        }
+        const double error = length_error * largest(ahead);
+        return highest < -error * reach && std::min(dot(ahead, u), dot(ahead, v)) > error * std::max(largest(u), largest(v));
     }
 };
 
