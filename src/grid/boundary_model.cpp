@@ -49,7 +49,7 @@ public:
             region.name = name;
             stated.regions.push_back(std::move(region));
         }
-        for (const auto& [key, members] : groups_) add_surface(key, members, model, stated);
+        for (const auto& [key, members] : groups_) add_surfaces(key, members, model, stated);
         return model;
     }
 
@@ -57,6 +57,7 @@ private:
     // Feature, region behind, region in front or nobody, and which way open faces look: two that look at each other may
     // be alike, and one surface would hold them twice.
     using Key = std::tuple<Feature, std::uint32_t, std::uint32_t, unsigned>;
+    using Triangles = std::vector<std::array<std::uint32_t, 3>>;
     struct Member {
         std::uint32_t face;
         bool turned;  // its normal leaves the region in front
@@ -191,29 +192,29 @@ private:
         return false;
     }
 
-    void add_surface(const Key& key, const std::vector<Member>& members, Dataset& model, StatedModel& stated) const {
+    void add_surfaces(const Key& key, const std::vector<Member>& members, Dataset& model, StatedModel& stated) const {
         const auto& [feature, back, front, way] = key;
-        Surface surface;
-        surface.info.name = feature.name;
-        surface.info.role = feature.role;
-        surface.info.crs = grid_.info.crs;
-        take_triangles(members, surface);
-        if (surface.polygons.corners.empty()) return;  // faces without any area
-        StatedModel::Face face;
-        face.number = static_cast<std::int64_t>(stated.faces.size() + 1);
-        face.object = static_cast<std::uint32_t>(model.objects.size());
-        face.interface_name = feature.name;
-        face.role = feature.role;
-        const auto number = static_cast<std::uint32_t>(stated.faces.size());
-        stated.regions[back].sides.push_back({number, false});
-        if (front != nobody) stated.regions[front].sides.push_back({number, true});
-        stated.faces.push_back(std::move(face));
-        model.objects.emplace_back(std::move(surface));
+        for (const Triangles& sheet : sheets_of(triangles_of(members))) {
+            Surface surface;
+            surface.info.name = feature.name;
+            surface.info.role = feature.role;
+            surface.info.crs = grid_.info.crs;
+            fill(surface, sheet);
+            StatedModel::Face face;
+            face.number = static_cast<std::int64_t>(stated.faces.size() + 1);
+            face.object = static_cast<std::uint32_t>(model.objects.size());
+            face.interface_name = feature.name;
+            face.role = feature.role;
+            const auto number = static_cast<std::uint32_t>(stated.faces.size());
+            stated.regions[back].sides.push_back({number, false});
+            if (front != nobody) stated.regions[front].sides.push_back({number, true});
+            stated.faces.push_back(std::move(face));
+            model.objects.emplace_back(std::move(surface));
+        }
     }
 
-    void take_triangles(const std::vector<Member>& members, Surface& surface) const {
-        std::vector<std::array<std::uint32_t, 3>> triangles, all;
-        std::vector<std::uint32_t> nodes;
+    Triangles triangles_of(const std::vector<Member>& members) const {
+        Triangles triangles, all;
         for (const Member& m : members) {
             face_triangles(faces_.polygon(m.face), faces_.points, triangles);
             // Normals point to the front: out of the region behind.
@@ -222,11 +223,36 @@ private:
             }
             all.insert(all.end(), triangles.begin(), triangles.end());
         }
-        for (const auto& t : all) nodes.insert(nodes.end(), t.begin(), t.end());
+        return all;
+    }
+
+    // Where cells are pinched, open faces may have triangles in common: a surface holds each but once.
+    static std::vector<Triangles> sheets_of(const Triangles& all) {
+        std::vector<std::pair<std::array<std::uint32_t, 3>, std::size_t>> sorted(all.size());
+        for (std::size_t t = 0; t < all.size(); ++t) {
+            sorted[t] = {all[t], t};
+            std::ranges::sort(sorted[t].first);
+        }
+        std::ranges::sort(sorted);
+        std::vector<std::size_t> sheet(all.size(), 0);
+        for (std::size_t n = 1; n < sorted.size(); ++n) {
+            if (sorted[n].first == sorted[n - 1].first) sheet[sorted[n].second] = sheet[sorted[n - 1].second] + 1;
+        }
+        std::vector<Triangles> sheets;
+        for (std::size_t t = 0; t < all.size(); ++t) {
+            if (sheet[t] >= sheets.size()) sheets.resize(sheet[t] + 1);
+            sheets[sheet[t]].push_back(all[t]);
+        }
+        return sheets;
+    }
+
+    void fill(Surface& surface, const Triangles& triangles) const {
+        std::vector<std::uint32_t> nodes;
+        for (const auto& t : triangles) nodes.insert(nodes.end(), t.begin(), t.end());
         std::ranges::sort(nodes);
         nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
         for (const std::uint32_t n : nodes) surface.points.push_back(faces_.points[n]);
-        for (const auto& t : all) {
+        for (const auto& t : triangles) {
             for (const std::uint32_t n : t)
                 surface.polygons.corners.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(nodes, n) - nodes.begin()));
         }

@@ -20,8 +20,8 @@ struct ModelRequest {
 /// per side), faults (named by FAULTS records, else "unnamed throw"), horizons below the chosen layers and what else
 /// divides two regions. Regions are the values of an attribute, cut at horizons where those are given. Surfaces are
 /// made of the faces of conforming_faces(), as triangles (face_triangles()): they share their points where they meet, and a
-/// region holds exactly what the polyhedra of its cells hold. Open faces that look opposite ways are surfaces apart.
-/// Failure (usage) where the attribute is missing or a layer is not in the grid.
+/// region holds exactly what the polyhedra of its cells hold. Open faces that look opposite ways, and triangles that coincide, are on
+/// surfaces apart. Failure (usage) where the attribute is missing or a layer is not in the grid.
 Result<Dataset> boundary_model(const CornerPointGrid& grid, const ModelRequest& request);
 
 /// The name of the fault that FAULTS records put on a face of a cell, or nullptr. Built once per grid.

@@ -79,7 +79,8 @@ public:
 
     SimulatedCells choose() {
         result_.present = present_cells(grid_);
-        if (!knows_pore_volumes(grid_)) return std::move(result_);
+        // With two porosities a cell may have its pores in the fracture.
+        if (!knows_pore_volumes(grid_) || grid_.porosity != CornerPointGrid::Porosity::single) return std::move(result_);
         volumes_ = pore_volumes(grid_);
         own_least_ = fitting_values(grid_, "MINPVV", 0);
         for (std::size_t cell = 0; cell < volumes_.size(); ++cell) {

@@ -17,8 +17,8 @@ struct SimulatedCells {
     std::vector<std::array<std::size_t, 2>> bridges;  ///< pairs of one column, upper cell first, ascending
 };
 
-/// The rules are those of flow 2022.10, found by running it. Without PORO and PORV pore volumes are not known and no cell
-/// is left out for them. Without MINPV and MINPVV no cell is left out but those without any pores. A cell below MINPV is
+/// The rules are those of flow 2022.10, found by running it. Without PORO and PORV, and in grids of two porosities, pore volumes are not
+/// known and no cell is left out for them. Without MINPV and MINPVV no cell is left out but those without any pores. A cell below MINPV is
 /// bridged, whatever its thickness and with or without PINCH: from the next kept cell above to the next kept one below.
 /// Of cells that are inactive in the deck, or have no pores, those are passed whose mean thickness is within the threshold
 /// of PINCH (0 without it), on the way down; on the way up those below it. The uppermost layer is looked at only right

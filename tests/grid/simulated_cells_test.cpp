@@ -76,6 +76,9 @@ TEST(SimulatedCells, are_all_where_pore_volumes_are_not_known) {
     CornerPointGrid grid = column({10, 0.5, 10});
     std::erase_if(grid.info.attributes, [](const Attribute& a) { return a.name == "PORO"; });
     EXPECT_EQ(simulated_cells(grid).present, (std::vector<std::uint8_t>{1, 1, 1}));
+    CornerPointGrid dual = column({10, 0.5, 10});
+    dual.porosity = CornerPointGrid::Porosity::dual_porosity;
+    EXPECT_EQ(simulated_cells(dual).present, (std::vector<std::uint8_t>{1, 1, 1}));
 }
 
 TEST(SimulatedCells, are_joined_with_the_multipliers_that_pinch_asks_for) {

@@ -124,7 +124,7 @@ TEST(RegionsOfGrids, with_many_coincidences_hold_what_their_polyhedra_hold) {
                     for (std::uint32_t k = 0; k < 4; ++k) {
                         depth += below(6) == 0 ? 1 : 0;
                         grid.depths[corner_index(grid.dims, i, j, k, c)] = depth;
-                        depth += 1 + below(3);
+                        depth += below(3);
                         grid.depths[corner_index(grid.dims, i, j, k, c + 4)] = depth;
                     }
                 }
