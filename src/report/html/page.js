@@ -53,11 +53,15 @@ const state = {file: report.files.length > 1 ? -1 : 0, text: '', code: '', entit
 const columns = [
   {key: 'severity', title: 'Severity', width: '96px', value: (r) => severities.indexOf(r.finding.severity)},
   {key: 'code', title: 'Code', width: '56px', value: (r) => r.finding.code},
-  {key: 'from', title: 'File', width: '20%', value: (r) => report.files[r.fileIndex].file},
+  {key: 'from', title: 'File', width: '18%', value: (r) => report.files[r.fileIndex].file},
   {key: 'entity', title: 'Where', width: '24%', value: (r) => r.entity.toLowerCase()},
   {key: 'message', title: 'What', width: 'auto', value: (r) => r.finding.message.toLowerCase()},
   {key: 'count', title: 'Number', width: '68px', value: (r) => -r.count}];
-const columnsShown = () => columns.filter((c) => c.key !== 'from' || state.file < 0 && report.files.length > 1);
+// The file is told where there are several; then there is less room for the entity.
+function columnsShown() {
+  const several = state.file < 0 && report.files.length > 1;
+  return columns.filter((c) => c.key !== 'from' || several).map((c) => c.key === 'entity' && several ? {...c, width: '18%'} : c);
+}
 
 function matches(row, without) {
   const f = row.finding;
