@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/parallel.h"
 #include "formats/gocad/write_gocad.h"
 #include "peak_memory.h"
 #include "pipeline/validate.h"
@@ -89,7 +90,7 @@ void all_checks(benchmark::State& state) {
     const ThreadBudget budget(static_cast<std::size_t>(state.range(0)));
     std::size_t findings = 0;
     for (auto _ : state) {
-        const auto file = validate(path, {}, {});
+        const auto file = validate(path, LoadOptions{}, validators::CheckOptions{});
         findings = file ? file->findings.size() : 0;
     }
     state.counters["findings"] = static_cast<double>(findings);

@@ -194,8 +194,7 @@ void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
     for (const std::uint32_t s : internal) {
         const std::uint32_t region = found.region_of_side[2 * s];
         Finding finding =
-            finding_of("B12", quoted(brep.surfaces[s].name) + " lies inside " + region_name(scope, region) + " with both sides");
-        finding.severity = Severity::info;
+            finding_of("B25", quoted(brep.surfaces[s].name) + " lies inside " + region_name(scope, region) + " with both sides");
         finding.entities.push_back(surface_ref(scope, s));
         finding.count = 1;
         for (const auto& use : brep.surfaces[s].lines) {

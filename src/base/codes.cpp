@@ -44,6 +44,7 @@ constexpr std::array catalogue = {
     CodeInfo{"B23", warning, "the border of a surface nearly meets another surface",
              "extend the border to the surface, or check again with a --tolerance above the gap"},
     CodeInfo{"B24", info, "two surfaces come close to each other without meeting", ""},
+    CodeInfo{"B25", info, "a surface lies inside of one region with both sides", ""},
     // Corner-point grids, numbered as in the rules that they come from.
     CodeInfo{"C01", error, "the length of an array does not fit the dimensions", "correct SPECGRID or the array"},
     CodeInfo{"C02", error, "a coordinate is not finite or as large as 1e20", "export the grid again, or make the cells inactive"},

@@ -115,7 +115,8 @@ private:
         further_entities(f);
         elements(f);
         const CodeInfo* row = find_code(f.code);
-        if (row != nullptr && !row->fix.empty() && f.severity > Severity::info) text_ += indent() + "to mend it: " + std::string(row->fix) + '\n';
+        if (row != nullptr && !row->fix.empty() && f.severity > Severity::info)
+            text_ += indent() + "to mend it: " + std::string(row->fix) + '\n';
     }
 
     void step(const ReportedStep& s) {
