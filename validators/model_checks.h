@@ -25,7 +25,7 @@ void check_region_closed(const ModelScope&, std::vector<Finding>&);       // B05
 void check_model_closed(const ModelScope&, std::vector<Finding>&);        // B06
 void check_seams(const ModelScope&, std::vector<Finding>&);               // B07
 void check_free_ends(const ModelScope&, std::vector<Finding>&);           // B09
-void check_leaks(const ModelScope&, std::vector<Finding>&);               // B12
+void check_leaks(const ModelScope&, std::vector<Finding>&);               // B12 B25
 void check_stated_regions(const ModelScope&, std::vector<Finding>&);      // B13
 void check_region_overlap(const ModelScope&, std::vector<Finding>&);      // B14
 void check_thin_regions(const ModelScope&, std::vector<Finding>&);        // B15

@@ -41,8 +41,8 @@ constexpr std::array table = {
              check_intersections),
     of_model(
         "B12",
-        "walking along surfaces, both sides of one bound the same region: an error where it is stratigraphic or a boundary or where the "
-        "file's lists differ, else information",
+        "walking along surfaces, both sides of one bound the same region although it is stratigraphic or a boundary, or the file's lists "
+        "put different regions there",
         check_leaks),
     of_model("B13", "a closed region as stated has other sides than the region found by walking", check_stated_regions),
     of_model("B14", "two stated regions have the same side of a surface", check_region_overlap),
@@ -56,6 +56,7 @@ constexpr std::array table = {
              check_shared_points),
     of_model("B23", "an edge of a free border comes closer to a surface than the search length, without meeting it", check_near_misses),
     of_model("B24", "two surfaces come closer than the search length away from what they share", check_near_misses),
+    of_model("B25", "as B12, of a fault, a fracture or a surface without a role: such may lie within a region", check_leaks),
     Check{"C01", "an array has another length than the dimensions ask for; nothing else is then checked"},
     Check{"C02", "a corner or pillar of an active cell is not finite, or 1e20 or more", check_coordinates},
     Check{"C03", "on a pillar the bottom lies above the top by more than the tolerance", check_inverted},

@@ -357,7 +357,7 @@ Expected surface_outside(LayeredModel& m, Random& random) {
 
 Expected sheet_inside(LayeredModel& m, Random& random) {
     const double x = uniform(random, 0.2, 1.5);
-    return {"B12", "surface", add_loose_triangle(m, FeatureRole::fracture, {{{x, 0.3, 0.2}, {x + 0.3, 0.3, 0.2}, {x, 0.6, 0.4}}})};
+    return {"B25", "surface", add_loose_triangle(m, FeatureRole::fracture, {{{x, 0.3, 0.2}, {x + 0.3, 0.3, 0.2}, {x, 0.6, 0.4}}})};
 }
 
 Expected wrong_border(LayeredModel& m, Random& random) {
