@@ -157,18 +157,18 @@ int check(const char* path, std::size_t copies, double spacing) {
 #endif
 
 void sizes(benchmark::internal::Benchmark* b) {
-    b->Unit(benchmark::kMillisecond)->UseRealTime()->ArgNames({"size", "threads"});
+    b->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->ArgNames({"size", "threads"});
     for (const std::int64_t size :
          {std::int64_t{0}, std::int64_t{10000}, std::int64_t{100000}, std::int64_t{1000000}, std::int64_t{10000000}}) {
         b->Args({size, 0})->Args({size, 1});
     }
 }
 BENCHMARK(ours)->Apply(sizes);
-BENCHMARK(borders)->Unit(benchmark::kMillisecond)->UseRealTime()->Args({0, 0})->Args({0, 1});
-BENCHMARK(insides)->Unit(benchmark::kMillisecond)->UseRealTime()->Args({0, 0})->Args({0, 1});
-BENCHMARK(tree_only)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(0)->Arg(1000000);
+BENCHMARK(borders)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Args({0, 0})->Args({0, 1});
+BENCHMARK(insides)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Args({0, 0})->Args({0, 1});
+BENCHMARK(tree_only)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Arg(0)->Arg(1000000);
 #ifdef GEOMEND_WITH_CGAL
-BENCHMARK(cgal)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(0)->Arg(10000)->Arg(100000)->Arg(1000000);
+BENCHMARK(cgal)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Arg(0)->Arg(10000)->Arg(100000)->Arg(1000000);
 #endif
 
 }  // namespace

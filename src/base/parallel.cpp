@@ -5,14 +5,14 @@
 
 namespace geomend {
 
+// Made in its place: a global_control takes effect by its address, and a copy of one does nothing.
 struct ThreadBudget::Control {
+    explicit Control(std::size_t threads) : limit(tbb::global_control::max_allowed_parallelism, threads) {}
     tbb::global_control limit;
 };
 
 ThreadBudget::ThreadBudget(std::size_t threads) {
-    if (threads > 0) {
-        control_ = std::make_unique<Control>(Control{tbb::global_control(tbb::global_control::max_allowed_parallelism, threads)});
-    }
+    if (threads > 0) control_ = std::make_unique<Control>(threads);
 }
 
 ThreadBudget::~ThreadBudget() = default;

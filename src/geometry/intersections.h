@@ -23,7 +23,7 @@ struct TriangleMeetingPair {
 /// \param triangles vertex numbers below vertices.size(); sharing is by number: weld equal positions before
 /// \param monitor may stop the search: what was found by then is returned
 /// \param most stop searching soon after so many pairs, and return no more than so many: the same ones whatever the number of threads
-/// Cost: about n log n, some tenths of a second per million triangles; memory: the tree's 48 (64) bytes per triangle.
+/// Cost: about n log n, some tenths of a second per million triangles; memory: the tree's 48 bytes per triangle.
 std::vector<TriangleMeetingPair> intersections(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                                const Monitor* monitor = nullptr, std::size_t most = SIZE_MAX);
 

@@ -63,7 +63,7 @@ Box outer_box(std::span<const FourBoxes> fours, std::size_t first, std::size_t l
 
 /// A search tree over the triangles of a soup: they are put in the order of a Hilbert curve through their centres, and boxes
 /// are put around each four, each four fours, and so on (a packed R-tree). Degenerate triangles (equal vertex numbers, or
-/// positions in line) are left out. Memory: 48 bytes per triangle, 64 while it is made. Cost: n; about 0.1 s per million.
+/// positions in line) are left out. Memory: 48 bytes per triangle. Cost: linear, about 0.1 s per million.
 class TriangleTree {
 public:
     TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
