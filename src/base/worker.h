@@ -51,8 +51,9 @@ struct OwnLimits {
 };
 
 /// For a worker, first of all: sets its limits, so that memory beyond them is refused (std::bad_alloc) and time ends with
-/// SIGXCPU; writes no core file; dies with its parent, at once where that is gone already; and asks the system to end it before others when memory is short.
-/// In builds with address sanitiser the memory limit is left out, because that reserves terabytes.
+/// SIGXCPU; writes no core file; dies with its parent, at once where that is gone already; and asks the system to end it
+/// before others when memory is short. In builds with address sanitiser the memory limit is left out, because that
+/// reserves terabytes.
 void become_worker(const OwnLimits& limits);
 
 /// Memory of the machine in bytes; 0 where it is not known.

@@ -100,7 +100,7 @@ ExitStatus work(const ValidateOptions& o, const LoadOptions& load, const validat
         std::ranges::stable_sort(found.findings, [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
         found.scene = make_scene(dataset, breps);
         mark_findings(*found.scene, dataset, breps, found.findings);
-        if (draws_page(o)) thin(*found.scene, page_triangles(1));
+        if (draws_page(o)) thin(*found.scene, page_triangles(o.run_size));
         else found.scene->parts.clear();
         return {};
     });

@@ -18,8 +18,9 @@ namespace {
 // What the worker is not told as it was given: its part of the threads comes with its file, and it shows nothing.
 constexpr std::array<std::string_view, 3> not_passed_on = {"help", "threads", "progress"};
 
-std::vector<std::string> worker_command(const CLI::App& command) {
-    std::vector<std::string> all = {this_program(), command.get_name(), "--worker", std::to_string(::getpid())};
+std::vector<std::string> worker_command(const CLI::App& command, std::size_t files) {
+    std::vector<std::string> all = {this_program(),   command.get_name(),   "--worker", std::to_string(::getpid()),
+                                    "--worker-files", std::to_string(files)};
     for (const CLI::Option* option : command.get_options()) {
         if (option->get_positional() || option->get_lnames().empty()) continue;
         const std::string& name = option->get_lnames().front();
@@ -59,6 +60,7 @@ void add_worker_arguments(CLI::App& command, WorkerArguments& a) {
         ->type_name("MB")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--worker", a.parent)->group("");
+    command.add_option("--worker-files", a.run_size)->group("");
 }
 
 void settle_worker(const WorkerArguments& a, std::size_t threads) {
@@ -78,7 +80,7 @@ bool need_workers(const FoundFiles& files, const WorkerArguments& a) {
 
 Result<Report> judge_in_workers(const CLI::App& command, const FoundFiles& files, const WorkerArguments& a, std::size_t threads,
                                 const Monitor* monitor, ExitStatus& status) {
-    auto report_of_all = validate_many(files, {worker_command(command), threads, a.seconds, monitor});
+    auto report_of_all = validate_many(files, {worker_command(command, files.files.size()), threads, a.seconds, monitor});
     if (!report_of_all) return std::move(report_of_all).why();
     for (const ReportedFile& file : report_of_all->files) {
         if (file.outcome == FileOutcome::judged || file.findings.empty()) continue;

@@ -15,8 +15,9 @@ namespace geomend::cli {
 /// Limits of each file of a run over many, and whether this process is the worker for one of them.
 struct WorkerArguments {
     double seconds = 600;
-    double megabytes = 0;     ///< 0: none; where it is not given, four fifths of the machine's memory
-    std::int64_t parent = 0;  ///< of a worker: the process that started it; 0: this is none
+    double megabytes = 0;      ///< 0: none; where it is not given, four fifths of the machine's memory
+    std::int64_t parent = 0;   ///< of a worker: the process that started it; 0: this is none
+    std::size_t run_size = 1;  ///< of a worker: that the report will be about
     bool limits_given = false;
     bool is_worker() const { return parent != 0; }
 };

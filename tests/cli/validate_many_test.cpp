@@ -157,6 +157,38 @@ TEST(ValidateMany, NamesThatLookLikeOptionsAreFiles) {
     EXPECT_EQ(run.status, 0) << run.err;
 }
 
+TEST(ValidateMany, PagesBaselinesAndDebrisAreThoseOfOneFile) {
+    const TemporaryFolder folder;
+    write_file(folder / "bad.grdecl", grid(5, 2));
+    write_file(folder / "good.grdecl", grid(1, 2));
+    const std::string all = folder.path().string(), bad = (folder / "bad.grdecl").string();
+    const std::string one_page = (folder / "one.html").string(), page = (folder / "all.html").string();
+    EXPECT_EQ(validate({bad, "--quiet", "--report", one_page}).status, 1);
+    EXPECT_EQ(validate({all, "--quiet", "--report", page}).status, 1);
+    // The model of the one file is drawn in the page of both, with the same marks.
+    const std::string text = read_file(one_page);
+    const std::string marks = "\"mark\":";
+    ASSERT_NE(text.find(marks), std::string::npos);
+    const std::string drawn = text.substr(text.find(marks), 200);
+    EXPECT_NE(read_file(page).find(drawn), std::string::npos);
+
+    const std::string old = (folder / "old.json").string();
+    EXPECT_EQ(validate({bad, "--quiet", "--report", old}).status, 1);
+    const auto known = report_of(validate({bad, (folder / "good.grdecl").string(), "--baseline", old, "--json"}));
+    EXPECT_TRUE(known["files"][0]["findings"].empty()) << known.dump(1);
+    EXPECT_EQ(known["files"][0]["known"]["error"], 1);
+
+    const auto with = report_of(validate({bad, (folder / "good.grdecl").string(), "--debris", (folder / "debris").string(), "--json"}));
+    std::size_t written = 0;
+    for (const auto& f : with["files"][0]["findings"]) {
+        for (const auto& path : f.value("debris", nlohmann::json::array())) {
+            EXPECT_TRUE(std::filesystem::exists(path.get<std::string>()));
+            ++written;
+        }
+    }
+    EXPECT_GT(written, 0u);
+}
+
 // Processes whose command line holds a word; what is left of a run would be among them.
 std::size_t processes_with(const std::string& word) {
     std::size_t count = 0;
