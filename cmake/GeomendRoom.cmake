@@ -5,8 +5,9 @@
 add_library(geomend_settings INTERFACE)
 target_compile_features(geomend_settings INTERFACE cxx_std_20)
 target_compile_options(geomend_settings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-float-conversion
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wno-float-conversion
   -Wcast-qual -Wformat=2 -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference
+  $<$<NOT:$<BOOL:${GEOMEND_UNITY}>>:-Wshadow>  # sources in one unit shadow each other's helpers
   $<$<BOOL:${GEOMEND_WERROR}>:-Werror>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference>
   # GCC 12 sees overlapping copies in plain string concatenation when it optimises fully (its bug 105651).
@@ -26,7 +27,6 @@ function(geomend_unity target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-  target_compile_options(${target} PRIVATE -Wno-shadow)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 

@@ -73,6 +73,7 @@ private:
     std::uint32_t vertex_at(const Vec3& position) const;
     void assemble();
     void make_surfaces();
+    void tell_soups(const std::vector<std::uint8_t>& joined);
     void make_interfaces();
     void take_apart();
     void make_lines();
@@ -108,6 +109,28 @@ private:
     std::vector<std::vector<std::uint32_t>> source_polygons_;
     Assembly a_;
 };
+
+/// True for polygons that share next to no points, although many of these are at one position, as STL files have it.
+bool is_soup(const BrepData::Surface& surface) {
+    const std::size_t corners = surface.polygons.corners.size();
+    if (surface.polygons.size() < 4 || 10 * surface.nodes.size() < 9 * corners) return false;
+    std::vector<VertexId> vertices = surface.nodes;
+    std::sort(vertices.begin(), vertices.end());
+    const auto distinct = static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+    return 2 * distinct < surface.nodes.size();
+}
+
+/// One node for each vertex; attributes go, since they may differ.
+void join_nodes(BrepData::Surface& surface) {
+    std::vector<VertexId> nodes = surface.nodes;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    for (std::uint32_t& corner : surface.polygons.corners) {
+        corner = static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), surface.nodes[corner]) - nodes.begin());
+    }
+    surface.nodes = std::move(nodes);
+    surface.attributes.clear();
+}
 
 std::string entity_name(const CellMesh& mesh, const CellMesh::Entity& e, const char* kind) {
     if (!e.name.empty()) return e.name;
@@ -274,6 +297,7 @@ void ModelBuilder::make_surfaces() {
     surfaces.resize(faces_.size());
     a_.faces.resize(faces_.size());
     const bool point_attributes_here = !has_volume_cells();  // else they are the regions' own
+    std::vector<std::uint8_t> joined(faces_.size(), 0);
     parallel_for_each_index(faces_.size(), [&](std::size_t f) {
         const Face& face = faces_[f];
         const auto& vertex_of = vertex_of_.at(face.object);
@@ -288,8 +312,29 @@ void ModelBuilder::make_surfaces() {
         surfaces[f].role_text = face.role_text;
         surfaces[f].source_object = face.object;
         surfaces[f].source_part = face.part;
+        if (loose_ && is_soup(surfaces[f])) {
+            join_nodes(surfaces[f]);
+            joined[f] = 1;
+        }
         a_.faces[f] = connect_polygons(surfaces[f]);
     });
+    tell_soups(joined);
+}
+
+/// Names the surfaces whose polygons had points of their own.
+void ModelBuilder::tell_soups(const std::vector<std::uint8_t>& joined) {
+    for (std::uint32_t f = 0; f < joined.size(); ++f) {
+        if (joined[f] == 0) continue;
+        Finding finding;
+        finding.code = "M08";
+        finding.severity = Severity::warning;
+        finding.message =
+            "the triangles of '" + faces_[f].interface_name + "' have points of their own: judged as joined where points are equal";
+        finding.entities.push_back({"interface", faces_[f].interface_name, -1});
+        finding.count = a_.brep.surfaces[f].polygons.size();
+        finding.element_kind = "triangle";
+        a_.findings.push_back(std::move(finding));
+    }
 }
 
 void ModelBuilder::make_interfaces() {
