@@ -66,7 +66,7 @@ struct Complexity {
 
 /// Measures a boundary representation. What needs closed regions is left out where there are none, and told in
 /// `undefined`. Deterministic, whatever the number of threads. Cost: n log n in triangles, and with sites linear in
-/// 100 samples a site and iteration. Stopped by the monitor it returns what it has.
+/// 20 to 100 samples a site and iteration. Stopped by the monitor it returns what it has.
 Complexity complexity(const BrepData& brep, const ComplexityOptions& options);
 
 }  // namespace geomend::topology

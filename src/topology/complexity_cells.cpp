@@ -35,21 +35,21 @@ public:
     const SiteGrid& grid() const { return grid_; }
     const Vec3& site(std::uint32_t s) const { return sites_[s]; }
 
-    /// Calls cut(plane point, direction away from s) for sites in the order of their distance as long as far(distance) is
-    /// false: then no further plane can cut.
-    template <class Far, class Cut>
-    void around(std::uint32_t s, const Far& far, const Cut& cut) const {
+    /// Calls cut(n) for the sites around s in the order of their distance, up to reach(): beyond that no plane can cut. It may
+    /// shrink with each cut, and is negative where nothing is left to cut.
+    template <class Reach, class Cut>
+    void around(std::uint32_t s, const Reach& reach, const Cut& cut) const {
         for (const std::uint32_t n : lists_[s]) {
-            if (far(length(minus(sites_[n], sites_[s])))) return;
+            if (length(minus(sites_[n], sites_[s])) > reach()) return;
             cut(n);
         }
-        if (lists_[s].size() + 1 >= sites_.size()) return;
-        std::vector<std::uint32_t> all(sites_.size());  // seldom: something large in a cell
-        std::iota(all.begin(), all.end(), 0u);
-        all = sorted(s, all);
-        for (std::size_t i = lists_[s].size(); i < all.size(); ++i) {
-            if (far(length(minus(sites_[all[i]], sites_[s])))) return;
-            cut(all[i]);
+        if (lists_[s].size() + 1 >= sites_.size() || reach() < 0) return;
+        std::vector<std::uint32_t> further;  // something large in a cell
+        grid_.within(sites_[s], reach(), further);
+        further = sorted(s, further);
+        for (std::size_t i = lists_[s].size(); i < further.size(); ++i) {
+            if (length(minus(sites_[further[i]], sites_[s])) > reach()) return;
+            cut(further[i]);
         }
     }
 
@@ -100,16 +100,18 @@ struct Interval {
 Interval clipped_segment(const Neighbours& around, std::uint32_t s, const Vec3& a, const Vec3& b) {
     const Vec3& site = around.site(s);
     Interval part;
-    const double reach = std::max(length(minus(a, site)), length(minus(b, site)));
-    around.around(
-        s, [&](double distance) { return part.empty() || distance > 2 * reach; },
-        [&](std::uint32_t n) {
-            const double at_a = nearer(a, site, around.site(n)), at_b = nearer(b, site, around.site(n));
-            if (at_a >= 0 && at_b >= 0) return;
-            if (at_a < 0 && at_b < 0) part.to = part.from;
-            else if (at_a < 0) part.from = std::max(part.from, at_a / (at_a - at_b));
-            else part.to = std::min(part.to, at_a / (at_a - at_b));
-        });
+    const auto reach = [&] {
+        const Vec3 along = minus(b, a);
+        return part.empty() ? -1
+                            : 2 * std::max(length(minus(moved(a, along, part.from), site)), length(minus(moved(a, along, part.to), site)));
+    };
+    around.around(s, reach, [&](std::uint32_t n) {
+        const double at_a = nearer(a, site, around.site(n)), at_b = nearer(b, site, around.site(n));
+        if (at_a >= 0 && at_b >= 0) return;
+        if (at_a < 0 && at_b < 0) part.to = part.from;
+        else if (at_a < 0) part.from = std::max(part.from, at_a / (at_a - at_b));
+        else part.to = std::min(part.to, at_a / (at_a - at_b));
+    });
     return part;
 }
 
@@ -117,14 +119,14 @@ Interval clipped_segment(const Neighbours& around, std::uint32_t s, const Vec3& 
 double clipped_area(const Neighbours& around, std::uint32_t s, const std::array<Vec3, 3>& triangle) {
     const Vec3& site = around.site(s);
     std::vector<Vec3> polygon(triangle.begin(), triangle.end()), next;
-    const auto reach = [&] {
-        double most = 0;
-        for (const Vec3& p : polygon) most = std::max(most, length(minus(p, site)));
+    const auto measured = [&] {
+        double most = polygon.empty() ? -1 : 0;
+        for (const Vec3& p : polygon) most = std::max(most, 2 * length(minus(p, site)));
         return most;
     };
-    double known = reach();
+    double reach = measured();
     around.around(
-        s, [&](double distance) { return polygon.empty() || distance > 2 * known; },
+        s, [&] { return reach; },
         [&](std::uint32_t n) {
             next.clear();
             bool cut = false;
@@ -138,7 +140,7 @@ double clipped_area(const Neighbours& around, std::uint32_t s, const std::array<
             if (!cut) return;
             if (next.size() < 3) next.clear();
             polygon.swap(next);
-            known = reach();
+            reach = measured();
         });
     Vec3 twice{};
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i)

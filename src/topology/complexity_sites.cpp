@@ -14,7 +14,8 @@ namespace geomend::topology {
 
 namespace {
 
-constexpr std::uint64_t samples_of_site = 100;
+// Points for each site: fewer where there are many sites, because time goes with points and iterations.
+double sample_count(double sites) { return std::min(100 * sites, std::max(20 * sites, 200000.0)); }
 
 // A fixed sequence: the same cells in every run. (SplitMix64 of Steele, Lea and Flood 2014.)
 std::uint64_t mixed(std::uint64_t x) {
@@ -156,8 +157,7 @@ void even_out(std::span<const Vec3> points, std::vector<Vec3>& sites) {
 }  // namespace
 
 std::vector<Vec3> volume_sites(const MeasuredModel& model, const ComplexityOptions& options) {
-    const double samples = static_cast<double>(options.sites) * samples_of_site;
-    Rays rays(model, std::cbrt(model.volume / samples));
+    Rays rays(model, std::cbrt(model.volume / sample_count(options.sites)));
     rays.cast(model);
     const std::vector<Vec3> points = rays.points_inside();
     std::vector<Vec3> sites = some_of(points, options.sites);
