@@ -175,8 +175,8 @@ void check_cell_matching(const CellScope& scope, std::vector<Finding>& findings)
     std::vector<std::uint32_t> cells;
     std::uint64_t pairs = 0;
     for (const auto& pair : intersections(scope.mesh().points, triangles, scope.monitor())) {
-        const CellFace& a = scope.faces()[face_of[pair.a]];
-        const CellFace& b = scope.faces()[face_of[pair.b]];
+        const VolumeFace& a = scope.faces()[face_of[pair.a]];
+        const VolumeFace& b = scope.faces()[face_of[pair.b]];
         if (pair.how.kind != Meeting::overlap || a.cell == b.cell) continue;
         ++pairs;
         cells.push_back(a.cell);
@@ -302,7 +302,7 @@ void check_cell_points(const CellScope& scope, std::vector<Finding>& findings) {
 void check_face_planes(const CellScope& scope, std::vector<Finding>& findings) {
     std::vector<std::uint32_t> cells;
     double worst = 0;
-    for (const CellFace& face : scope.faces()) {
+    for (const VolumeFace& face : scope.faces()) {
         if (!polyhedron(scope, face.cell) || face.size < 4) continue;
         const auto nodes = scope.nodes_of(face);
         const auto& points = scope.mesh().points;

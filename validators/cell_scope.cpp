@@ -15,13 +15,13 @@ namespace geomend::validators {
 
 namespace {
 
-using Corners = std::initializer_list<std::uint8_t>;
+using CornerNumbers = std::initializer_list<std::uint8_t>;
 
 /// Calls with the corner numbers of each face of a cell type, wound so that normals point out of a cell in VTK's order.
 template <class Visit>
 void each_face(CellType type, const Visit& visit) {
-    const auto all = [&](std::initializer_list<Corners> faces) {
-        for (const Corners& face : faces) visit(std::span<const std::uint8_t>(face.begin(), face.size()));
+    const auto all = [&](std::initializer_list<CornerNumbers> faces) {
+        for (const CornerNumbers& face : faces) visit(std::span<const std::uint8_t>(face.begin(), face.size()));
     };
     switch (type) {
         case CellType::tetrahedron:

@@ -14,7 +14,7 @@
 namespace geomend::validators {
 
 /// A face of a volume cell: its nodes in cyclic order, as the cell winds it.
-struct CellFace {
+struct VolumeFace {
     std::uint32_t cell;
     std::uint32_t first, size;  ///< into CellScope::face_nodes()
 };
@@ -32,8 +32,8 @@ public:
     /// Cells of three dimensions, ascending.
     std::span<const std::uint32_t> volume_cells() const { return volume_cells_; }
     /// All their faces, cell by cell; and the nodes of all faces.
-    std::span<const CellFace> faces() const { return faces_; }
-    std::span<const std::uint32_t> nodes_of(const CellFace& face) const { return std::span(face_nodes_).subspan(face.first, face.size); }
+    std::span<const VolumeFace> faces() const { return faces_; }
+    std::span<const std::uint32_t> nodes_of(const VolumeFace& face) const { return std::span(face_nodes_).subspan(face.first, face.size); }
     /// Faces in groups with the same set of nodes, as numbers of faces; groups are split by `group_first`.
     std::span<const std::uint32_t> grouped() const { return grouped_; }
     std::span<const std::uint32_t> group_first() const { return group_first_; }
@@ -48,7 +48,7 @@ private:
     Lengths lengths_;
     const Monitor* monitor_;
     std::vector<std::uint32_t> volume_cells_;
-    std::vector<CellFace> faces_;
+    std::vector<VolumeFace> faces_;
     std::vector<std::uint32_t> face_nodes_, grouped_, group_first_, vertex_of_;
 };
 
