@@ -88,7 +88,7 @@ void check_patches(const Target& target, const CellMesh& mesh, std::vector<Findi
         const auto group = scope.grouped().subspan(scope.group_first()[g], scope.group_first()[g + 1] - scope.group_first()[g]);
         if (group.size() != 1) continue;
         ++outer;
-        const CellFace& face = scope.faces()[group[0]];
+        const VolumeFace& face = scope.faces()[group[0]];
         if (named.contains(sorted_vertices(scope, scope.nodes_of(face)))) continue;
         list(mesh, face.cell, bare);
     }
