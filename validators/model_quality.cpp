@@ -15,13 +15,13 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Squared cosine of the smallest angle; 1 for flat triangles.
+/// Squared cosine of the smallest angle; 0 for triangles with two corners at one place, which B01 tells.
 double sharpest(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = minus(b, a), ac = minus(c, a), bc = minus(c, b);
     const double l[3] = {dot(ab, ab), dot(ac, ac), dot(bc, bc)};
     const double shortest = std::min({l[0], l[1], l[2]});
     const double longest = std::max({l[0], l[1], l[2]}), middle = l[0] + l[1] + l[2] - shortest - longest;
-    if (longest * middle == 0) return 1;
+    if (shortest == 0) return 0;
     const double cosine2 = longest + middle - shortest;  // twice the product of the two sides and the cosine
     return cosine2 * cosine2 / (4 * longest * middle);
 }
@@ -47,7 +47,7 @@ void check_short_edges(const ModelScope& scope, std::vector<Finding>& findings) 
                        for (std::size_t i = 0; i < polygon.size(); ++i) {
                            const Vec3 d = minus(scope.vertex_of_node(surface, polygon[i]),
                                                 scope.vertex_of_node(surface, polygon[(i + 1) % polygon.size()]));
-                           if (dot(d, d) < limit) return true;
+                           if (dot(d, d) < limit && dot(d, d) > 0) return true;
                        }
                        return false;
                    });

@@ -52,7 +52,7 @@ struct ReportedFile {
 struct Report {
     std::string tool;  ///< "geomend 0.1.0"
     std::vector<ReportedFile> files;
-    bool all_notes = true;  ///< false: text tells many notes of one code in one line
+    bool all_notes = true;                                     ///< false: text tells many notes of one code in one line
     std::size_t most_findings = static_cast<std::size_t>(-1);  ///< listed for each file; all are counted
     std::optional<RunSummary> summary;                         ///< of a run over many files
 };

@@ -166,7 +166,7 @@ TEST(TenThousandBadTrianglesOfOneSurface, AreOneFinding) {
     Surface surface = surface_of("bad", square(0, 1, 0));
     for (int k = 0; k < 10000; ++k) add_triangle(surface, 0, 1, 1);
     const auto findings = findings_of(loose({surface}));
-    ASSERT_EQ(findings.size(), 2u) << "B01, and M04 for the repeats that they are" << findings.size();
+    ASSERT_EQ(findings.size(), 1u);
     EXPECT_EQ(findings[0].code, "B01");
     EXPECT_EQ(findings[0].count, 10000u);
     EXPECT_EQ(findings[0].elements.size(), 100u);
