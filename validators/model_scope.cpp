@@ -73,6 +73,21 @@ Lengths lengths_of(const Dataset& dataset, const CheckOptions& options) {
     return lengths;
 }
 
+std::vector<Finding> huge_coordinates(const Dataset& dataset) {
+    constexpr double huge = 1e20;
+    Finding finding = finding_of("M09", {});
+    each_used_point(dataset, [&](const Vec3& p, bool) {
+        if (std::ranges::none_of(p, [](double x) { return std::abs(x) >= huge; })) return;
+        ++finding.count;
+        if (finding.points.size() < listed_elements) finding.points.push_back(p);
+    });
+    if (finding.count == 0) return {};
+    finding.element_kind = "point";
+    finding.message =
+        counted(finding.count, "point has", "points have") + " a coordinate as large as 1e20: surfaces and cells were not judged";
+    return {finding};
+}
+
 ModelScope::ModelScope(const Dataset& dataset, const topology::JudgedModel& model, const Lengths& lengths, const CheckOptions& options)
     : dataset_(dataset), model_(model), lengths_(lengths), monitor_(options.monitor) {
     const BrepData& b = brep();

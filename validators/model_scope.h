@@ -19,6 +19,10 @@ namespace geomend::validators {
 /// triangle or a cell uses from the centroid of all of them. Cost: linear.
 Lengths lengths_of(const Dataset& dataset, const CheckOptions& options);
 
+/// M09 where points that elements use have coordinates of 1e20 or more: such models are judged no further, since distances
+/// and boxes would overflow. Cost: linear.
+std::vector<Finding> huge_coordinates(const Dataset& dataset);
+
 /// A boundary representation with what all its checks need.
 class ModelScope {
 public:

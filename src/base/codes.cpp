@@ -154,6 +154,7 @@ constexpr std::array catalogue = {
     CodeInfo{"M06", warning, "a surface has one side only, as a Moebius strip has", "cut it"},
     CodeInfo{"M07", info, "a surface has free borders within: holes", ""},
     CodeInfo{"M08", warning, "the triangles of a surface share no points, although many of these are equal", "join points at one position"},
+    CodeInfo{"M09", error, "a coordinate is as large as 1e20", "correct or remove the point"},
     CodeInfo{"M20", error, "a cell is turned inside out against the others, or has no volume", "turn it over, or remove it"},
     CodeInfo{"M21", error, "a cell is folded: its Jacobian is not positive at a corner", ""},
     CodeInfo{"M22", error, "a cell uses a node twice", "remove it, or make it a cell of fewer nodes"},

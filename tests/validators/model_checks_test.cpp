@@ -172,6 +172,16 @@ TEST(TenThousandBadTrianglesOfOneSurface, AreOneFinding) {
     EXPECT_EQ(findings[0].elements.size(), 100u);
 }
 
+TEST(ACoordinateBeyondAllMeasure, IsToldAndNothingElseIsJudged) {
+    for (const double huge : {1e20, 1e200, -1e300}) {
+        Surface surface = surface_of("far", square(0, 1, 0));
+        surface.points[1][1] = huge;
+        const auto findings = findings_of(loose({surface, surface_of("near", square(0, 1, 1))}));
+        ASSERT_EQ(codes_of(findings), std::set<std::string>{"M09"});
+        EXPECT_EQ(findings[0].count, 1u);
+    }
+}
+
 TEST(Checks, AreLeftOutWhereTheOptionsSaySo) {
     Surface surface = surface_of("bad", square(0, 1, 0));
     add_triangle(surface, 0, 1, 1);
