@@ -5,10 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "base/parallel.h"
 #include "geometry/cell_volume.h"
 #include "geometry/intersections.h"
-#include "geometry/measures.h"
 #include "topology/near_weld.h"
 #include "validators/found_cells.h"
 #include "validators/model_scope.h"
@@ -16,15 +14,6 @@
 namespace geomend::validators {
 
 namespace {
-
-/// Signed volumes of the volume cells. A wedge counts as VTK's own reader does not: see cell_volume().
-std::vector<double> signed_volumes(const CellScope& scope) {
-    std::vector<double> volumes(scope.volume_cells().size());
-    parallel_blocks(volumes.size(), 1024, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) volumes[i] = cell_volume(scope.mesh(), scope.volume_cells()[i]);
-    });
-    return volumes;
-}
 
 bool polyhedron(const CellScope& scope, std::uint32_t cell) { return scope.mesh().types[cell] == CellType::polyhedron; }
 
@@ -73,7 +62,7 @@ std::string in_mesh(const CellScope& scope) {
 }  // namespace
 
 void check_cell_volumes(const CellScope& scope, std::vector<Finding>& findings) {
-    const auto volumes = signed_volumes(scope);
+    const auto& volumes = scope.volumes();
     const auto signs = majority_signs(scope, volumes);
     std::vector<std::uint32_t> wrong;
     std::uint64_t empty = 0;
@@ -93,7 +82,7 @@ void check_cell_volumes(const CellScope& scope, std::vector<Finding>& findings) 
 }
 
 void check_cell_jacobians(const CellScope& scope, std::vector<Finding>& findings) {
-    const auto volumes = signed_volumes(scope);
+    const auto& volumes = scope.volumes();
     const auto signs = majority_signs(scope, volumes);
     std::vector<std::uint32_t> folded;
     double worst = 0;

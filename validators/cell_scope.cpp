@@ -7,6 +7,7 @@
 #include <tbb/parallel_sort.h>
 
 #include "base/parallel.h"
+#include "geometry/measures.h"
 #include "topology/weld.h"
 #include "validators/found_cells.h"
 #include "validators/model_scope.h"
@@ -62,6 +63,16 @@ CellScope::CellScope(const CellMesh& mesh, const Lengths& lengths, const CheckOp
     }
     collect_faces();
     group_faces();
+}
+
+const std::vector<double>& CellScope::volumes() const {
+    if (volumes_.empty()) {
+        volumes_.resize(volume_cells_.size());
+        parallel_blocks(volumes_.size(), 1024, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) volumes_[i] = cell_volume(mesh_, volume_cells_[i]);
+        });
+    }
+    return volumes_;
 }
 
 void CellScope::collect_faces() {

@@ -31,6 +31,8 @@ public:
 
     /// Cells of three dimensions, ascending.
     std::span<const std::uint32_t> volume_cells() const { return volume_cells_; }
+    /// Their signed volumes, see cell_volume(); made when first asked for. Not for several threads at once.
+    const std::vector<double>& volumes() const;
     /// All their faces, cell by cell; and the nodes of all faces.
     std::span<const VolumeFace> faces() const { return faces_; }
     std::span<const std::uint32_t> nodes_of(const VolumeFace& face) const { return std::span(face_nodes_).subspan(face.first, face.size); }
@@ -47,6 +49,7 @@ private:
     const CellMesh& mesh_;
     Lengths lengths_;
     const Monitor* monitor_;
+    mutable std::vector<double> volumes_;
     std::vector<std::uint32_t> volume_cells_;
     std::vector<VolumeFace> faces_;
     std::vector<std::uint32_t> face_nodes_, grouped_, group_first_, vertex_of_;

@@ -24,21 +24,20 @@ struct Sums {
     std::int64_t votes = 0;
 };
 
-// Distance between neighbouring numbers of the stored precision at a value.
-double step_at(double value, bool single) {
-    if (single) {
-        const auto v = static_cast<float>(value);
-        return static_cast<double>(std::nextafter(v, std::numeric_limits<float>::infinity())) - static_cast<double>(v);
-    }
-    return std::nextafter(value, std::numeric_limits<double>::infinity()) - value;
-}
-
 template <class Body>
 void each_block(std::size_t cells, const Body& body) {
     parallel_for_each_index((cells + block - 1) / block, [&](std::size_t b) { body(b, b * block, std::min(cells, (b + 1) * block)); });
 }
 
 }  // namespace
+
+double step_above(double value, bool single) {
+    if (single) {
+        const auto v = static_cast<float>(value);
+        return static_cast<double>(std::nextafter(v, std::numeric_limits<float>::infinity())) - static_cast<double>(v);
+    }
+    return std::nextafter(value, std::numeric_limits<double>::infinity()) - value;
+}
 
 GridScope::GridScope(const CornerPointGrid& grid, const CheckOptions& options)
     : grid_(grid), monitor_(options.monitor), all_cells_(options.all_cells) {
@@ -118,7 +117,7 @@ void GridScope::measure(const CheckOptions& options) {
         });
         lengths_.diameter = 2 * std::sqrt(*std::ranges::max_element(farthest));
     }
-    const auto rule = [&](double largest) { return std::max(1e-7 * lengths_.diameter, 4 * step_at(largest, grid_.single_precision)); };
+    const auto rule = [&](double largest) { return std::max(1e-7 * lengths_.diameter, 4 * step_above(largest, grid_.single_precision)); };
     lengths_.tolerance = options.tolerance >= 0 ? options.tolerance : rule(all.largest);
     depth_tolerance_ = options.tolerance >= 0 ? options.tolerance : rule(all.largest_depth);
     lengths_.near = options.near >= 0 ? options.near : 1e-3 * lengths_.diameter;

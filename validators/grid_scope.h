@@ -31,6 +31,9 @@ struct Lengths {
     double near = 0;       ///< 1e-3 diameter, or as given
 };
 
+/// Distance from a number to the next larger one of the precision that a file stores. \param single float32, else float64
+double step_above(double value, bool single);
+
 /// False for grids of which only records were given: neither pillars nor depths.
 inline bool has_geometry(const CornerPointGrid& grid) { return !grid.pillars.empty() || !grid.depths.empty(); }
 

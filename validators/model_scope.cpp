@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/codes.h"
 #include "geometry/cell_volume.h"
@@ -35,12 +34,6 @@ void each_used_point(const Dataset& dataset, const Visit& visit) {
             visit_used(mesh->points, mesh->nodes, is_single(mesh->info));
         }
     }
-}
-
-double step_above(double value, bool single) {
-    if (!single) return std::nextafter(value, std::numeric_limits<double>::infinity()) - value;
-    const auto v = static_cast<float>(value);
-    return static_cast<double>(std::nextafter(v, std::numeric_limits<float>::infinity())) - static_cast<double>(v);
 }
 
 }  // namespace
