@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "grid/pore_volume.h"
 #include "validators/corner_point.h"
 
@@ -45,24 +45,6 @@ void each_touch(const GridScope& scope, const Body& body) {
     }
 }
 
-// Cells that belong together; the root of a part is its first cell.
-class Parts {
-public:
-    explicit Parts(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t root(std::uint32_t of) {
-        while (parent_[of] != of) of = parent_[of] = parent_[parent_[of]];
-        return of;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
-
 bool fits_in_32_bits(const CornerPointGrid& grid) { return grid.cell_count() < 0xffffffffu; }
 
 }  // namespace
@@ -92,7 +74,7 @@ void check_pore_volumes(const GridScope& scope, std::vector<Finding>& findings) 
 void check_parts(const GridScope& scope, std::vector<Finding>& findings) {
     const auto& grid = scope.grid();
     if (!fits_in_32_bits(grid)) return;
-    Parts parts(grid.cell_count());
+    DisjointSets parts(grid.cell_count());
     each_touch(scope,
                [&](std::size_t a, std::size_t b, bool) { parts.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)); });
     const auto& present = scope.connections().present;

@@ -11,10 +11,6 @@ namespace geomend::validators {
 
 namespace {
 
-std::size_t first_corner(const BrepData::Surface& surface, std::size_t polygon) {
-    return surface.polygons.all_triangles() ? 3 * polygon : surface.polygons.offsets[polygon];
-}
-
 /// Corners that start an edge which more than two polygons of the surface share.
 std::vector<std::uint32_t> crowded_corners(const BrepData::Surface& surface, const topology::FaceEdges& face,
                                            const topology::PolygonEdges& edges) {
@@ -65,7 +61,7 @@ bool one_ring(const BrepData::Surface& surface, std::span<const PolygonAt> aroun
         const PolygonAt& here = around[stack.back()];
         stack.pop_back();
         ++reached;
-        const std::size_t first = first_corner(surface, here.polygon), size = surface.polygons[here.polygon].size();
+        const std::size_t first = surface.polygons.first_corner(here.polygon), size = surface.polygons[here.polygon].size();
         const std::size_t before = here.corner == first ? first + size - 1 : here.corner - 1;
         for (const std::uint32_t q : {surface.neighbours[here.corner], surface.neighbours[before]}) {
             for (std::size_t k = 0; q != no_index && k < around.size(); ++k) {
@@ -90,7 +86,7 @@ std::vector<std::uint32_t> pinched_vertices(const ModelScope& scope, const BrepD
         const auto polygon = surface.polygons[p];
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             if (aside[polygon[i]] == 0)
-                corners.push_back({surface.nodes[polygon[i]].value, p, static_cast<std::uint32_t>(first_corner(surface, p) + i)});
+                corners.push_back({surface.nodes[polygon[i]].value, p, static_cast<std::uint32_t>(surface.polygons.first_corner(p) + i)});
         }
     }
     std::ranges::sort(corners,

@@ -41,10 +41,9 @@ Winding winding_of(const BrepData::Surface& surface) {
     const topology::PolygonEdges edges(surface.polygons);
     const std::size_t count = surface.polygons.size();
     std::vector<std::int8_t> sign(count, 0);
-    const auto first_corner = [&](std::size_t p) { return surface.polygons.all_triangles() ? 3 * p : surface.polygons.offsets[p]; };
     const auto same_way = [&](std::size_t corner, std::uint32_t q) {
         const std::uint32_t from = edges.start_node(corner), to = edges.end_node(corner);
-        for (std::size_t c = first_corner(q); c < first_corner(q) + surface.polygons[q].size(); ++c) {
+        for (std::size_t c = surface.polygons.first_corner(q); c < surface.polygons.first_corner(q + 1); ++c) {
             if (edges.start_node(c) == from && edges.end_node(c) == to) return true;
         }
         return false;
@@ -58,7 +57,7 @@ Winding winding_of(const BrepData::Surface& surface) {
         std::size_t turned = 0;
         for (std::size_t k = 0; k < piece.size(); ++k) {
             const std::uint32_t p = piece[k];
-            for (std::size_t c = first_corner(p); c < first_corner(p) + surface.polygons[p].size(); ++c) {
+            for (std::size_t c = surface.polygons.first_corner(p); c < surface.polygons.first_corner(p + 1); ++c) {
                 const std::uint32_t q = surface.neighbours[c];
                 if (q == no_index) continue;
                 const auto wanted = static_cast<std::int8_t>(same_way(c, q) ? -sign[p] : sign[p]);

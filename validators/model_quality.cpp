@@ -59,15 +59,9 @@ void check_folds(const ModelScope& scope, std::vector<Finding>& findings) {
         const auto& surface = scope.brep().surfaces[s];
         if (!surface.polygons.all_triangles()) return std::nullopt;
         // By the directions in which the two triangles leave their edge, whatever sense they are wound in.
-        const auto across = [&](std::uint32_t p, const Vec3& from, const Vec3& axis) {
-            Vec3 best{};
-            for (const std::uint32_t node : surface.polygons[p]) {
-                const Vec3 d = minus(scope.vertex_of_node(surface, node), from);
-                const double along = dot(d, axis) / dot(axis, axis);
-                const Vec3 off{d[0] - along * axis[0], d[1] - along * axis[1], d[2] - along * axis[2]};
-                if (dot(off, off) > dot(best, best)) best = off;
-            }
-            return best;
+        const auto leaving = [&](std::uint32_t p, const Vec3& from, const Vec3& to) {
+            const VertexId tip = topology::far_vertex(scope.brep(), surface, p, from, to);
+            return across(minus(scope.brep().vertices[tip.value], from), minus(to, from));
         };
         std::vector<std::uint32_t> folded;
         double worst = 0;
@@ -75,8 +69,8 @@ void check_folds(const ModelScope& scope, std::vector<Finding>& findings) {
             const std::uint32_t p = c / 3, q = surface.neighbours[c];
             if (q == no_index || q < p) continue;
             const Vec3& from = scope.vertex_of_node(surface, surface.polygons.corners[c]);
-            const Vec3 axis = minus(scope.vertex_of_node(surface, surface.polygons.corners[c % 3 == 2 ? c - 2 : c + 1]), from);
-            const Vec3 a = across(p, from, axis), b = across(q, from, axis);
+            const Vec3& to = scope.vertex_of_node(surface, surface.polygons.corners[c % 3 == 2 ? c - 2 : c + 1]);
+            const Vec3 a = leaving(p, from, to), b = leaving(q, from, to);
             const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
             if (!(cosine > limit)) continue;
             worst = std::max(worst, cosine);
@@ -109,19 +103,14 @@ void check_contact_angles(const ModelScope& scope, std::vector<Finding>& finding
             directions.clear();
             const auto uses = graph.edge_uses(graph.edges[graph.line_edges[k]]);
             const Vec3& a = brep.vertices[uses[0].low];
-            const Vec3 axis = minus(brep.vertices[uses[0].high], a);
+            const Vec3& b = brep.vertices[uses[0].high];
             for (const auto& use : uses) {
                 if (use.surface == no_index) continue;
                 const auto& surface = brep.surfaces[use.surface];
-                Vec3 best{};
-                for (const std::uint32_t node : surface.polygons[edges[use.surface].polygon(use.corner)]) {
-                    const Vec3 d = minus(scope.vertex_of_node(surface, node), a);
-                    const double along = dot(d, axis) / dot(axis, axis);
-                    const Vec3 across{d[0] - along * axis[0], d[1] - along * axis[1], d[2] - along * axis[2]};
-                    if (dot(across, across) > dot(best, best)) best = across;
-                }
-                const double length = std::sqrt(dot(best, best));
-                if (length > 0) directions.push_back({best[0] / length, best[1] / length, best[2] / length});
+                const VertexId tip = topology::far_vertex(brep, surface, edges[use.surface].polygon(use.corner), a, b);
+                const Vec3 leaving = across(minus(brep.vertices[tip.value], a), minus(b, a));
+                const double length = std::sqrt(dot(leaving, leaving));
+                if (length > 0) directions.push_back(times(1 / length, leaving));
             }
             for (std::size_t i = 0; i < directions.size(); ++i) {
                 for (std::size_t j = i + 1; j < directions.size(); ++j) worst[l] = std::max(worst[l], dot(directions[i], directions[j]));

@@ -1,35 +1,50 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
+#include "geometry/vectors.h"
 #include "validators/each_surface.h"
 #include "validators/found_cells.h"
 #include "validators/model_checks.h"
 
 namespace geomend::validators {
 
+namespace {
+
+/// The largest distance of a vertex of some lines from the mean of them all.
+double radius(const BrepData& brep, std::span<const std::uint32_t> lines) {
+    Vec3 sum{};
+    std::size_t count = 0;
+    for (const std::uint32_t l : lines) {
+        for (const VertexId v : brep.lines[l].vertices) sum = plus(sum, brep.vertices[v.value]);
+        count += brep.lines[l].vertices.size();
+    }
+    const Vec3 middle = times(1.0 / static_cast<double>(count), sum);
+    double square = 0;
+    for (const std::uint32_t l : lines) {
+        for (const VertexId v : brep.lines[l].vertices) {
+            const Vec3 d = minus(brep.vertices[v.value], middle);
+            square = std::max(square, dot(d, d));
+        }
+    }
+    return std::sqrt(square);
+}
+
+}  // namespace
+
 void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
     if (!scope.model().stated) return;
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
-        std::vector<std::uint32_t> parent(surface.nodes.size());
-        std::iota(parent.begin(), parent.end(), 0u);
-        const auto root = [&](std::uint32_t i) {
-            while (parent[i] != i) i = parent[i] = parent[parent[i]];
-            return i;
-        };
-        std::vector<std::uint8_t> used(surface.nodes.size(), 0);
+        DisjointSets pieces(surface.nodes.size());
         for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) {
             const auto polygon = surface.polygons[p];
-            for (const std::uint32_t node : polygon) {
-                used[node] = 1;
-                const std::uint32_t a = root(polygon[0]), b = root(node);
-                parent[std::max(a, b)] = std::min(a, b);
-            }
+            for (const std::uint32_t node : polygon) pieces.join(polygon[0], node);
         }
         std::map<std::uint32_t, std::uint64_t> polygons_of;
-        for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) ++polygons_of[root(surface.polygons[p][0])];
+        for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) ++polygons_of[pieces.root(surface.polygons[p][0])];
         if (polygons_of.size() < 2) return std::nullopt;
         std::uint64_t largest = 0, all = 0;
         for (const auto& [piece, count] : polygons_of) {
@@ -112,37 +127,30 @@ void check_holes(const ModelScope& scope, std::vector<Finding>& findings) {
         }
         std::ranges::sort(corners);
         corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        std::vector<std::uint32_t> parent(corners.size());
-        std::iota(parent.begin(), parent.end(), 0u);
+        DisjointSets joined(corners.size());
         const auto at = [&](CornerId c) {
             return static_cast<std::uint32_t>(std::ranges::lower_bound(corners, c.value) - corners.begin());
         };
-        const auto root = [&](std::uint32_t i) {
-            while (parent[i] != i) i = parent[i] = parent[parent[i]];
-            return i;
-        };
         for (const auto& use : surface.lines) {
-            const std::uint32_t a = root(at(brep.lines[use.line.value].corners[0])), b = root(at(brep.lines[use.line.value].corners[1]));
-            parent[std::max(a, b)] = std::min(a, b);
+            const auto& ends = brep.lines[use.line.value].corners;
+            joined.join(at(ends[0]), at(ends[1]));
         }
         struct Loop {
             bool free = true;
-            double length = 0;
             std::vector<std::uint32_t> lines;
         };
         std::map<std::uint32_t, Loop> loops;
         for (const auto& use : surface.lines) {
-            Loop& loop = loops[root(at(brep.lines[use.line.value].corners[0]))];
+            Loop& loop = loops[joined.root(at(brep.lines[use.line.value].corners[0]))];
             loop.free = loop.free && scope.free_lines()[use.line.value] != 0;
             loop.lines.push_back(use.line.value);
-            loop.length += static_cast<double>(brep.lines[use.line.value].vertices.size());
         }
         std::vector<const Loop*> free;
         for (const auto& [first, loop] : loops) {
             if (loop.free) free.push_back(&loop);
         }
-        if (free.size() == loops.size() && !free.empty())  // the longest one is the outline
-            free.erase(std::ranges::max_element(free, {}, [](const Loop* loop) { return loop->length; }));
+        if (free.size() == loops.size() && !free.empty())  // the widest one is the outline
+            free.erase(std::ranges::max_element(free, {}, [&](const Loop* loop) { return radius(brep, loop->lines); }));
         if (free.empty()) return std::nullopt;
         Finding finding = finding_of("M07", quoted(surface.name) + " has " + counted(free.size(), "hole", "holes"));
         finding.entities.push_back(surface_ref(scope, s));

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <span>
 
+#include "base/disjoint_sets.h"
 #include "formats/gocad/region_indicators.h"
 
 namespace geomend::gocad {
@@ -47,17 +47,6 @@ private:
         bool on_surface;
     };
 
-    std::uint32_t root(std::uint32_t corner) {
-        while (joined_[corner] != corner) corner = joined_[corner] = joined_[joined_[corner]];
-        return corner;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        joined_[std::max(a, b)] = std::min(a, b);
-    }
-
     template <class Take>
     void each_facet(const Take& take) const {
         std::size_t tag = 0;
@@ -76,8 +65,7 @@ private:
 
     // Facets are sorted by their lowest node first, so that each sort is a small one.
     void join_corners() {
-        joined_.resize(mesh_.nodes.size());
-        std::iota(joined_.begin(), joined_.end(), 0u);
+        joined_ = DisjointSets(mesh_.nodes.size());
         std::vector<std::size_t> begin(mesh_.points.size() + 1);
         each_facet([&](const Facet& f) { ++begin[f.nodes[0] + std::size_t{1}]; });
         for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
@@ -90,7 +78,7 @@ private:
             for (std::size_t i = 1; i < of_node.size(); ++i) {
                 const Facet &a = of_node[i - 1], &b = of_node[i];
                 if (a.nodes != b.nodes || a.volume != b.volume || a.on_surface || b.on_surface) continue;
-                for (std::size_t k = 0; k < 3; ++k) join(a.corners[k], b.corners[k]);
+                for (std::size_t k = 0; k < 3; ++k) joined_.join(a.corners[k], b.corners[k]);
             }
         }
     }
@@ -104,7 +92,7 @@ private:
             own.clear();
             for (const std::uint32_t c : volume.cells) {
                 for (std::uint64_t i = mesh_.offsets[c]; i < mesh_.offsets[c + 1]; ++i) {
-                    const std::uint32_t r = root(static_cast<std::uint32_t>(i));
+                    const std::uint32_t r = joined_.root(static_cast<std::uint32_t>(i));
                     if (r == i) own.emplace_back(mesh_.nodes[i], r);
                 }
             }
@@ -112,7 +100,7 @@ private:
             for (const auto& [node, r] : own) number[r] = add_node(node);
             for (const std::uint32_t c : volume.cells) {
                 for (std::uint64_t i = mesh_.offsets[c]; i < mesh_.offsets[c + 1]; ++i) {
-                    split_.nodes[i] = number[root(static_cast<std::uint32_t>(i))];
+                    split_.nodes[i] = number[joined_.root(static_cast<std::uint32_t>(i))];
                 }
             }
         }
@@ -179,7 +167,7 @@ private:
     const SolidPlan& plan_;
     CellMesh split_;
     std::vector<std::uint32_t> source_;  // per node of the split mesh its node in the mesh
-    std::vector<std::uint32_t> joined_;  // per corner (place in mesh_.nodes) one that shares its node, towards the root
+    DisjointSets joined_{0};             // corners (places in mesh_.nodes) that share their node
     std::vector<std::uint32_t> first_;   // per node of the mesh the first of its twins
 };
 

@@ -12,5 +12,7 @@ inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+/// The part of d that is perpendicular to an axis. \pre the axis is not null
+inline Vec3 across(const Vec3& d, const Vec3& axis) { return minus(d, times(dot(d, axis) / dot(axis, axis), axis)); }
 
 }  // namespace geomend

@@ -20,6 +20,8 @@ struct Polygons {
         if (offsets.empty()) return {corners.data() + 3 * i, 3};
         return {corners.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
     }
+    /// Where the corners of polygon i begin in `corners`. \pre i <= size()
+    std::size_t first_corner(std::size_t i) const { return offsets.empty() ? 3 * i : static_cast<std::size_t>(offsets[i]); }
     /// Adds a polygon; the first that is not a triangle brings the offsets in.
     void push_back(std::span<const std::uint32_t> polygon) {
         if (offsets.empty() && polygon.size() != 3) {

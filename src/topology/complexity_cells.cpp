@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "geometry/site_grid.h"
 #include "topology/complexity_parts.h"
@@ -240,29 +240,23 @@ private:
     Neighbours around_;
 };
 
-std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 // Adds one to the surfaces of a cell for each connected piece in it.
 void count_connected(const SurfaceTriangles& surface, const Pieces& pieces, std::vector<CellComplexity::Counts>& counts) {
-    std::vector<std::uint32_t> parent(pieces.all.size());
-    std::iota(parent.begin(), parent.end(), 0u);
+    DisjointSets connected(pieces.all.size());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
         for (std::uint64_t p = pieces.first[t]; p < pieces.first[t + 1]; ++p) {
             for (std::size_t e = 0; e < 3; ++e) {
                 const std::uint32_t next = surface.across[t][e];
                 if (next == no_index || next < t || (pieces.all[p].edges >> e & 1u) == 0) continue;
                 for (std::uint64_t q = pieces.first[next]; q < pieces.first[next + 1]; ++q) {
-                    if (pieces.all[q].site != pieces.all[p].site) continue;
-                    parent[root(parent, static_cast<std::uint32_t>(q))] = root(parent, static_cast<std::uint32_t>(p));
+                    if (pieces.all[q].site == pieces.all[p].site)
+                        connected.join(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(q));
                 }
             }
         }
     }
-    for (std::uint32_t p = 0; p < parent.size(); ++p) {
-        if (root(parent, p) == p) ++counts[pieces.all[p].site].surfaces;
+    for (std::uint32_t p = 0; p < connected.size(); ++p) {
+        if (connected.root(p) == p) ++counts[pieces.all[p].site].surfaces;
     }
 }
 

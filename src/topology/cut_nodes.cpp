@@ -5,6 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "base/disjoint_sets.h"
 #include "topology/face_edges.h"
 #include "topology/faces_from_surfaces.h"
 
@@ -25,29 +26,21 @@ std::vector<std::uint8_t> nodes_on_cuts(const BrepData& brep, const BrepData::Su
     return on_cut;
 }
 
-std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 /// Corners of neighbouring polygons at one node belong to one fan.
-std::vector<std::uint32_t> fans(const BrepData::Surface& surface, const PolygonEdges& edges) {
-    std::vector<std::uint32_t> parent(surface.polygons.corners.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    for (std::uint32_t c = 0; c < parent.size(); ++c) {
+DisjointSets fans(const BrepData::Surface& surface, const PolygonEdges& edges) {
+    DisjointSets fan_of(surface.polygons.corners.size());
+    for (std::uint32_t c = 0; c < fan_of.size(); ++c) {
         const std::uint32_t q = surface.neighbours[c];
         if (q == no_index) continue;
         const auto other = surface.polygons[q];
         const auto first = static_cast<std::uint32_t>(other.data() - surface.polygons.corners.data());
         for (const std::uint32_t mine : {c, edges.next(c)}) {
             for (std::uint32_t k = 0; k < other.size(); ++k) {
-                if (other[k] != surface.polygons.corners[mine]) continue;
-                const std::uint32_t a = root(parent, mine), b = root(parent, first + k);
-                parent[std::max(a, b)] = std::min(a, b);
+                if (other[k] == surface.polygons.corners[mine]) fan_of.join(mine, first + k);
             }
         }
     }
-    return parent;
+    return fan_of;
 }
 
 }  // namespace
@@ -65,7 +58,7 @@ void split_nodes_along_cuts(const BrepData& brep, BrepData::Surface& surface) {
     for (std::uint32_t c = 0; c < corners.size(); ++c) {
         const std::uint32_t node = surface.polygons.corners[c];
         if (on_cut[node] == 0) continue;
-        const std::uint32_t fan = root(fan_of, c);
+        const std::uint32_t fan = fan_of.root(c);
         if (first_fan[node] == no_index) first_fan[node] = fan;
         if (first_fan[node] == fan) continue;
         const auto [at, is_new] = node_of_fan.emplace(fan, static_cast<std::uint32_t>(source.size()));

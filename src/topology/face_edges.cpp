@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "geometry/vectors.h"
+
 namespace geomend::topology {
 
 PolygonEdges::PolygonEdges(const Polygons& polygons) : polygons_(&polygons) {
@@ -108,6 +110,19 @@ std::vector<std::uint32_t> repeats(const BrepData::Surface& surface, const Polyg
 }
 
 }  // namespace
+
+VertexId far_vertex(const BrepData& brep, const BrepData::Surface& surface, std::uint32_t polygon, const Vec3& a, const Vec3& b) {
+    VertexId best;
+    double largest = -1;
+    for (const std::uint32_t node : surface.polygons[polygon]) {
+        const VertexId vertex = surface.nodes[node];
+        const Vec3 c = cross(minus(b, a), minus(brep.vertices[vertex.value], a));
+        if (dot(c, c) <= largest) continue;
+        largest = dot(c, c);
+        best = vertex;
+    }
+    return best;
+}
 
 FaceEdges connect_polygons(BrepData::Surface& surface) {
     FaceEdges result;

@@ -30,6 +30,10 @@ private:
     std::vector<std::uint32_t> polygon_of_;  // empty when all are triangles
 };
 
+/// The model vertex of a polygon that lies farthest from the line through a and b, an edge of it: the polygon leaves the
+/// edge towards it. Linear in the polygon's corners.
+VertexId far_vertex(const BrepData& brep, const BrepData::Surface& surface, std::uint32_t polygon, const Vec3& a, const Vec3& b);
+
 /// What connect_polygons found.
 struct FaceEdges {
     std::vector<std::uint32_t> border;      ///< corners that start an edge on the border, or one that more than two polygons share

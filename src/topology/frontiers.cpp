@@ -3,32 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
+#include "base/disjoint_sets.h"
 #include "geometry/predicates.h"
+#include "geometry/vectors.h"
 #include "topology/face_volume.h"
 
 namespace geomend::topology {
 
 namespace {
-
-class UnionFind {
-public:
-    explicit UnionFind(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 std::uint32_t side_index(std::uint32_t surface, bool front) { return 2 * surface + (front ? 1 : 0); }
 
@@ -38,25 +22,6 @@ struct Leaf {
     std::uint32_t surface;
     bool front_first;  // going around the axis counter-clockwise, one leaves it through its front
 };
-
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-
-/// The corner of a polygon that lies farthest from the edge starting at `corner`.
-Vec3 far_corner(const BrepData& brep, const BrepData::Surface& surface, std::uint32_t polygon, const Vec3& a, const Vec3& b) {
-    Vec3 best{};
-    double largest = -1;
-    for (const std::uint32_t node : surface.polygons[polygon]) {
-        const Vec3& p = brep.vertices[surface.nodes[node].value];
-        const Vec3 c = cross(minus(b, a), minus(p, a));
-        if (dot(c, c) > largest) {
-            largest = dot(c, c);
-            best = p;
-        }
-    }
-    return best;
-}
 
 /// Order of half-planes around the axis a -> b, counter-clockwise from that of `reference`.
 class Around {
@@ -69,13 +34,7 @@ public:
         if (turn > 0) return 1;
         if (turn < 0) return 3;
         const Vec3 axis = minus(b_, a_);
-        const double scale = dot(axis, axis);
-        const auto across = [&](const Vec3& q) {
-            const Vec3 d = minus(q, a_);
-            const double t = dot(d, axis) / scale;
-            return Vec3{d[0] - t * axis[0], d[1] - t * axis[1], d[2] - t * axis[2]};
-        };
-        return dot(across(reference_), across(p)) >= 0 ? 0 : 2;
+        return dot(across(minus(reference_, a_), axis), across(minus(p, a_), axis)) >= 0 ? 0 : 2;
     }
     /// Negative when p comes before q, 0 when they coincide.
     int compare(const Vec3& p, const Vec3& q) const {
@@ -113,7 +72,8 @@ bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const P
     for (const EdgeUse& use : uses) {
         if (use.surface == no_index) continue;
         const auto& surface = brep.surfaces[use.surface];
-        leaves.push_back({far_corner(brep, surface, all_edges[use.surface].polygon(use.corner), a, b), use.surface, use.direction > 0});
+        const VertexId tip = far_vertex(brep, surface, all_edges[use.surface].polygon(use.corner), a, b);
+        leaves.push_back({brep.vertices[tip.value], use.surface, use.direction > 0});
     }
     if (leaves.empty()) return true;
     const Around around(a, b, leaves[0].tip);
@@ -187,16 +147,16 @@ bool encloses(const BrepData& brep, const Shell& shell, const Vec3& p) {
     return angle > half_of_all;
 }
 
-std::vector<Shell> make_shells(const BrepData& brep, std::span<const double> cones, UnionFind& sides, UnionFind& groups) {
+std::vector<Shell> make_shells(const BrepData& brep, std::span<const double> cones, DisjointSets& sides, DisjointSets& groups) {
     std::vector<std::uint32_t> shell_of(2 * brep.surfaces.size(), no_index);
     std::vector<Shell> shells;
     for (std::uint32_t i = 0; i < shell_of.size(); ++i) {
         if (brep.surfaces[i / 2].polygons.size() == 0) continue;
-        const std::uint32_t root = sides.find(i);
+        const std::uint32_t root = sides.root(i);
         if (shell_of[root] == no_index) {
             shell_of[root] = static_cast<std::uint32_t>(shells.size());
             shells.emplace_back();
-            shells.back().group = groups.find(i / 2);
+            shells.back().group = groups.root(i / 2);
         }
         shells[shell_of[root]].sides.push_back({SurfaceId(i / 2), i % 2 == 1});
     }
@@ -221,7 +181,7 @@ std::optional<std::size_t> shell_around(const BrepData& brep, const std::vector<
 
 FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones) {
     FoundRegions found;
-    UnionFind sides(2 * brep.surfaces.size()), groups(brep.surfaces.size());
+    DisjointSets sides(2 * brep.surfaces.size()), groups(brep.surfaces.size());
     std::vector<PolygonEdges> all_edges;
     for (const auto& surface : brep.surfaces) all_edges.emplace_back(surface.polygons);
     for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {

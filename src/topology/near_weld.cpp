@@ -4,8 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
+#include "base/disjoint_sets.h"
 #include "geometry/cell_volume.h"
 #include "model/objects.h"
 
@@ -52,17 +53,11 @@ private:
     std::vector<std::uint32_t> slots_, next_;
 };
 
-std::uint32_t root_of(std::vector<std::uint32_t>& first, std::uint32_t i) {
-    while (first[i] != i) i = first[i] = first[first[i]];
-    return i;
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> clusters_within(std::span<const Vec3> positions, double tolerance) {
-    std::vector<std::uint32_t> first(positions.size());
-    std::iota(first.begin(), first.end(), 0u);
-    if (positions.empty()) return first;
+    if (positions.empty()) return {};
+    DisjointSets clusters(positions.size());
     Cubes cubes(positions, 64 * tolerance);
     const double square = tolerance * tolerance;
     for (std::uint32_t i = 0; i < positions.size(); ++i) {
@@ -78,17 +73,14 @@ std::vector<std::uint32_t> clusters_within(std::span<const Vec3> positions, doub
                 for (auto z = from[2]; z <= to[2]; ++z) {
                     for (std::uint32_t j = cubes.first({x, y, z}); j != no_index; j = cubes.next(j)) {
                         const Vec3 d = minus(p, positions[j]);
-                        if (dot(d, d) > square) continue;
-                        const std::uint32_t a = root_of(first, i), b = root_of(first, j);
-                        first[std::max(a, b)] = std::min(a, b);
+                        if (dot(d, d) <= square) clusters.join(i, j);
                     }
                 }
             }
         }
         cubes.add(i);
     }
-    for (std::uint32_t i = 0; i < first.size(); ++i) first[i] = root_of(first, i);
-    return first;
+    return std::move(clusters).roots();
 }
 
 }  // namespace geomend::topology

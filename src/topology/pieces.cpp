@@ -10,7 +10,6 @@ std::uint32_t number_pieces(const BrepData::Surface& surface, const FaceEdges& f
     piece_of.assign(count, no_index);
     for (const std::uint32_t p : face.degenerate) piece_of[p] = 0;
     for (const std::uint32_t p : face.duplicate) piece_of[p] = 0;
-    const auto first_corner = [&](std::size_t p) { return surface.polygons.all_triangles() ? 3 * p : surface.polygons.offsets[p]; };
     std::uint32_t pieces = 0;
     std::vector<std::uint32_t> stack;
     for (std::uint32_t start = 0; start < count; ++start) {
@@ -20,7 +19,7 @@ std::uint32_t number_pieces(const BrepData::Surface& surface, const FaceEdges& f
         while (!stack.empty()) {
             const std::uint32_t p = stack.back();
             stack.pop_back();
-            for (std::size_t c = first_corner(p); c < first_corner(p) + surface.polygons[p].size(); ++c) {
+            for (std::size_t c = surface.polygons.first_corner(p); c < surface.polygons.first_corner(p + 1); ++c) {
                 const std::uint32_t q = surface.neighbours[c];
                 if (q == no_index || piece_of[q] != no_index) continue;
                 piece_of[q] = pieces;
