@@ -5,6 +5,7 @@
 
 #include "formats/gmsh/read_msh.h"
 #include "formats/gmsh/sections.h"
+#include "formats/gmsh/write_geo.h"
 #include "formats/gmsh/write_msh.h"
 
 namespace geomend::gmsh {
@@ -12,6 +13,7 @@ namespace geomend::gmsh {
 namespace {
 
 constexpr std::array<std::string_view, 1> extensions = {".msh"};
+constexpr std::array<std::string_view, 1> script_extensions = {".geo"};
 
 constexpr Keeps keeps() {
     Keeps k;
@@ -26,20 +28,33 @@ constexpr Keeps keeps() {
 }  // namespace
 
 std::span<const Format> formats() {
-    static const std::array<Format, 1> rows = {Format{
-        .name = "msh",
-        .family = "gmsh",
-        .title = "Gmsh mesh: MSH 1, 2, 4.0 and 4.1 read, 2.2 and 4.1 written, text and binary",
-        .extensions = extensions,
-        .sniff = sniff,
-        .read = read_msh,
-        .write = write_msh,
-        .wants = WriterWants::tagged_mesh,
-        .keeps = keeps(),
-        .lossy_note = "substance: polygons of more than 4 corners, polyhedra, text properties, markers and logs of wells, second-order "
-                      "elements unless order=2; identity: lattices become cells",
-        .tried_on = "real files and clients",
-    }};
+    static const std::array<Format, 2> rows = {
+        {{
+             .name = "msh",
+             .family = "gmsh",
+             .title = "Gmsh mesh: MSH 1, 2, 4.0 and 4.1 read, 2.2 and 4.1 written, text and binary",
+             .extensions = extensions,
+             .sniff = sniff,
+             .read = read_msh,
+             .write = write_msh,
+             .wants = WriterWants::tagged_mesh,
+             .keeps = keeps(),
+             .lossy_note =
+                 "substance: polygons of more than 4 corners, polyhedra, text properties, markers and logs of wells, second-order "
+                 "elements unless order=2; identity: lattices become cells",
+             .tried_on = "real files and clients",
+         },
+         {
+             .name = "geo",
+             .family = "gmsh",
+             .title = "Gmsh script over an MSH file beside it: `gmsh -3` fills the regions",
+             .extensions = script_extensions,
+             .write = write_geo,
+             .wants = WriterWants::tagged_mesh,
+             .keeps = keeps(),
+             .lossy_note = "as msh, which stands beside it",
+             .tried_on = "clients",
+         }}};
     return rows;
 }
 

@@ -115,10 +115,42 @@ void tell_boundaries(const WritePlan& plan, const CellMesh& mesh, bool v41, std:
             {LossClass::identity, mesh.info.name, "entities without elements", "MSH 2.2 has entities only as tags of elements", empty});
 }
 
+// Takes the volumes without elements out of a plan.
+std::vector<CellMesh::Entity> take_hollow_volumes(WritePlan& plan) {
+    std::vector<std::uint8_t> keep(plan.entities.size(), 0);
+    for (const std::uint32_t e : plan.cell_entity) keep[e] = 1;
+    std::vector<CellMesh::Entity> hollow;
+    std::vector<std::uint32_t> place(plan.entities.size(), no_index);
+    std::uint32_t kept = 0;
+    for (std::size_t e = 0; e < plan.entities.size(); ++e) {
+        if (plan.entities[e].dimension == 3 && keep[e] == 0) {
+            hollow.push_back(std::move(plan.entities[e]));
+            continue;
+        }
+        place[e] = kept;
+        if (kept != e) {
+            plan.entities[kept] = std::move(plan.entities[e]);
+            plan.entity_from[kept] = plan.entity_from[e];
+            plan.loose[kept] = plan.loose[e];
+        }
+        ++kept;
+    }
+    plan.entities.resize(kept);
+    plan.entity_from.resize(kept);
+    plan.loose.resize(kept);
+    for (std::uint32_t& e : plan.cell_entity) e = place[e];
+    return hollow;
+}
+
 }  // namespace
 
 Result<std::vector<Loss>> write_msh(const Dataset& dataset, OutputSet& outputs, const WriteOptions& options) {
-    if (const auto renamed = with_different_names(dataset)) return write_msh(*renamed, outputs, options);
+    return write_mesh_file(dataset, outputs.main_file(), outputs.main_path(), options, nullptr);
+}
+
+Result<std::vector<Loss>> write_mesh_file(const Dataset& dataset, OutputFile& out, const std::filesystem::path& named,
+                                          const WriteOptions& options, HollowVolumes* hollow) {
+    if (const auto renamed = with_different_names(dataset)) return write_mesh_file(*renamed, out, named, options, hollow);
     const auto choices = choices_from(options.options);
     if (!choices) return choices.why();
     std::vector<Loss> losses;
@@ -129,15 +161,16 @@ Result<std::vector<Loss>> write_msh(const Dataset& dataset, OutputSet& outputs, 
         mesh = &combined.mesh;
     }
     if (mesh->points.empty()) {
-        return failure(FailureKind::cannot_hold, "F021", {outputs.main_path().string()}, "there is not one point to write into a mesh");
+        return failure(FailureKind::cannot_hold, "F021", {named.string()}, "there is not one point to write into a mesh");
     }
     constexpr std::int64_t largest_tag = std::numeric_limits<std::int32_t>::max();
-    const WritePlan plan = plan_mesh(*mesh, combined.left_out, combined.left_out_points, choices->second_order, largest_tag, losses);
+    WritePlan plan = plan_mesh(*mesh, combined.left_out, combined.left_out_points, choices->second_order, largest_tag, losses);
+    if (hollow != nullptr) *hollow = {take_hollow_volumes(plan), plan.groups};
     const std::vector<Attribute> described = describe_attributes(*mesh, losses);
     tell_boundaries(plan, *mesh, choices->v41, losses);
     const std::string line = geomend_line(dataset, *mesh, plan, described, choices->v41, losses);
 
-    const Writing w{.plan = plan, .out = outputs.main_file(), .binary = choices->binary, .v41 = choices->v41, .monitor = options.monitor};
+    const Writing w{.plan = plan, .out = out, .binary = choices->binary, .v41 = choices->v41, .monitor = options.monitor};
     write_format(w);
     write_names(w);
     if (w.v41) write_mesh_41(w);
@@ -146,7 +179,7 @@ Result<std::vector<Loss>> write_msh(const Dataset& dataset, OutputSet& outputs, 
     write_data(w, *mesh, described);
     write_kept_sections(w, *mesh, losses);
     w.out << "$Geomend\n" << line << "\n$EndGeomend\n";
-    if (w.stopped()) return failure(FailureKind::cancelled, "F022", {outputs.main_path().string()}, "writing was stopped");
+    if (w.stopped()) return failure(FailureKind::cancelled, "F022", {named.string()}, "writing was stopped");
     return losses;
 }
 

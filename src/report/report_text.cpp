@@ -135,7 +135,8 @@ private:
     void elements(const Finding& f) {
         if (f.elements.empty()) return;
         const std::size_t width = numbers_of_element(f), listed = f.elements.size() / width, shown = std::min(listed, shown_elements);
-        text_ += indent() + element_kind(f) + (f.count == 1 ? "" : "s");
+        const std::string kind = f.element_kind.empty() ? "element" : element_kind(f);
+        text_ += indent() + kind + (f.count == 1 ? "" : "s");
         for (std::size_t e = 0; e < shown; ++e) {
             text_ += width > 1 ? " (" : " ";
             for (std::size_t n = 0; n < width; ++n) text_ += (n > 0 ? "," : "") + std::to_string(f.elements[e * width + n]);
