@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "base/xml_text.h"
 #include "formats/vtk/vtk_merge.h"
 #include "formats/vtk/vtk_model.h"
 #include "formats/vtk/vtk_structure.h"
@@ -13,35 +14,6 @@
 namespace geomend::vtk {
 
 namespace {
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\n':
-                out += "&#10;";
-                break;
-            case '\t':
-                out += "&#9;";
-                break;
-            default:
-                out.push_back(c);
-        }
-    }
-    return out;
-}
 
 // A string array as VTK writes it in text: the codes of its characters, and 0.
 void append_field(std::string& xml, std::string_view name, std::string_view value) {
@@ -131,14 +103,14 @@ private:
         for (std::size_t i = first; i < last;) {
             const Block& block = blocks_[i];
             if (block.groups.size() <= depth || depth >= deepest) {
-                xml += indent + "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" + escaped(block.name) + "\" file=\"" +
-                       escaped(block.file) + "\"/>\n";
+                xml += indent + "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" + xml_attribute(block.name) + "\" file=\"" +
+                       xml_attribute(block.file) + "\"/>\n";
                 ++i;
                 continue;
             }
             std::size_t end = i;
             while (end < last && blocks_[end].groups.size() > depth && blocks_[end].groups[depth] == block.groups[depth]) ++end;
-            xml += indent + "<Block index=\"" + std::to_string(index++) + "\" name=\"" + escaped(block.groups[depth]) + "\">\n";
+            xml += indent + "<Block index=\"" + std::to_string(index++) + "\" name=\"" + xml_attribute(block.groups[depth]) + "\">\n";
             level(xml, i, end, depth + 1);
             xml += indent + "</Block>\n";
             i = end;

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "base/codes.h"
+#include "base/xml_text.h"
 #include "report/json.h"
 #include "report/report.h"
 #include "report/worst_first.h"
@@ -12,30 +13,6 @@
 namespace geomend {
 
 namespace {
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                // XML 1.0 has no other control characters, not even escaped.
-                out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
-        }
-    }
-    return out;
-}
 
 std::string entity_of(const Finding& f) { return f.entities.empty() ? std::string("file") : f.entities.front().name; }
 
@@ -87,22 +64,23 @@ Json sarif_result(const ReportedFile& file, const Finding& f) {
 }  // namespace
 
 std::string report_junit(const Report& report) {
-    std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"" + escaped(report.tool) + "\">\n";
+    std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"" + xml_attribute(report.tool) + "\">\n";
     for (const ReportedFile& file : report.files) {
         const auto listed = worst_first(file.findings, report.most_findings);
         const auto failures = std::ranges::count(listed, Severity::error, &Finding::severity);
         const std::size_t cases = std::max<std::size_t>(1, listed.size());
-        text += " <testsuite name=\"" + escaped(file.file) + "\" tests=\"" + std::to_string(cases) + "\" failures=\"" +
+        text += " <testsuite name=\"" + xml_attribute(file.file) + "\" tests=\"" + std::to_string(cases) + "\" failures=\"" +
                 std::to_string(failures) + "\">\n";
         if (listed.size() < file.findings.size())
             text += "  <properties><property name=\"not_listed\" value=\"" + std::to_string(file.findings.size() - listed.size()) +
                     "\"/></properties>\n";
-        if (listed.empty()) text += "  <testcase classname=\"" + escaped(file.file) + "\" name=\"all checks\"/>\n";
+        if (listed.empty()) text += "  <testcase classname=\"" + xml_attribute(file.file) + "\" name=\"all checks\"/>\n";
         for (const Finding* f : listed) {
-            text += "  <testcase classname=\"" + escaped(file.file) + "\" name=\"" + f->code + ' ' + escaped(entity_of(*f)) + "\">";
+            text +=
+                "  <testcase classname=\"" + xml_attribute(file.file) + "\" name=\"" + f->code + ' ' + xml_attribute(entity_of(*f)) + "\">";
             const bool error = f->severity == Severity::error;
-            text += error ? "<failure type=\"" + f->code + "\" message=\"" + escaped(f->message) + "\">" : "<system-out>";
-            text += escaped(json_text(finding_json(*f)));
+            text += error ? "<failure type=\"" + f->code + "\" message=\"" + xml_attribute(f->message) + "\">" : "<system-out>";
+            text += xml_text(json_text(finding_json(*f)));
             text += error ? "</failure>" : "</system-out>";
             text += "</testcase>\n";
         }

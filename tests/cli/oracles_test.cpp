@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <ostream>
 
 #include "support/program.h"
 #include "support/real_data.h"
@@ -25,6 +26,7 @@ struct BrepOracle {
     int corners, lines, surfaces, regions;
     int vertices, triangles;  ///< -1: not known
 };
+void PrintTo(const BrepOracle& o, std::ostream* out) { *out << o.file; }
 
 class Breps : public testing::TestWithParam<BrepOracle> {};
 
@@ -63,6 +65,7 @@ struct VolumeOracle {
     double sum;
     int sum_digits;  ///< 0: not known
 };
+void PrintTo(const VolumeOracle& o, std::ostream* out) { *out << o.file; }
 
 class RegionVolumes : public testing::TestWithParam<VolumeOracle> {};
 
@@ -141,6 +144,7 @@ struct CountOracle {
     double area = 0;
     int area_digits = 0;
 };
+void PrintTo(const CountOracle& o, std::ostream* out) { *out << o.file; }
 
 class Objects : public testing::TestWithParam<CountOracle> {};
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <sstream>
 
 #include "clients/flow_case.h"
@@ -290,6 +291,7 @@ struct Known {
     std::size_t active, pairs;
     double pore_volume, digits;
 };
+void PrintTo(const Known& o, std::ostream* out) { *out << o.file; }
 
 class FlowOnRealGrids : public Flow, public ::testing::WithParamInterface<Known> {};
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <ostream>
 #include <set>
 
 #include "eclipse_testing.h"
@@ -15,6 +16,7 @@ struct Expected {
     double volume;
     double relative;
 };
+void PrintTo(const Expected& o, std::ostream* out) { *out << o.file; }
 
 class RealGrid : public testing::TestWithParam<Expected> {};
 

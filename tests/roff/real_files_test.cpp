@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cmath>
+#include <ostream>
 
 #include "formats/eclipse/eclipse.h"
 #include "grid/cell_geometry.h"
@@ -14,6 +15,7 @@ struct Expected {
     std::size_t active;
     double volume, relative;
 };
+void PrintTo(const Expected& o, std::ostream* out) { *out << o.file; }
 
 class RealRoff : public testing::TestWithParam<Expected> {};
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "base/input.h"
 #include "formats/gmsh/gmsh.h"
 #include "formats/gocad/gocad.h"
@@ -15,6 +17,7 @@ struct Known {
     const char* file;
     std::size_t corners, lines, surfaces, regions, vertices, polygons;
 };
+void PrintTo(const Known& o, std::ostream* out) { *out << o.file; }
 
 Result<Dataset> read(const std::filesystem::path& path, std::span<const Format> rows) {
     auto input = Input::open(path.string());
