@@ -361,6 +361,7 @@ StatedLines ModelBuilder::stated() const {
     StatedLines lines;
     if (mesh_object_ != no_index) lines = stated_lines(*mesh_of(mesh_object_), entity_cells_, vertex_of_.at(mesh_object_));
     if (twins_) lines.shared_nodes = false;
+    if (loose_) lines.shared_nodes = true;  // a fault that ends inside a horizon seldom cuts it there
     for (const std::uint32_t o : objects_) {
         const auto* surface = std::get_if<Surface>(&dataset_.objects[o]);
         if (surface == nullptr) continue;
