@@ -5,6 +5,7 @@
 
 #include "geometry/cell_volume.h"
 #include "topology/face_edges.h"
+#include "topology/winding.h"
 #include "validators/each_surface.h"
 #include "validators/found_cells.h"
 #include "validators/model_checks.h"
@@ -29,54 +30,6 @@ double smallest_height(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
     const Vec3 n = cross(ab, ac);
     return longest == 0 ? 0 : std::sqrt(dot(n, n) / longest);
-}
-
-/// Polygons that a turn of which would make the surface coherent, and whether no turning can.
-struct Winding {
-    std::vector<std::uint32_t> wrong;
-    bool one_sided = false;
-};
-
-Winding winding_of(const BrepData::Surface& surface) {
-    const topology::PolygonEdges edges(surface.polygons);
-    const std::size_t count = surface.polygons.size();
-    std::vector<std::int8_t> sign(count, 0);
-    const auto same_way = [&](std::size_t corner, std::uint32_t q) {
-        const std::uint32_t from = edges.start_node(corner), to = edges.end_node(corner);
-        for (std::size_t c = surface.polygons.first_corner(q); c < surface.polygons.first_corner(q + 1); ++c) {
-            if (edges.start_node(c) == from && edges.end_node(c) == to) return true;
-        }
-        return false;
-    };
-    Winding result;
-    std::vector<std::uint32_t> piece;
-    for (std::uint32_t start = 0; start < count; ++start) {
-        if (sign[start] != 0) continue;
-        sign[start] = 1;
-        piece.assign(1, start);
-        std::size_t turned = 0;
-        for (std::size_t k = 0; k < piece.size(); ++k) {
-            const std::uint32_t p = piece[k];
-            for (std::size_t c = surface.polygons.first_corner(p); c < surface.polygons.first_corner(p + 1); ++c) {
-                const std::uint32_t q = surface.neighbours[c];
-                if (q == no_index) continue;
-                const auto wanted = static_cast<std::int8_t>(same_way(c, q) ? -sign[p] : sign[p]);
-                if (sign[q] == 0) {
-                    sign[q] = wanted;
-                    turned += wanted < 0 ? 1 : 0;
-                    piece.push_back(q);
-                } else if (sign[q] != wanted) {
-                    result.one_sided = true;
-                }
-            }
-        }
-        const std::int8_t minority = 2 * turned > piece.size() ? 1 : -1;
-        for (const std::uint32_t p : piece) {
-            if (sign[p] == minority) result.wrong.push_back(p);
-        }
-    }
-    std::ranges::sort(result.wrong);
-    return result;
 }
 
 }  // namespace
@@ -176,18 +129,23 @@ void check_repeats(const ModelScope& scope, std::vector<Finding>& findings) {
 void check_winding(const ModelScope& scope, std::vector<Finding>& findings) {
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
-        const Winding winding = winding_of(surface);
+        auto winding = topology::winding_of(surface);
         if (winding.one_sided) {
             Finding finding = finding_of("M06", quoted(surface.name) + " has one side only, so that no region lies before or behind it");
             finding.entities.push_back(surface_ref(scope, s));
             finding.count = 1;
             return finding;
         }
+        const auto& turned = scope.model().turned_polygons;
+        if (!turned.empty() && !turned[s].empty()) winding.wrong = turned[s];  // they were turned over to follow the surface
         if (winding.wrong.empty()) return std::nullopt;
-        return polygons_finding(
-            scope, "M05", s,
-            counted(winding.wrong.size(), "triangle", "triangles") + " of " + quoted(surface.name) + " are wound against their neighbours",
-            winding.wrong);
+        Finding finding = polygons_finding(scope, "M05", s,
+                                           counted(winding.wrong.size(), "triangle", "triangles") + " of " + quoted(surface.name) +
+                                               (winding.wrong.size() == 1 ? " is" : " are") + " wound against " +
+                                               (winding.wrong.size() == 1 ? "its" : "their") + " neighbours",
+                                           winding.wrong);
+        if (!scope.model().stated) finding.severity = Severity::warning;
+        return finding;
     });
 }
 

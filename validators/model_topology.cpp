@@ -119,7 +119,7 @@ void check_radial_order(const ModelScope& scope, std::vector<Finding>& findings)
 void check_holes(const ModelScope& scope, std::vector<Finding>& findings) {
     const BrepData& brep = scope.brep();
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
-        // A loop of free lines beside other borders is a hole; the only loop of a free surface is its outline.
+        // The widest loop of borders is the outline of the surface; others, where nothing else is, are holes.
         const auto& surface = brep.surfaces[s];
         std::vector<std::uint32_t> corners;
         for (const auto& use : surface.lines) {
@@ -141,16 +141,23 @@ void check_holes(const ModelScope& scope, std::vector<Finding>& findings) {
         };
         std::map<std::uint32_t, Loop> loops;
         for (const auto& use : surface.lines) {
+            if (use.internal) continue;  // a cut, with the surface on both sides
             Loop& loop = loops[joined.root(at(brep.lines[use.line.value].corners[0]))];
             loop.free = loop.free && scope.free_lines()[use.line.value] != 0;
             loop.lines.push_back(use.line.value);
         }
+        const Loop* outline = nullptr;  // the widest one
+        double widest = -1;
+        for (const auto& [first, loop] : loops) {
+            const double width = radius(brep, loop.lines);
+            if (width <= widest) continue;
+            widest = width;
+            outline = &loop;
+        }
         std::vector<const Loop*> free;
         for (const auto& [first, loop] : loops) {
-            if (loop.free) free.push_back(&loop);
+            if (loop.free && &loop != outline) free.push_back(&loop);
         }
-        if (free.size() == loops.size() && !free.empty())  // the widest one is the outline
-            free.erase(std::ranges::max_element(free, {}, [&](const Loop* loop) { return radius(brep, loop->lines); }));
         if (free.empty()) return std::nullopt;
         Finding finding = finding_of("M07", quoted(surface.name) + " has " + counted(free.size(), "hole", "holes"));
         finding.entities.push_back(surface_ref(scope, s));

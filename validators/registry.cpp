@@ -100,7 +100,7 @@ constexpr std::array table = {
     of_model("M05", "neighbours run through their common edge in the same sense; a warning for loose surfaces", check_winding),
     of_model("M06", "going round, a surface comes back turned over", check_winding),
     of_model("M07", "a loop of free borders inside a surface", check_holes),
-    Check{"M08", "nine of ten corners of a loose surface have a point of their own, and half of these are at positions of others"},
+    Check{"M08", "nine of ten corners of a loose surface have a point of their own, and more than a quarter are at positions of others"},
     Check{"M09", "a point that an element uses has a coordinate of 1e20 or more; nothing else is then judged"},
     of_cells("M20", "the volume of a cell is zero, or of the sign that fewer cells have", check_cell_volumes),
     of_cells("M21", "the Jacobian of a hexahedron, wedge or pyramid is not positive at a corner, after the sign of the majority",

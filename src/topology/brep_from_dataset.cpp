@@ -18,6 +18,7 @@
 #include "topology/pieces.h"
 #include "topology/regions.h"
 #include "topology/weld.h"
+#include "topology/winding.h"
 
 namespace geomend::topology {
 
@@ -76,6 +77,9 @@ private:
     void tell_soups(const std::vector<std::uint8_t>& joined);
     void make_interfaces();
     void take_apart();
+    void join_polygons();
+    bool turn_over();
+    void make_lines_anew();
     void make_lines();
     void name_corners();
     StatedLines stated() const;
@@ -107,17 +111,18 @@ private:
     std::uint64_t points_welded_ = 0;
     std::vector<Vec3> welded_positions_;
     std::vector<std::vector<std::uint32_t>> source_polygons_;
+    std::vector<std::vector<std::uint32_t>> turned_polygons_;
     Assembly a_;
 };
 
-/// True for polygons that share next to no points, although many of these are at one position, as STL files have it.
+/// True for polygons that share next to no points, although more than a quarter are at positions of others, as STL files have it.
 bool is_soup(const BrepData::Surface& surface) {
     const std::size_t corners = surface.polygons.corners.size();
-    if (surface.polygons.size() < 4 || 10 * surface.nodes.size() < 9 * corners) return false;
+    if (surface.polygons.size() < 2 || 10 * surface.nodes.size() < 9 * corners) return false;
     std::vector<VertexId> vertices = surface.nodes;
     std::sort(vertices.begin(), vertices.end());
     const auto distinct = static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
-    return 2 * distinct < surface.nodes.size();
+    return 4 * distinct < 3 * surface.nodes.size();  // two triangles side by side have four positions
 }
 
 /// One node for each vertex; attributes go, since they may differ.
@@ -268,7 +273,7 @@ std::uint32_t ModelBuilder::vertex_at(const Vec3& position) const {
     return v == no_index || near_.empty() ? v : near_[v];
 }
 
-/// Loose surfaces: a surface for each piece that hangs together between lines.
+/// Loose surfaces: a surface for each piece that hangs together between lines, all of it wound one way where that can be.
 void ModelBuilder::take_apart() {
     std::vector<Face> faces;
     std::vector<BrepData::Surface> surfaces;
@@ -279,17 +284,43 @@ void ModelBuilder::take_apart() {
             surfaces.push_back(std::move(piece.surface));
         }
     }
-    if (surfaces.size() == faces_.size()) {
+    const bool apart = surfaces.size() != faces_.size();
+    if (apart) {
+        faces_ = std::move(faces);
+        a_.brep.surfaces = std::move(surfaces);
+        join_polygons();
+    } else {
         source_polygons_.clear();
-        return;
     }
-    faces_ = std::move(faces);
-    a_.brep.surfaces = std::move(surfaces);
-    a_.brep.lines.clear();
-    a_.brep.corners.clear();
+    if (turn_over() || apart) make_lines_anew();
+}
+
+void ModelBuilder::join_polygons() {
     a_.faces.resize(faces_.size());
     parallel_for_each_index(faces_.size(), [&](std::size_t f) { a_.faces[f] = connect_polygons(a_.brep.surfaces[f]); });
+}
+
+void ModelBuilder::make_lines_anew() {
+    for (auto& surface : a_.brep.surfaces) surface.lines.clear();
+    a_.brep.lines.clear();
+    a_.brep.corners.clear();
     a_.graph = build_lines(a_.brep, a_.faces, stated());
+}
+
+/// Polygons of loose surfaces that are wound against their neighbours are turned over, so that each side is one side.
+bool ModelBuilder::turn_over() {
+    std::vector<Winding> winding(faces_.size());
+    parallel_for_each_index(faces_.size(), [&](std::size_t f) { winding[f] = winding_of(a_.brep.surfaces[f]); });
+    const auto wrong = [](const Winding& w) { return !w.one_sided && !w.wrong.empty(); };
+    if (std::ranges::none_of(winding, wrong)) return false;
+    turned_polygons_.resize(faces_.size());
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        if (!wrong(winding[f])) continue;
+        for (const std::uint32_t p : winding[f].wrong) turn_polygon(a_.brep.surfaces[f], p);
+        turned_polygons_[f] = std::move(winding[f].wrong);
+    }
+    join_polygons();
+    return true;
 }
 
 void ModelBuilder::make_surfaces() {
@@ -361,6 +392,7 @@ StatedLines ModelBuilder::stated() const {
     StatedLines lines;
     if (mesh_object_ != no_index) lines = stated_lines(*mesh_of(mesh_object_), entity_cells_, vertex_of_.at(mesh_object_));
     if (twins_) lines.shared_nodes = false;
+    if (loose_) lines.shared_nodes = true;  // a fault that ends inside a horizon seldom cuts it there
     for (const std::uint32_t o : objects_) {
         const auto* surface = std::get_if<Surface>(&dataset_.objects[o]);
         if (surface == nullptr) continue;
@@ -682,6 +714,7 @@ Result<JudgedModel> ModelBuilder::build_to_judge() {
                        points_welded_,
                        std::move(welded_positions_),
                        std::move(source_polygons_),
+                       std::move(turned_polygons_),
                        std::move(first_polygon),
                        std::move(a_.findings)};
 }

@@ -29,13 +29,15 @@ struct JudgedModel {
     std::vector<Vec3> welded_positions;  ///< where some of them were; at most 100
     /// Per surface and polygon its number in the object that it comes from; empty: one after the other from first_polygon.
     std::vector<std::vector<std::uint32_t>> source_polygons;
+    /// Per loose surface the polygons that were turned over, being wound against their neighbours; empty: none anywhere.
+    std::vector<std::vector<std::uint32_t>> turned_polygons;
     std::vector<std::uint64_t> first_polygon;  ///< per surface
     std::vector<Finding> findings;             ///< where the file's claims disagree with its geometry
 };
 
 /// Builds what checks judge: each model that the file states, and one model of all surfaces that belong to none. Points
 /// closer than the tolerance are one vertex: they take the position of the one that comes first. Loose surfaces are taken
-/// apart where lines cut them and where they do not hang together.
+/// apart where lines cut them and where they do not hang together, and wound one way.
 /// \param tolerance in the unit of the coordinates; 0: only equal positions
 /// Failure (internal) where indices are out of range. Cost: near-linear in triangles and cells.
 Result<std::vector<JudgedModel>> models_to_judge(const Dataset& dataset, double tolerance);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "base/disjoint_sets.h"
@@ -129,8 +130,9 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
     return 2 * std::atan2(numerator, denominator);
 }
 
-/// Whether a point that does not lie on it is enclosed by a shell, by the angle under which it sees the shell.
-bool encloses(const BrepData& brep, const Shell& shell, const Vec3& p) {
+/// Whether a point is enclosed by a shell, by the angle under which it sees the shell: all around inside, nothing outside.
+/// Nothing where it lies on the shell.
+std::optional<bool> encloses(const BrepData& brep, const Shell& shell, const Vec3& p) {
     if (!box_contains(shell, p)) return false;
     double angle = 0;
     for (const auto& side : shell.sides) {
@@ -139,12 +141,35 @@ bool encloses(const BrepData& brep, const Shell& shell, const Vec3& p) {
         for (std::size_t i = 0; i < surface.polygons.size(); ++i) {
             const auto polygon = surface.polygons[i];
             const auto at = [&](std::size_t k) { return minus(brep.vertices[surface.nodes[polygon[k]].value], p); };
+            for (std::size_t k = 0; k < polygon.size(); ++k) {
+                if (at(k) == Vec3{}) return std::nullopt;
+            }
             for (std::size_t k = 1; k + 1 < polygon.size(); ++k) part += solid_angle(at(0), at(k), at(k + 1));
         }
         angle += side.front ? -part : part;
     }
-    constexpr double half_of_all = 6.28;  // 4 pi inside, 0 outside
-    return angle > half_of_all;
+    constexpr double all_around = 4 * std::numbers::pi;
+    if (angle < 0.25 * all_around) return false;
+    if (angle > 0.75 * all_around) return true;
+    return std::nullopt;
+}
+
+/// Whether a shell lies within another one; they may touch, so that not each of its points can tell.
+bool encloses(const BrepData& brep, const Shell& shell, const Shell& inner) {
+    for (const auto& side : inner.sides) {
+        const auto& surface = brep.surfaces[side.surface.value];
+        for (const std::uint32_t node : surface.polygons.corners) {
+            if (const auto inside = encloses(brep, shell, brep.vertices[surface.nodes[node].value])) return *inside;
+        }
+        for (std::size_t i = 0; i < surface.polygons.size(); ++i) {
+            Vec3 middle{};
+            const auto polygon = surface.polygons[i];
+            for (const std::uint32_t node : polygon)
+                middle = plus(middle, times(1.0 / static_cast<double>(polygon.size()), brep.vertices[surface.nodes[node].value]));
+            if (const auto inside = encloses(brep, shell, middle)) return *inside;
+        }
+    }
+    return false;
 }
 
 std::vector<Shell> make_shells(const BrepData& brep, std::span<const double> cones, DisjointSets& sides, DisjointSets& groups) {
@@ -166,13 +191,11 @@ std::vector<Shell> make_shells(const BrepData& brep, std::span<const double> con
 
 /// The smallest shell with a volume, of another group, around a group of surfaces; or nothing.
 std::optional<std::size_t> shell_around(const BrepData& brep, const std::vector<Shell>& shells, const Shell& inner) {
-    const auto& surface = brep.surfaces[inner.sides[0].surface.value];
-    const Vec3& p = brep.vertices[surface.nodes[surface.polygons[0][0]].value];
     std::optional<std::size_t> best;
     for (std::size_t s = 0; s < shells.size(); ++s) {
         if (shells[s].volume <= 0 || shells[s].group == inner.group) continue;
         if (best && shells[*best].volume <= shells[s].volume) continue;
-        if (encloses(brep, shells[s], p)) best = s;
+        if (encloses(brep, shells[s], inner)) best = s;
     }
     return best;
 }

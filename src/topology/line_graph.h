@@ -19,7 +19,7 @@ struct StatedLines {
     std::vector<Edge> edges;
     std::vector<std::uint32_t> corners;       ///< always corners
     std::vector<std::uint32_t> corner_hints;  ///< where a closed line may have its corner
-    /// All surfaces use one set of nodes, so that none can state a cut: where a line runs inside one it is cut.
+    /// All surfaces use one set of nodes, so that none can state a cut, or they are loose: where a line runs inside one it is cut.
     bool shared_nodes = false;
 };
 

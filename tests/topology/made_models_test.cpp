@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "topology/brep_from_dataset.h"
 #include "topology/model_maker.h"
 
@@ -115,6 +117,27 @@ TEST(MadeModels, ABoxInsideABoxMakesAHoleInTheRegionAround) {
     EXPECT_EQ(b.regions[0].sides.size(), 4u) << "outer skin, outside of the inner one, both sides of the loose sheet";
     EXPECT_EQ(b.internal_lines_of_regions, 1u);
     EXPECT_DOUBLE_EQ(b.universe_volume, 64);
+}
+
+TEST(MadeModels, ABodyThatHangsInACornerByOnePointIsInside) {
+    // Whichever of its points comes first: the one in the corner sees the box under an eighth of all directions only.
+    const std::vector<Triangle> body = {{at(0, 0, 0), at(2, 2, 1), at(2, 1, 2)},
+                                        {at(0, 0, 0), at(2, 1, 2), at(1, 2, 2)},
+                                        {at(0, 0, 0), at(1, 2, 2), at(2, 2, 1)},
+                                        {at(2, 2, 1), at(1, 2, 2), at(2, 1, 2)}};
+    for (std::size_t first = 0; first < 12; ++first) {
+        auto turned = body;
+        std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(first / 3), turned.end());
+        std::rotate(turned[0].begin(), turned[0].begin() + static_cast<std::ptrdiff_t>(first % 3), turned[0].end());
+        ModelMaker m;
+        m.add("outer", FeatureRole::boundary, box(at(0, 0, 0), at(4, 4, 4)));
+        m.add("body", FeatureRole::intrusion, turned);
+        const BrepData& b = built(m.data);
+        expect_counts(b, 0, 0, 2, 2);
+        EXPECT_NEAR(b.regions[0].volume + b.regions[1].volume, 64, 1e-12) << "point " << first << " first";
+        EXPECT_EQ(b.regions[0].sides.size(), 2u);
+        EXPECT_DOUBLE_EQ(b.universe_volume, 64);
+    }
 }
 
 TEST(MadeModels, LooseSquaresHaveOneCornerAndOneLineEach) {
