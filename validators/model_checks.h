@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "validators/model_scope.h"
 
 // The checks of boundary representations; the table that joins them is in registry.cpp. Each adds one finding for an
@@ -32,7 +35,7 @@ void check_thin_regions(const ModelScope&, std::vector<Finding>&);        // B15
 void check_outside_surfaces(const ModelScope&, std::vector<Finding>&);    // B16
 void check_radial_order(const ModelScope&, std::vector<Finding>&);        // B17
 void check_stated_borders(const ModelScope&, std::vector<Finding>&);      // B19
-void check_intersections(const ModelScope&, std::vector<Finding>&);       // B02 B08 B10 B11 B20 B22
+void check_intersections(const ModelScope&, std::vector<Finding>&);       // B02 B08 B10 B11 B20 B22 B26 B27 B28
 void check_shared_points(const ModelScope&, std::vector<Finding>&);       // B22
 void check_near_misses(const ModelScope&, std::vector<Finding>&);         // B23 B24
 void check_region_names(const ModelScope&, std::vector<Finding>&);        // G01
@@ -43,6 +46,9 @@ void check_triangle_angles(const ModelScope&, std::vector<Finding>&);     // Q01
 void check_short_edges(const ModelScope&, std::vector<Finding>&);         // Q02
 void check_folds(const ModelScope&, std::vector<Finding>&);               // Q03
 void check_contact_angles(const ModelScope&, std::vector<Finding>&);      // Q04
+
+/// Errors that say that a surface itself is wrong, and so the regions that it bounds.
+inline constexpr std::array<std::string_view, 9> own_errors = {"B01", "B02", "B03", "B04", "B07", "B26", "B27", "M04", "M05"};
 
 /// Entities that are not valid because a finding with an error is about one that bounds them: B18, one for each region.
 void spread_errors(const ModelScope&, std::vector<Finding>&);

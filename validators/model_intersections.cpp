@@ -163,6 +163,14 @@ Finding common_finding(const ModelScope& scope, std::string_view code, const Sur
     return finding;
 }
 
+/// What a surface has in common with itself, by the worst of it: the code, and what goes on after its name.
+std::pair<std::string_view, const char*> meeting_with_itself(const Common& common) {
+    if (common.overlap > 0 && common.overlap >= common.crossing) return {"B26", " lies on itself"};
+    if (common.crossing + common.inside + common.overlap > 0) return {"B02", " crosses itself where its triangles are no neighbours"};
+    if (common.border > 0) return {"B27", " ends on itself without sharing vertices"};
+    return {"B28", " touches itself in points that its triangles do not share"};
+}
+
 }  // namespace
 
 void check_intersections(const ModelScope& scope, std::vector<Finding>& findings) {
@@ -173,8 +181,8 @@ void check_intersections(const ModelScope& scope, std::vector<Finding>& findings
         const auto& b = brep.surfaces[pair.second];
         const std::string both = quoted(a.name) + " and " + quoted(b.name);
         if (pair.first == pair.second) {
-            findings.push_back(
-                common_finding(scope, "B02", pair, common, quoted(a.name) + " meets itself where its triangles are no neighbours"));
+            const auto [code, what] = meeting_with_itself(common);
+            findings.push_back(common_finding(scope, code, pair, common, quoted(a.name) + what));
         } else if (common.overlap > 0 && common.overlap >= common.crossing) {
             findings.push_back(common_finding(scope, "B20", pair, common, both + " lie on each other"));
         } else if (common.crossing + common.inside + common.overlap > 0) {

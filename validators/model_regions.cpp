@@ -353,7 +353,6 @@ void check_stated_borders(const ModelScope& scope, std::vector<Finding>& finding
 void spread_errors(const ModelScope& scope, std::vector<Finding>& findings) {
     const BrepData& brep = scope.brep();
     std::vector<std::uint8_t> wrong(brep.surfaces.size(), 0);
-    static constexpr std::array own_errors = {"B01", "B02", "B03", "B04", "B07", "M04", "M05"};  // those that say a surface itself is wrong
     for (const Finding& f : findings) {
         if (f.severity != Severity::error || std::ranges::find(own_errors, f.code) == own_errors.end()) continue;
         for (const EntityRef& e : f.entities) {

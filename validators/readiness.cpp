@@ -30,6 +30,7 @@ constexpr std::array mesher_burdens = {
     TargetBurden{"B22", "a vertex is put in, and the meshes do not match there"},
     TargetBurden{"B23", "elements of the size of the gap fill it, or the region leaks"},
     TargetBurden{"B24", "elements of the size of the gap fill it"},
+    TargetBurden{"B28", "a vertex is put in, and the meshes do not match there"},
     TargetBurden{"M01", "elements as small as the distance are made"},
     TargetBurden{"M03", "elements as flat as the triangle are made"},
     TargetBurden{"Q01", "elements as bad as the triangle are made"},

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 
+#include "topology/flat_objects.h"
 #include "validators/cell_checks.h"
 #include "validators/corner_point.h"
 #include "validators/model_checks.h"
+#include "validators/object_checks.h"
 #include "validators/readiness.h"
 
 namespace geomend::validators {
@@ -21,12 +23,20 @@ constexpr Check of_model(std::string_view code, std::string_view condition, void
 constexpr Check of_cells(std::string_view code, std::string_view condition, void (*run)(const CellScope&, std::vector<Finding>&)) {
     return {code, condition, nullptr, false, nullptr, run};
 }
+/// A row of a check of objects that are judged one by one.
+constexpr Check of_object(std::string_view code, std::string_view condition, void (*run)(const ObjectScope&, std::vector<Finding>&)) {
+    return {code, condition, nullptr, false, nullptr, nullptr, run};
+}
+/// A row of a check of models whose code objects of other kinds have, too.
+constexpr Check of_both(std::string_view code, std::string_view condition, void (*model)(const ModelScope&, std::vector<Finding>&),
+                        void (*object)(const ObjectScope&, std::vector<Finding>&)) {
+    return {code, condition, nullptr, false, model, nullptr, object};
+}
 
 // Rows with the same function: it tells all of their codes.
 constexpr std::array table = {
     of_model("B01", "a triangle or polygon has the same vertex twice, once points within the tolerance are one", check_degenerate),
-    of_model("B02", "two triangles of one surface have more in common than the vertices and edges that they share; exact",
-             check_intersections),
+    of_model("B02", "triangles of one surface pass through each other, or touch along an edge inside of it; exact", check_intersections),
     of_model("B03",
              "more than two triangles of one surface at an edge; or, away from lines, triangles at a vertex that make no single ring",
              check_manifold),
@@ -57,6 +67,9 @@ constexpr std::array table = {
     of_model("B23", "an edge of a free border comes closer to a surface than the search length, without meeting it", check_near_misses),
     of_model("B24", "two surfaces come closer than the search length away from what they share", check_near_misses),
     of_model("B25", "as B12, of a fault, a fracture or a surface without a role: such may lie within a region", check_leaks),
+    of_model("B26", "triangles of one surface have an area in common; exact", check_intersections),
+    of_model("B27", "a border of a surface lies on the surface itself without the same vertices; exact", check_intersections),
+    of_model("B28", "triangles of one surface have single points in common that they do not share; exact", check_intersections),
     Check{"C01", "an array has another length than the dimensions ask for; nothing else is then checked"},
     Check{"C02", "a corner or pillar of an active cell is not finite, or 1e20 or more", check_coordinates},
     Check{"C03", "on a pillar the bottom lies above the top by more than the tolerance", check_inverted},
@@ -93,18 +106,30 @@ constexpr std::array table = {
     of_model("G02", "a stated layer or fault block lists no region that exists", check_region_lists),
     of_model("G03", "at each contact of a fault with a horizon the horizon comes up from both sides", check_fault_displacement),
     of_model("G04", "of two stratigraphic surfaces each is roof of a region whose floor is the other", check_horizon_order),
-    of_model("M01", "points of a model are nearer than the tolerance, and not equal", check_near_points),
-    of_model("M02", "points of a surface belong to none of its triangles", check_isolated_points),
+    of_both("M01", "points of a model, a point set or polylines are nearer than the tolerance, and not equal", check_near_points,
+            check_point_positions),
+    of_both("M02", "points of a surface belong to none of its triangles, points of polylines to none of their edges", check_isolated_points,
+            check_unused_points),
     of_model("M03", "the height of a triangle over its longest side is at most the tolerance", check_flat_triangles),
     of_model("M04", "two triangles of a surface have the same three vertices", check_repeats),
     of_model("M05", "neighbours run through their common edge in the same sense; a warning for loose surfaces", check_winding),
     of_model("M06", "going round, a surface comes back turned over", check_winding),
     of_model("M07", "a loop of free borders inside a surface", check_holes),
     Check{"M08", "nine of ten corners of a loose surface have a point of their own, and more than a quarter are at positions of others"},
-    Check{"M09", "a point that an element uses has a coordinate of 1e20 or more; nothing else is then judged"},
-    of_cells("M20", "the volume of a cell is zero, or of the sign that fewer cells have", check_cell_volumes),
-    of_cells("M21", "the Jacobian of a hexahedron, wedge or pyramid is not positive at a corner, after the sign of the majority",
-             check_cell_jacobians),
+    Check{"M09", "a point that an element uses has a coordinate of 1e20 or more, or one that is no number; nothing else is then judged"},
+    of_object("M10", "points of a point set have the same position; a point that states that it stands at another one's is none",
+              check_point_positions),
+    of_object("M11", "the ends of an edge of a polyline are no farther apart than the tolerance", check_edge_lengths),
+    of_object("M12", "two edges of one line have the same ends", check_edge_repeats),
+    of_object("M13", "edges of one line that share no point come within the tolerance, or two edges lie side by side", check_line_meetings),
+    of_object("M14", "as M13, of edges of different lines of an object", check_line_meetings),
+    Check{"M20",
+          "the volume of a cell is zero, or of the sign that fewer cells have; of structured grids cells without volume are a warning",
+          nullptr, false, nullptr, check_cell_volumes, check_lattice_cells},
+    Check{"M21",
+          "the Jacobian of a hexahedron, wedge or pyramid is not positive at a corner, after the sign of the majority; of structured grids "
+          "by more than moving its ends by the tolerance explains",
+          nullptr, false, nullptr, check_cell_jacobians, check_lattice_cells},
     of_cells("M22", "a cell has the same node twice", check_cell_nodes),
     of_cells("M23", "a face is on more than two cells", check_cell_faces),
     of_cells("M24", "outer faces of cells have an area in common without being the same; exact", check_cell_matching),
@@ -112,6 +137,20 @@ constexpr std::array table = {
     of_cells("M26", "two cells of one kind have the same nodes", check_cell_repeats),
     of_cells("M27", "nodes that cells use are nearer than the tolerance, but not one node", check_cell_points),
     of_cells("M28", "nodes that no cell uses", check_cell_points),
+    of_object("M30", "the measured depth of a station is not larger than that of the one before", check_measured_depths),
+    of_object("M31", "two stations of a path in a row are no farther apart than the tolerance", check_path_stops),
+    of_object("M32", "a marker, zone or log has a measured depth that the path has not, or a zone ends before it begins", check_along_path),
+    of_object("M33", "from station to station the measured depth grows by less than the distance, by more than a thousandth",
+              check_measured_depths),
+    of_object("M34", "the measured depths of a log both grow and shrink", check_log_depths),
+    of_object("M40", "a step is zero, the steps lie in one plane or line, or coordinates along an axis do not all grow or all shrink",
+              check_raster_axes),
+    of_object("M41", "the axes U, V, W turn as those of a left hand; of a map, U and V turn clockwise seen from above", check_raster_axes),
+    of_object("M42", "all values of a property of a point set, polylines, a raster or a structured grid are missing",
+              check_property_values),
+    of_object("M43", "a number such as -999.25, -99999 or 1e30 lies as far from all other values as these from each other, or farther",
+              check_property_values),
+    of_object("M50", "two layers of nodes in a row agree within the tolerance", check_lattice_layers),
     of_model("Q01", "the smallest angle of a triangle is below 1 degree", check_triangle_angles),
     of_model("Q02", "an edge is shorter than the search length", check_short_edges),
     of_model("Q03", "two neighbours enclose less than 10 degrees", check_folds),
@@ -136,38 +175,42 @@ Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "the chec
 
 std::span<const Check> all_checks() { return table; }
 
-Result<void> known_codes(const CheckOptions& options) {
-    if (!options.target.empty() && find_target(options.target) == nullptr)
-        return failure(FailureKind::usage, "F018", {}, "--for " + options.target + ": no such target (see geomend-validate(1))");
-    for (const auto* list : {&options.only, &options.skip}) {
-        for (const std::string& code : *list) {
-            if (std::ranges::find(table, std::string_view(code), &Check::code) == table.end())
-                return failure(FailureKind::usage, "F018", {}, code + ": no such check (see 'geomend checks')");
-        }
-    }
-    return {};
-}
-
-bool wanted(const CheckOptions& options, std::string_view code) {
-    const auto names = [&](const std::vector<std::string>& list) { return std::ranges::find(list, code) != list.end(); };
-    return (options.only.empty() || names(options.only)) && !names(options.skip);
-}
-
 namespace {
 
-/// Runs each function of the table once where one of its codes is wanted, and keeps what is.
+/// Whether a check must run: it is wanted, or B18 is, which passes on what it finds.
+bool needed(const CheckOptions& options, std::string_view code) {
+    const bool passed_on = wanted(options, "B18") && std::ranges::find(own_errors, code) != own_errors.end();
+    return wanted(options, code) || (passed_on && !skipped(options, code));
+}
+
+/// Runs each function of the table once where one of its codes is needed.
 template <class Scope>
 void run_all(const Scope& scope, const CheckOptions& options, void (*Check::*member)(const Scope&, std::vector<Finding>&),
              std::vector<Finding>& findings) {
     std::vector<void (*)(const Scope&, std::vector<Finding>&)> done;
     for (const Check& row : table) {
         const auto run = row.*member;
-        if (run == nullptr || !wanted(options, row.code) || std::ranges::find(done, run) != done.end() || scope.stopped()) continue;
+        if (run == nullptr || !needed(options, row.code) || std::ranges::find(done, run) != done.end() || scope.stopped()) continue;
         done.push_back(run);
         run(scope, findings);
         if (options.monitor != nullptr)
             options.monitor->progress("checking", static_cast<double>(&row - table.data() + 1) / static_cast<double>(table.size()));
     }
+}
+
+/// Whether the cells of a mesh are points and lines, so that they are judged as point sets and polylines.
+bool has_points_and_lines_only(const CellMesh& mesh) {
+    return topology::is_flat(mesh) && std::ranges::all_of(mesh.types, [](CellType type) { return dimension(type) < 2; });
+}
+
+Result<void> check_flat_parts(const CellMesh& mesh, const CheckOptions& options, std::vector<Finding>& findings) {
+    std::vector<Loss> left_out;  // names and sets, which no check looks at
+    for (const Object& part : topology::flat_objects(mesh, left_out)) {
+        auto checked = check(part, options);
+        if (!checked) return std::move(checked).why();
+        std::ranges::move(checked->findings, std::back_inserter(findings));
+    }
+    return {};
 }
 
 }  // namespace
@@ -185,6 +228,7 @@ Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options
         std::vector<Finding> findings;
         const ModelScope scope(dataset, model, result.lengths, options);
         run_all(scope, options, &Check::model, findings);
+        std::erase_if(findings, [&](const Finding& f) { return skipped(options, f.code); });
         if (wanted(options, "B18")) spread_errors(scope, findings);
         std::ranges::move(model.findings, std::back_inserter(result.findings));
         std::ranges::move(findings, std::back_inserter(result.findings));
@@ -194,13 +238,26 @@ Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options
     for (const Object& object : dataset.objects) {
         const auto* mesh = std::get_if<CellMesh>(&object);
         if (mesh == nullptr) continue;
+        if (has_points_and_lines_only(*mesh)) {
+            if (auto done = check_flat_parts(*mesh, options, result.findings); !done) return std::move(done).why();
+            continue;
+        }
         const CellScope scope(*mesh, result.lengths, options);
         run_all(scope, options, &Check::cells, result.findings);
         if (scope.stopped()) return stopped();
     }
-    std::erase_if(result.findings, [&](const Finding& f) {
-        return std::ranges::find(table, std::string_view(f.code), &Check::code) != table.end() && !wanted(options, f.code);
-    });
+    std::erase_if(result.findings, [&](const Finding& f) { return !wanted(options, f.code); });
+    return result;
+}
+
+Result<Checked> check(const Object& object, const CheckOptions& options) {
+    Checked result;
+    const ObjectScope scope(object, options);
+    result.findings = huge_coordinates(scope);
+    result.lengths = scope.lengths();
+    if (result.findings.empty()) run_all(scope, options, &Check::object, result.findings);
+    if (scope.stopped()) return stopped();
+    std::erase_if(result.findings, [&](const Finding& f) { return !wanted(options, f.code); });
     return result;
 }
 
@@ -219,7 +276,7 @@ Result<Checked> check(const CornerPointGrid& grid, const CheckOptions& options) 
             options.monitor->progress("checking", static_cast<double>(&row - table.data() + 1) / static_cast<double>(table.size()));
     }
     if (scope.stopped()) return stopped();
-    if (!result.geometry) {
+    if (!result.geometry && wanted(options, "F161")) {
         result.findings.push_back(grid_finding(
             scope, "F161", "there is no geometry here: only the lengths of arrays, MAPAXES, ACTNUM and fault records were checked"));
     }

@@ -9,29 +9,26 @@
 #include "base/result.h"
 #include "model/dataset.h"
 #include "validators/cell_scope.h"
+#include "validators/choice.h"
 #include "validators/grid_scope.h"
 #include "validators/model_scope.h"
+#include "validators/object_scope.h"
 
 namespace geomend::validators {
 
 /// One row of the table of checks.
 struct Check {
     std::string_view code;
-    std::string_view condition;                                         ///< when it finds something, with its thresholds; one line
-    void (*run)(const GridScope&, std::vector<Finding>&) = nullptr;     ///< of corner-point grids; nullptr: told elsewhere
-    bool of_records = false;                                            ///< needs no geometry
-    void (*model)(const ModelScope&, std::vector<Finding>&) = nullptr;  ///< of boundary representations
-    void (*cells)(const CellScope&, std::vector<Finding>&) = nullptr;   ///< of cell meshes
+    std::string_view condition;                                           ///< when it finds something, with its thresholds; one line
+    void (*run)(const GridScope&, std::vector<Finding>&) = nullptr;       ///< of corner-point grids; nullptr: told elsewhere
+    bool of_records = false;                                              ///< needs no geometry
+    void (*model)(const ModelScope&, std::vector<Finding>&) = nullptr;    ///< of boundary representations
+    void (*cells)(const CellScope&, std::vector<Finding>&) = nullptr;     ///< of cell meshes
+    void (*object)(const ObjectScope&, std::vector<Finding>&) = nullptr;  ///< of point sets, polylines, wells, rasters, structured grids
 };
 
 /// All checks, in the order of their codes.
 std::span<const Check> all_checks();
-
-/// Failure (usage) where a code of `only` or `skip` is of no check.
-Result<void> known_codes(const CheckOptions& options);
-
-/// Whether the options ask for a check.
-bool wanted(const CheckOptions& options, std::string_view code);
 
 /// Findings of one grid, and the lengths that it was judged by.
 struct Checked {
@@ -45,6 +42,10 @@ struct Checked {
 /// \param judged where not null: the boundary representations that findings are about are added to it
 /// Failure (cancelled) when the monitor stops it.
 Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged = nullptr);
+
+/// Runs all wanted checks of an object that is judged by itself (see is_judged_alone). Never changes it. Cost: near-linear.
+/// Failure (cancelled) when the monitor stops it.
+Result<Checked> check(const Object& object, const CheckOptions& options);
 
 /// Runs all wanted checks of a corner-point grid. Never changes it. Cost: linear in cells but for columns whose cells
 /// overlap. Failure (cancelled) when the monitor stops it.

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
+#include "geometry/lattice_cells.h"
 #include "geometry/polyhedron_volume.h"
 
 namespace geomend {
@@ -185,33 +186,6 @@ std::optional<std::array<Vec3, 2>> bounds_of(const Thing& thing) {
     return box_of(thing.points).result();
 }
 
-/// Corners of cells that do not stand at the lattice's own nodes (Gocad SPLIT), by cell.
-using SplitCorners = std::map<std::size_t, std::vector<std::pair<std::size_t, Vec3>>>;
-
-SplitCorners split_corners(const StructuredGrid& grid) {
-    // VTK corner of a cell by its offsets in i, j, k.
-    constexpr std::array<std::size_t, 8> corner_of = {0, 1, 3, 2, 4, 5, 7, 6};
-    SplitCorners corners;
-    const std::size_t ni = grid.dims[0] - 1, nj = grid.dims[1] - 1, nk = grid.dims[2] - 1;
-    for (const StructuredGrid::Split& split : grid.splits) {
-        for (std::size_t b = 0; b < 8; ++b) {
-            if ((split.cells >> b & 1) == 0) continue;
-            // Bit b stands for the cell that is this many steps before the node.
-            const std::size_t di = b & 1, dj = b >> 1 & 1, dk = b >> 2;
-            if (split.node[0] < di || split.node[1] < dj || split.node[2] < dk) continue;
-            const std::size_t i = split.node[0] - di, j = split.node[1] - dj, k = split.node[2] - dk;
-            if (i < ni && j < nj && k < nk) corners[(k * nj + j) * ni + i].emplace_back(corner_of[b], split.position);
-        }
-    }
-    return corners;
-}
-
-std::array<Vec3, 8> lattice_cell(const StructuredGrid& grid, std::size_t i, std::size_t j, std::size_t k) {
-    const std::size_t row = grid.dims[0], layer = row * grid.dims[1], at = k * layer + j * row + i;
-    const auto& p = grid.points;
-    return {p[at], p[at + 1], p[at + row + 1], p[at + row], p[at + layer], p[at + layer + 1], p[at + layer + row + 1], p[at + layer + row]};
-}
-
 }  // namespace
 
 double area(const Surface& surface) {
@@ -279,16 +253,9 @@ double volume_by_tetrahedra(const CellMesh& mesh) {
 
 double volume(const StructuredGrid& grid) {
     if (grid.dims[0] < 2 || grid.dims[1] < 2 || grid.dims[2] < 2) return 0;
-    const SplitCorners splits = split_corners(grid);
-    const std::size_t ni = grid.dims[0] - 1, nj = grid.dims[1] - 1;
-    return ordered_sum(lattice_cell_count(grid.dims), [&](std::size_t cell) {
-        if (!grid.dead_cells.empty() && grid.dead_cells[cell] != 0) return 0.0;
-        std::array<Vec3, 8> corners = lattice_cell(grid, cell % ni, cell / ni % nj, cell / ni / nj);
-        if (const auto moved = splits.find(cell); moved != splits.end()) {
-            for (const auto& [corner, position] : moved->second) corners[corner] = position;
-        }
-        return std::abs(hexahedron_volume(corners));
-    });
+    const LatticeCells cells(grid);
+    return ordered_sum(cells.count(),
+                       [&](std::size_t cell) { return cells.is_dead(cell) ? 0.0 : std::abs(hexahedron_volume(cells.corners(cell))); });
 }
 
 double volume(const Raster& raster) {

@@ -17,9 +17,16 @@ bool has_errors(const std::vector<Finding>& findings) {
 
 bool has_model_checks(const Object& object) { return std::holds_alternative<Surface>(object) || std::holds_alternative<CellMesh>(object); }
 
-bool has_checks(const Object& object) { return has_model_checks(object) || std::holds_alternative<CornerPointGrid>(object); }
+bool has_checks(const Object& object) {
+    return has_model_checks(object) || std::holds_alternative<CornerPointGrid>(object) || validators::is_judged_alone(object);
+}
 
-// One finding for each kind of object that cannot be judged yet.
+// Whether the reader had to leave something out, because a companion file is missing, say.
+bool lacks_a_part(const Dataset& dataset) {
+    return std::ranges::any_of(dataset.findings, [](const Finding& f) { return validators::always_told(f.code); });
+}
+
+// One finding for each kind of object of which some hold nothing to judge.
 void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
     std::map<std::string, Finding> kinds;
     for (const Object& object : dataset.objects) {
@@ -30,10 +37,16 @@ void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
     }
     for (auto& [kind, f] : kinds) {
         f.code = "F160";
-        f.message = "there is no check for objects of kind " + kind + ": " + std::to_string(f.count) +
-                    (f.count == 1 ? " was read, but not judged" : " were read, but not judged");
+        f.message = std::to_string(f.count) + (f.count == 1 ? " object" : " objects") + " of kind " + kind +
+                    (f.count == 1 ? " was read, but holds" : " were read, but hold") + " nothing that a check looks at";
         findings.push_back(std::move(f));
     }
+}
+
+// The options by which the checks run: what other checks find is told again by S02, also where it is not wanted itself.
+validators::CheckOptions with_causes(validators::CheckOptions options) {
+    if (!options.target.empty() && validators::wanted(options, "S02")) options.only.clear();
+    return options;
 }
 
 }  // namespace
@@ -44,32 +57,35 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
     ReportedFile file;
     file.file = path;
     std::ranges::copy_if(dataset.findings, std::back_inserter(file.findings),
-                         [&](const Finding& f) { return !f.code.starts_with('C') || validators::wanted(options, f.code); });
+                         [&](const Finding& f) { return validators::wanted(options, f.code); });
     const auto take = [&](validators::Checked& checked) {
         file.tolerance = std::max(file.tolerance, checked.lengths.tolerance);
         file.near = std::max(file.near, checked.lengths.near);
         std::ranges::move(checked.findings, std::back_inserter(file.findings));
     };
-    bool all_judged = std::ranges::any_of(dataset.objects, has_checks);
+    const validators::CheckOptions run = with_causes(options);
+    bool all_judged = !dataset.objects.empty() && std::ranges::all_of(dataset.objects, has_checks) && !lacks_a_part(dataset) &&
+                      validators::judges_anything(options);
     for (const Object& object : dataset.objects) {
         const auto* grid = std::get_if<CornerPointGrid>(&object);
-        if (grid == nullptr) continue;
-        auto checked = validators::check(*grid, options);
+        if (grid == nullptr && !validators::is_judged_alone(object)) continue;
+        auto checked = grid != nullptr ? validators::check(*grid, run) : validators::check(object, run);
         if (!checked) return std::move(checked).why();
         all_judged = all_judged && checked->geometry;
         take(*checked);
     }
     if (std::ranges::any_of(dataset.objects, has_model_checks)) {
-        auto checked = validators::check_models(dataset, options, judged);
+        auto checked = validators::check_models(dataset, run, judged);
         if (!checked) return std::move(checked).why();
         take(*checked);
     }
-    tell_unchecked(dataset, file.findings);
+    if (validators::wanted(options, "F160")) tell_unchecked(dataset, file.findings);
     if (const validators::Target* target = validators::find_target(options.target)) {
         auto ready = validators::readiness(dataset, *target, file.tolerance, file.findings);
         if (!ready) return std::move(ready).why();
         std::ranges::copy_if(*ready, std::back_inserter(file.findings),
                              [&](const Finding& f) { return validators::wanted(options, f.code); });
+        if (run.only != options.only) std::erase_if(file.findings, [&](const Finding& f) { return !validators::wanted(options, f.code); });
     }
     if (has_errors(file.findings)) file.valid = false;
     else if (all_judged) file.valid = true;

@@ -79,12 +79,42 @@ TEST(Validate, ReportsInTheSchemaOfTheInterface) {
 
 TEST(Validate, DoesNotCallValidWhatItCannotJudge) {
     const TemporaryFolder folder;
-    test::write_file(folder / "p.vs", "GOCAD VSet 1\nHEADER {\nname:p\n}\nVRTX 1 0 0 0\nEND\n");
-    const auto run = run_geomend({"validate", "--json", folder / "p.vs"});
+    test::write_file(folder / "w.wl", "GOCAD Well 1\nHEADER {\nname:w\n}\nWREF 1 2 3\nEND\n");
+    const auto run = run_geomend({"validate", "--json", folder / "w.wl"});
     EXPECT_EQ(run.status, 0);
     const auto j = json_of(run);
     EXPECT_FALSE(j["files"][0].contains("valid"));
     EXPECT_NE(run.out.find("F160"), std::string::npos);
+}
+
+TEST(Validate, ChoosesAmongAllCodes) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "p.vs", "GOCAD VSet 1\nHEADER {\nname:p\n}\nVRTX 1 0 0 0\nVRTX 2 0 0 0\nEND\n");
+    test::write_file(folder / "cut.vs", "GOCAD VSet 1\nHEADER {\nname:p\n}\nVRTX 1 0 0");
+    test::write_file(folder / "open.vs", "GOCAD VSet 1\nHEADER {\nname:p\n}\nVRTX 1 0 0 0\n");
+    const std::string points = folder / "p.vs", cut = folder / "cut.vs", open = folder / "open.vs";
+    const auto run = [](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "validate");
+        return run_geomend(arguments);
+    };
+    const auto status = [&](std::vector<std::string> arguments) { return run(std::move(arguments)).status; };
+    EXPECT_EQ(status({points, "--fail-on", "warning"}), 1) << "M10";
+    EXPECT_EQ(status({points, "--fail-on", "warning", "--skip", "M"}), 0);
+    EXPECT_EQ(status({points, "--fail-on", "warning", "--skip", "M1*,F1*"}), 0);
+    EXPECT_EQ(status({points, "--fail-on", "warning", "--checks", "B*"}), 0);
+    EXPECT_EQ(status({open, "--fail-on", "warning"}), 1);
+    EXPECT_EQ(status({open, "--fail-on", "warning", "--skip", "F101"}), 0);
+    EXPECT_EQ(status({open, "--fail-on", "warning", "--checks", "F101"}), 1);
+    EXPECT_EQ(status({open, "--fail-on", "warning", "--checks", "F10?", "--skip", "F1*"}), 0);
+    EXPECT_EQ(status({open, "--fail-on", "warning", "--checks", "B02"}), 0);
+    EXPECT_EQ(status({cut, "--skip", "F"}), 3);
+    EXPECT_EQ(status({cut, points, "--skip", "F"}), 3);
+    const auto refused = run({cut, "--skip", "F004"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("cannot be left out"), std::string::npos) << refused.err;
+    const auto unknown = run({points, "--checks", "m10"});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_NE(unknown.err.find("did you mean M10?"), std::string::npos) << unknown.err;
 }
 
 TEST(Repair, MendsWithTheUsualStepsAndTellsWhatItDid) {

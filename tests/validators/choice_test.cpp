@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/choice.h"
+
+#include <gtest/gtest.h>
+
+#include "base/codes.h"
+#include "pipeline/validate.h"
+#include "validators/checks_testing.h"
+#include "validators/layered_model.h"
+
+namespace geomend {
+namespace {
+
+using namespace testing;
+using Codes = std::set<std::string>;
+using validators::stands_for;
+
+CheckOptions only(std::vector<std::string> words) {
+    CheckOptions o;
+    o.only = std::move(words);
+    return o;
+}
+CheckOptions without(std::vector<std::string> words) {
+    CheckOptions o;
+    o.skip = std::move(words);
+    return o;
+}
+
+TEST(AWordOfTheLists, IsACodeAFamilyOrAPattern) {
+    EXPECT_TRUE(stands_for("B08", "B08"));
+    EXPECT_FALSE(stands_for("B08", "B09"));
+    EXPECT_TRUE(stands_for("B", "B08"));
+    EXPECT_FALSE(stands_for("B", "M08"));
+    EXPECT_TRUE(stands_for("B*", "B08"));
+    EXPECT_TRUE(stands_for("*8", "B08"));
+    EXPECT_TRUE(stands_for("F1*", "F113"));
+    EXPECT_FALSE(stands_for("F1*", "F004"));
+    EXPECT_TRUE(stands_for("M2?", "M28"));
+    EXPECT_FALSE(stands_for("M2?", "M2"));
+    EXPECT_FALSE(stands_for("", "M28"));
+    EXPECT_TRUE(stands_for("*", "M28"));
+    EXPECT_FALSE(stands_for("?", "M28"));
+}
+
+TEST(AWordOfTheLists, MustStandForSomething) {
+    for (const char* word : {"B08", "F112", "F", "S*", "*", "M0?", "C22"}) EXPECT_TRUE(validators::known_codes(only({word}))) << word;
+    for (const char* word : {"", "B99", "b08", "X", "B08 ", "B**9?", "F2*", "B8"}) {
+        const auto known = validators::known_codes(only({word}));
+        ASSERT_FALSE(known) << word;
+        EXPECT_EQ(known.why().kind, FailureKind::usage);
+        EXPECT_FALSE(validators::known_codes(without({word}))) << word;
+    }
+    EXPECT_FALSE(validators::known_codes(only({std::string(100000, '*') + "!"}))) << "and that in no time";
+}
+
+TEST(AnUnknownCode, IsRefusedWithTheOneThatIsMostLikeIt) {
+    EXPECT_EQ(validators::nearest_code("b08"), "B08");
+    EXPECT_EQ(validators::nearest_code("B8"), "B08");
+    EXPECT_EQ(validators::nearest_code("F0112"), "F011");
+    EXPECT_EQ(validators::nearest_code("m-27"), "M27");
+    EXPECT_NE(validators::known_codes(only({"b08"})).why().error.message.find("did you mean B08?"), std::string::npos);
+}
+
+TEST(Choice, NoCodeThatSaysThatNothingWasJudgedCanBeLeftOut) {
+    for (const CodeInfo& row : code_catalogue()) {
+        const bool always = row.code.starts_with("F0") || row.code == "M09";
+        EXPECT_EQ(validators::always_told(row.code), always) << row.code;
+        const std::string code(row.code);
+        EXPECT_EQ(validators::known_codes(without({code})).ok(), !always) << code;
+        EXPECT_EQ(validators::wanted(without({code.substr(0, 1)}), code), always) << code;
+        EXPECT_EQ(validators::wanted(only({code == "B01" ? "B02" : "B01"}), code), always) << code;
+        EXPECT_TRUE(validators::wanted(only({code}), code));
+        EXPECT_TRUE(validators::wanted({}, code));
+    }
+}
+
+Finding remark(const char* code, Severity severity) {
+    Finding f;
+    f.code = code;
+    f.severity = severity;
+    return f;
+}
+
+TEST(Choice, AppliesToWhatReadersSay) {
+    Dataset data = LayeredModel().data();
+    data.findings = {remark("F112", Severity::info), remark("F104", Severity::warning), remark("F022", Severity::error)};
+    const auto codes = [&](const CheckOptions& options) {
+        const auto file = validate("made", data, options);
+        EXPECT_TRUE(file);
+        return codes_of(file->findings);
+    };
+    EXPECT_EQ(codes({}), (Codes{"F022 error", "F104 warning", "F111 info", "F112 info", "G03 info"}));
+    EXPECT_EQ(codes(without({"F112"})), (Codes{"F022 error", "F104 warning", "F111 info", "G03 info"}));
+    EXPECT_EQ(codes(without({"F"})), (Codes{"F022 error", "G03 info"})) << "what cannot be read is always told";
+    EXPECT_EQ(codes(only({"F112"})), (Codes{"F022 error", "F112 info"}));
+    EXPECT_EQ(codes(only({"G"})), (Codes{"F022 error", "G03 info"}));
+    EXPECT_EQ(validate("made", data, without({"F"}))->valid, false);
+}
+
+TEST(Choice, OfNothingThatJudgesMakesNoModelValid) {
+    const Dataset data = LayeredModel().data();
+    EXPECT_EQ(validate("made", data, {})->valid, true);
+    EXPECT_EQ(validate("made", data, only({"G03"}))->valid, true);
+    EXPECT_FALSE(validate("made", data, only({"F1*"}))->valid.has_value());
+}
+
+TEST(Choice, OfAFindingThatFollowsFromOthersRunsThese) {
+    LayeredModel model;
+    Surface& top = model.surface("top");
+    const std::uint32_t last = top.polygons.corners.back(), before = *std::prev(top.polygons.corners.end(), 2);
+    add_triangle(top, last, before, before);
+    const auto codes = [&](const CheckOptions& options) { return codes_of(validate("made", model.data(), options)->findings); };
+    EXPECT_TRUE(codes({}).contains("B01 error"));
+    EXPECT_EQ(codes(only({"B18"})), Codes{"B18 error"});
+    EXPECT_FALSE(codes(without({"B01"})).contains("B18 error")) << "what is skipped is not passed on";
+    CheckOptions ready = only({"S02"});
+    ready.target = "tetgen";
+    EXPECT_TRUE(codes(ready).contains("S02 error"));
+    EXPECT_FALSE(codes(ready).contains("B01 error")) << "only S02 was asked for";
+    ready.skip = {"B01", "B18"};
+    EXPECT_FALSE(codes(ready).contains("S02 error"));
+}
+
+TEST(Choice, AFileOfWhichAPartCouldNotBeReadIsNotCalledValid) {
+    Dataset data = LayeredModel().data();
+    data.findings = {remark("F010", Severity::warning)};
+    EXPECT_FALSE(validate("made", data, {})->valid.has_value());
+    EXPECT_FALSE(validate("made", data, without({"F"}))->valid.has_value());
+}
+
+TEST(Choice, CannotMakeAGridValidThatCannotBeJudged) {
+    CornerPointGrid grid = brick_grid(2, 2, 2);
+    grid.depths.pop_back();
+    Dataset data;
+    data.objects.emplace_back(grid);
+    EXPECT_EQ(validate("grid", data, without({"C"}))->valid, false);
+}
+
+}  // namespace
+}  // namespace geomend

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/choice.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/codes.h"
+#include "validators/readiness.h"
+#include "validators/registry.h"
+
+namespace geomend::validators {
+
+namespace {
+
+bool fits(std::string_view pattern, std::string_view code) {
+    if (pattern.empty()) return code.empty();
+    if (pattern[0] == '*') {
+        for (std::size_t skipped = 0; skipped <= code.size(); ++skipped) {
+            if (fits(pattern.substr(1), code.substr(skipped))) return true;
+        }
+        return false;
+    }
+    return !code.empty() && (pattern[0] == '?' || pattern[0] == code[0]) && fits(pattern.substr(1), code.substr(1));
+}
+
+bool names(const std::vector<std::string>& list, std::string_view code) {
+    return std::ranges::any_of(list, [&](const std::string& word) { return stands_for(word, code); });
+}
+
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+/// How many letters must be put in, taken out or changed to make one word of the other.
+std::size_t changes_between(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t changed = diagonal + (upper(a[i]) == upper(b[j]) ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row[b.size()];
+}
+
+Result<void> known_word(const std::string& word) {
+    constexpr std::size_t longest = 64;  // no pattern for codes is longer, and patterns are tried in all ways
+    const auto all = code_catalogue();
+    if (word.size() <= longest && std::ranges::any_of(all, [&](const CodeInfo& row) { return stands_for(word, row.code); })) return {};
+    std::string message = "'" + word + "': no such check";
+    if (word.size() <= longest && word.find_first_of("*?") == std::string::npos)
+        message += "; did you mean " + std::string(nearest_code(word)) + "?";
+    return failure(FailureKind::usage, "F018", {}, message + " (see 'geomend checks')");
+}
+
+}  // namespace
+
+bool stands_for(std::string_view word, std::string_view code) {
+    if (word.size() == 1 && word != "*" && word != "?") return code.starts_with(word);
+    return fits(word, code);
+}
+
+bool always_told(std::string_view code) { return code.starts_with("F0") || code == "M09"; }
+
+std::string_view nearest_code(std::string_view word) {
+    std::string_view best;
+    std::size_t fewest = static_cast<std::size_t>(-1);
+    for (const CodeInfo& row : code_catalogue()) {
+        const std::size_t changes = changes_between(word, row.code);
+        if (changes < fewest) best = row.code;
+        fewest = std::min(fewest, changes);
+    }
+    return best;
+}
+
+Result<void> known_codes(const CheckOptions& options) {
+    if (!options.target.empty() && find_target(options.target) == nullptr)
+        return failure(FailureKind::usage, "F018", {}, "--for " + options.target + ": no such target (see geomend-validate(1))");
+    for (const auto* list : {&options.only, &options.skip}) {
+        for (const std::string& word : *list) {
+            if (auto known = known_word(word); !known) return known;
+        }
+    }
+    for (const std::string& word : options.skip) {
+        const CodeInfo* row = find_code(word);
+        if (row != nullptr && always_told(row->code))
+            return failure(FailureKind::usage, "F018", {},
+                           "--skip " + word + ": it says that " + std::string(row->meaning) +
+                               ". Then nothing is judged, and the report must say so: it cannot be left out");
+    }
+    return {};
+}
+
+bool skipped(const CheckOptions& options, std::string_view code) { return !always_told(code) && names(options.skip, code); }
+
+bool wanted(const CheckOptions& options, std::string_view code) {
+    return always_told(code) || ((options.only.empty() || names(options.only, code)) && !skipped(options, code));
+}
+
+bool judges_anything(const CheckOptions& options) {
+    return std::ranges::any_of(all_checks(), [&](const Check& check) { return !always_told(check.code) && wanted(options, check.code); });
+}
+
+}  // namespace geomend::validators

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/object_scope.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/vectors.h"
+#include "validators/found_cells.h"
+#include "validators/model_scope.h"
+
+namespace geomend::validators {
+
+namespace {
+
+constexpr double too_large = 1e20;  // programs write such numbers for "not set"
+
+bool is_sound(const Vec3& p) {
+    return std::ranges::all_of(p, [](double x) { return std::abs(x) < too_large; });
+}
+
+/// The samples at the corners of a raster, without heights.
+std::vector<Vec3> outer_samples(const Raster& raster) {
+    std::vector<Vec3> points;
+    for (const std::uint32_t i : {0u, raster.dims[0] - 1}) {
+        for (const std::uint32_t j : {0u, raster.dims[1] - 1}) {
+            for (const std::uint32_t k : {0u, raster.dims[2] - 1}) points.push_back(sample_position(raster, i, j, k));
+        }
+    }
+    return points;
+}
+
+/// The labels of the points, where the file has any.
+const Labels* labels_of(const Object& object) {
+    if (const auto* points = std::get_if<PointSet>(&object)) return &points->labels;
+    if (const auto* lines = std::get_if<PolylineSet>(&object)) return &lines->labels;
+    return nullptr;
+}
+
+bool is_single(const ObjectInfo& info) {
+    return std::ranges::any_of(info.annotations, [](const Annotation& a) { return a.key == "vtk.points_type" && a.value == "Float32"; });
+}
+
+Lengths lengths_of(std::span<const Vec3> points, bool single, const CheckOptions& options) {
+    Lengths lengths;
+    double step = 0;
+    if (!points.empty()) {
+        Vec3 sum{};
+        for (const Vec3& p : points) {
+            sum = plus(sum, minus(p, points[0]));
+            for (const double x : p) step = std::max(step, step_above(std::abs(x), single));
+        }
+        const Vec3 middle = plus(points[0], times(1.0 / static_cast<double>(points.size()), sum));
+        double farthest = 0;
+        for (const Vec3& p : points) {
+            const Vec3 d = minus(p, middle);
+            farthest = std::max(farthest, dot(d, d));
+        }
+        lengths.diameter = 2 * std::sqrt(farthest);
+    }
+    lengths.tolerance = options.tolerance >= 0 ? options.tolerance : std::max(1e-7 * lengths.diameter, 4 * step);
+    lengths.near = options.near >= 0 ? options.near : 1e-3 * lengths.diameter;
+    return lengths;
+}
+
+}  // namespace
+
+ObjectScope::ObjectScope(const Object& object, const CheckOptions& options) : object_(object), monitor_(options.monitor) {
+    if (const auto* points = as<PointSet>()) points_ = points->points;
+    else if (const auto* lines = as<PolylineSet>()) points_ = lines->points;
+    else if (const auto* lattice = as<StructuredGrid>()) points_ = lattice->points;
+    else if (const auto* well = as<Well>()) points_ = well->path;
+    else if (const auto* raster = as<Raster>()) {
+        own_points_ = outer_samples(*raster);
+        points_ = own_points_;
+    }
+    if (std::ranges::all_of(points_, is_sound)) lengths_ = lengths_of(points_, is_single(info()), options);
+}
+
+bool is_judged_alone(const Object& object) {
+    if (const auto* well = std::get_if<Well>(&object)) return !well->path.empty();
+    return std::holds_alternative<PointSet>(object) || std::holds_alternative<PolylineSet>(object) ||
+           std::holds_alternative<StructuredGrid>(object) || std::holds_alternative<Raster>(object);
+}
+
+std::vector<Finding> huge_coordinates(const ObjectScope& scope) {
+    std::vector<std::uint32_t> huge;
+    for (std::uint32_t p = 0; p < scope.points().size(); ++p) {
+        if (!is_sound(scope.points()[p])) huge.push_back(p);
+    }
+    if (huge.empty()) return {};
+    Finding finding = object_finding(scope, "M09",
+                                     counted(huge.size(), "point", "points") + of_object(scope) + (huge.size() == 1 ? " has" : " have") +
+                                         " a coordinate that is not finite or as large as 1e20: it was not judged");
+    list_points(scope, huge, finding);
+    return {finding};
+}
+
+Finding object_finding(const ObjectScope& scope, std::string_view code, std::string message) {
+    Finding finding = finding_of(code, std::move(message));
+    finding.entities.push_back({kind_name(scope.object()), scope.info().name});
+    return finding;
+}
+
+void list_points(const ObjectScope& scope, std::span<const std::uint32_t> points, Finding& finding) {
+    const Labels* labels = labels_of(scope.object());
+    finding.element_kind = "point";
+    finding.count = points.size();
+    for (const std::uint32_t p : points.first(std::min(points.size(), listed_elements))) {
+        finding.elements.push_back(labels != nullptr ? (*labels)[p] : static_cast<std::int64_t>(p) + 1);
+        finding.index.push_back(p);
+        finding.points.push_back(scope.points()[p]);
+    }
+}
+
+std::string of_object(const ObjectScope& scope) { return scope.info().name.empty() ? "" : " of " + quoted(scope.info().name); }
+
+}  // namespace geomend::validators
