@@ -10,6 +10,7 @@
 #include "validators/found_cells.h"
 #include "validators/model_checks.h"
 #include "validators/polyline_join.h"
+#include "validators/triangle_overlap.h"
 
 namespace geomend::validators {
 
@@ -58,34 +59,55 @@ bool on_line_edge(const ModelScope& scope, const LineEdges& lines, const std::ar
     return false;
 }
 
-/// How a triangle lies to the plane of another one.
-struct Lie {
-    double depth;     ///< how far it reaches through, on the side where it reaches less
-    double farthest;  ///< the distance of its farthest corner
-};
-
-Lie lie_of(const ModelScope& scope, const std::array<std::uint32_t, 3>& t, const std::array<std::uint32_t, 3>& plane) {
-    const auto& v = scope.brep().vertices;
-    const Vec3 n = cross(minus(v[plane[1]], v[plane[0]]), minus(v[plane[2]], v[plane[0]]));
+/// How far a triangle reaches through the plane of another one, on the side where it reaches less.
+double depth(const std::array<Vec3, 3>& t, const std::array<Vec3, 3>& plane) {
+    const Vec3 n = cross(minus(plane[1], plane[0]), minus(plane[2], plane[0]));
     const double length = std::sqrt(dot(n, n));
     double above = 0, below = 0;
-    for (const std::uint32_t corner : t) {
-        const double distance = dot(minus(v[corner], v[plane[0]]), n) / length;
+    for (const Vec3& corner : t) {
+        const double distance = dot(minus(corner, plane[0]), n) / length;
         above = std::max(above, distance);
         below = std::max(below, -distance);
     }
-    return {std::min(above, below), std::max(above, below)};
+    return std::min(above, below);
 }
 
-/// What a crossing is once the tolerance is granted: a border that reaches through by no more only touches.
+std::array<Vec3, 3> corners_of(const ModelScope& scope, std::uint32_t triangle) {
+    const auto& t = scope.triangles()[triangle];
+    const auto& v = scope.brep().vertices;
+    return {v[t[0]], v[t[1]], v[t[2]]};
+}
+
+/// What two triangles have in common once the tolerance is granted, so that rounding (or a rotation) does not change the kind: a
+/// border that reaches through by no more only touches, and a segment as short as that is a point.
 Meeting judged_kind(const ModelScope& scope, const TriangleMeetingPair& pair) {
-    if (pair.how.kind != Meeting::crossing) return pair.how.kind;
-    const auto& a = scope.triangles()[pair.a];
-    const auto& b = scope.triangles()[pair.b];
-    const Lie ab = lie_of(scope, a, b), ba = lie_of(scope, b, a);
+    if (pair.how.kind != Meeting::crossing && pair.how.kind != Meeting::touch) return pair.how.kind;
+    const auto a = corners_of(scope, pair.a), b = corners_of(scope, pair.b);
     const double tolerance = scope.lengths().tolerance;
-    if (std::min(ab.farthest, ba.farthest) <= tolerance) return Meeting::overlap;
-    return std::min(ab.depth, ba.depth) <= tolerance ? Meeting::touch : Meeting::crossing;
+    if (lie_on_each_other(a, b, tolerance)) return Meeting::overlap;
+    if (pair.how.kind == Meeting::crossing && std::min(depth(a, b), depth(b, a)) > tolerance) return Meeting::crossing;
+    const Vec3 way = minus(pair.how.segment[1], pair.how.segment[0]);
+    return dot(way, way) <= tolerance * tolerance ? Meeting::point : Meeting::touch;
+}
+
+/// Where exact predicates see a point, rounding may have taken the rest of an edge off a triangle that it lies on.
+enum class Edge { none, inside, border };
+Edge edge_on_it(const ModelScope& scope, const LineEdges& lines, std::uint32_t a, std::uint32_t b) {
+    const double tolerance = scope.lengths().tolerance;
+    constexpr double clearly = 100;  // tolerances: else it only leans
+    const auto& t = scope.triangles()[a];
+    const auto& other = scope.triangles()[b];
+    const auto corners = corners_of(scope, a), base = corners_of(scope, b);
+    Edge found = Edge::none;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        const auto shared = [&](std::uint32_t v) { return std::ranges::find(other, v) != other.end(); };
+        if (shared(t[i]) && shared(t[j])) continue;
+        if (length_on({corners[i], corners[j]}, base, tolerance) <= clearly * tolerance) continue;
+        if (lines.contains(t[i], t[j])) return Edge::border;
+        found = Edge::inside;
+    }
+    return found;
 }
 
 using SurfacePair = std::pair<std::uint32_t, std::uint32_t>;
@@ -104,6 +126,13 @@ std::map<SurfacePair, Common> gather(const ModelScope& scope) {
         common.polygons.push_back(polygon);
         if (sa == sb) common.polygons.push_back(scope.polygon_of(pair.b));
         const Meeting kind = judged_kind(scope, pair);
+        if (kind == Meeting::point) {
+            const Edge edge = std::max(edge_on_it(scope, lines, pair.a, pair.b), edge_on_it(scope, lines, pair.b, pair.a));
+            if (edge != Edge::none) {
+                ++(edge == Edge::border ? common.border : common.inside);
+                continue;
+            }
+        }
         switch (kind) {
             case Meeting::none:
                 break;

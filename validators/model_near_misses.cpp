@@ -5,8 +5,10 @@
 #include <array>
 #include <map>
 
+#include "geometry/vectors.h"
 #include "validators/found_cells.h"
 #include "validators/model_checks.h"
+#include "validators/triangle_overlap.h"
 
 namespace geomend::validators {
 
@@ -50,17 +52,75 @@ bool is_told(const std::vector<Finding>& findings, std::uint32_t a, std::uint32_
     });
 }
 
+std::array<Vec3, 3> triangle_at(const ModelScope& scope, std::uint32_t triangle) {
+    const auto& t = scope.triangles()[triangle];
+    const auto& v = scope.brep().vertices;
+    return {v[t[0]], v[t[1]], v[t[2]]};
+}
+
+/// Whether a good part of an edge, not only a point of it, is within the tolerance of a surface.
+bool runs_along(const ModelScope& scope, const std::array<Vec3, 2>& edge, std::uint32_t surface) {
+    constexpr double clearly = 100;  // tolerances: else it only leans
+    const double tolerance = scope.lengths().tolerance;
+    Vec3 low{}, high{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(edge[0][k], edge[1][k]);
+        high[k] = std::max(edge[0][k], edge[1][k]);
+    }
+    const TriangleTree& tree = scope.tree();
+    bool found = false;
+    tree.visit_triangles(tree.box(low, high, tolerance), [&](std::size_t i) {
+        const std::uint32_t t = tree.number(i);
+        if (!found && scope.surface_of(t) == surface) found = length_on(edge, triangle_at(scope, t), tolerance) > clearly * tolerance;
+    });
+    return found;
+}
+
+/// A surface that ends on another one within the tolerance, and how it does that.
+Finding touch_finding(const ModelScope& scope, std::uint32_t border, std::uint32_t other, std::span<const NearMiss> misses,
+                      const FreeBorders& free) {
+    const double tolerance = scope.lengths().tolerance;
+    bool one_point = true, lies_on = false;
+    for (const NearMiss& miss : misses.first(std::min(misses.size(), listed_elements))) {
+        const Vec3 d = minus(miss.on_edge, misses[0].on_edge);
+        one_point = one_point && dot(d, d) <= 4 * tolerance * tolerance;
+        const auto& edge = free.edges[miss.border_edge];
+        const auto& v = scope.brep().vertices;
+        one_point = one_point && !runs_along(scope, {v[edge[0]], v[edge[1]]}, other);
+        for (std::uint32_t t = scope.first_triangle(border); t < scope.first_triangle(border + 1) && !lies_on; ++t) {
+            const auto has = [&](std::uint32_t v) { return std::ranges::find(scope.triangles()[t], v) != scope.triangles()[t].end(); };
+            lies_on =
+                has(edge[0]) && has(edge[1]) && lie_on_each_other(triangle_at(scope, t), triangle_at(scope, miss.triangle), tolerance);
+        }
+    }
+    const std::string a = quoted(scope.brep().surfaces[border].name), b = quoted(scope.brep().surfaces[other].name);
+    Finding touch = lies_on     ? finding_of("B20", a + " and " + b + " lie on each other, within the tolerance")
+                    : one_point ? finding_of("B22", a + " and " + b + " touch in a point that they do not share, within the tolerance")
+                                : finding_of("B11", a + " ends on " + b + ", within the tolerance, without sharing vertices");
+    touch.entities = {surface_ref(scope, border), surface_ref(scope, other)};
+    touch.count = misses.size();
+    touch.element_kind = "edge";
+    for (const NearMiss& miss : misses.first(std::min(misses.size(), listed_elements))) touch.points.push_back(miss.on_edge);
+    return touch;
+}
+
 void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfaces, std::vector<Finding>& findings) {
     const FreeBorders free = free_borders(scope);
-    const auto misses = near_misses(scope.tree(), surfaces, free.edges, free.surfaces, scope.lengths().near, scope.monitor());
+    const double tolerance = scope.lengths().tolerance;
+    const auto misses = near_misses(scope.tree(), surfaces, free.edges, free.surfaces, scope.lengths().near, scope.monitor(), tolerance);
     struct Pair {
         double smallest = 0, largest = 0;
         Finding finding;
+        std::vector<NearMiss> touches;  // within the tolerance
     };
     std::map<std::pair<std::uint32_t, std::uint32_t>, Pair> pairs;
     for (const NearMiss& miss : misses) {
         const std::uint32_t border = free.surfaces[miss.border_edge], other = surfaces[miss.triangle];
         Pair& pair = pairs[{border, other}];
+        if (miss.distance <= tolerance) {
+            pair.touches.push_back(miss);
+            continue;
+        }
         Finding& finding = pair.finding;
         pair.smallest = finding.count == 0 ? miss.distance : std::min(pair.smallest, miss.distance);
         pair.largest = std::max(pair.largest, miss.distance);
@@ -71,18 +131,9 @@ void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfac
     }
     for (auto& [surface, pair] : pairs) {
         const auto& [border, other] = surface;
-        if (pair.largest <= scope.lengths().tolerance) {
-            if (is_told(findings, border, other)) continue;
-            Finding touch =
-                finding_of("B11", quoted(scope.brep().surfaces[border].name) + " ends on " + quoted(scope.brep().surfaces[other].name) +
-                                      ", within the tolerance, without sharing vertices");
-            touch.entities = {surface_ref(scope, border), surface_ref(scope, other)};
-            touch.count = pair.finding.count;
-            touch.element_kind = "edge";
-            touch.points = std::move(pair.finding.points);
-            findings.push_back(std::move(touch));
-            continue;
-        }
+        if (!pair.touches.empty() && !is_told(findings, border, other))
+            findings.push_back(touch_finding(scope, border, other, pair.touches, free));
+        if (pair.finding.count == 0) continue;
         const std::string where = border == other ? "itself" : quoted(scope.brep().surfaces[other].name);
         Finding finding = finding_of("B23", "the border of " + quoted(scope.brep().surfaces[border].name) + " nearly meets " + where +
                                                 ": " + counted(pair.finding.count, "edge is ", "edges are ") + rounded(pair.smallest) +

@@ -5,6 +5,8 @@
 
 #include "base/disjoint_sets.h"
 #include "geometry/vectors.h"
+#include "topology/face_edges.h"
+#include "topology/pieces.h"
 #include "validators/each_surface.h"
 #include "validators/found_cells.h"
 #include "validators/model_checks.h"
@@ -32,19 +34,42 @@ double radius(const BrepData& brep, std::span<const std::uint32_t> lines) {
     return std::sqrt(square);
 }
 
+/// Per polygon the first one of the piece that hangs together by edges (also where other surfaces cut through them); degenerate
+/// and repeated polygons: no_index. Empty where all is one piece.
+std::vector<std::uint32_t> pieces_by_edges(const BrepData::Surface& surface, const topology::FaceEdges& face) {
+    std::vector<std::uint32_t> piece_of;
+    if (topology::number_pieces(surface, face, piece_of) < 2) return {};
+    DisjointSets pieces(surface.polygons.size());
+    const topology::PolygonEdges edges(surface.polygons);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> at_border;
+    std::vector<std::uint8_t> aside(surface.polygons.size(), 0);
+    for (const std::uint32_t p : face.degenerate) aside[p] = 1;
+    for (const std::uint32_t p : face.duplicate) aside[p] = 1;
+    for (std::uint32_t c = 0; c < surface.neighbours.size(); ++c) {
+        const std::uint32_t p = edges.polygon(c);
+        if (aside[p] != 0) continue;
+        if (surface.neighbours[c] != no_index) pieces.join(p, surface.neighbours[c]);
+        else pieces.join(p, at_border.emplace(std::minmax(edges.start_node(c), edges.end_node(c)), p).first->second);
+    }
+    std::vector<std::uint32_t> roots(surface.polygons.size(), no_index);
+    for (std::uint32_t p = 0; p < roots.size(); ++p) {
+        if (aside[p] == 0) roots[p] = pieces.root(p);
+    }
+    return roots;
+}
+
 }  // namespace
 
 void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
     if (!scope.model().stated) return;
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
-        DisjointSets pieces(surface.nodes.size());
-        for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) {
-            const auto polygon = surface.polygons[p];
-            for (const std::uint32_t node : polygon) pieces.join(polygon[0], node);
-        }
+        const auto pieces = pieces_by_edges(surface, scope.model().faces[s]);
+        if (pieces.empty()) return std::nullopt;
         std::map<std::uint32_t, std::uint64_t> polygons_of;
-        for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) ++polygons_of[pieces.root(surface.polygons[p][0])];
+        for (const std::uint32_t piece : pieces) {
+            if (piece != no_index) ++polygons_of[piece];
+        }
         if (polygons_of.size() < 2) return std::nullopt;
         std::uint64_t largest = 0, all = 0;
         for (const auto& [piece, count] : polygons_of) {
@@ -58,7 +83,8 @@ void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
         finding.count = polygons_of.size();
         finding.element_kind = "part";
         for (const auto& [piece, count] : polygons_of) {
-            if (finding.points.size() < listed_elements) finding.points.push_back(scope.vertex_of_node(surface, piece));
+            if (finding.points.size() < listed_elements)
+                finding.points.push_back(scope.vertex_of_node(surface, surface.polygons[piece][0]));
         }
         return finding;
     });

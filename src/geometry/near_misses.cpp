@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "geometry/surface_distance.h"
+#include "geometry/triangle_pair.h"
 #include "geometry/vectors.h"
 
 namespace geomend {
@@ -24,6 +25,7 @@ struct Candidate {
     std::uint32_t group = 0, triangle = 0;
     Closest closest{};
     bool is_miss = false;
+    bool touches = false;  ///< by exact predicates; a rounded distance of 0 does not say so
 };
 
 /// The border edges at each vertex, for those of one group.
@@ -51,8 +53,9 @@ private:
 
 class BorderSearch {
 public:
-    BorderSearch(const SurfaceDistance& soup, std::span<const Edge> edges, std::span<const std::uint32_t> groups, double near)
-        : soup_(soup), edges_(edges), groups_(groups), near_(near), graph_(edges, groups), candidates_(edges.size()) {}
+    BorderSearch(const SurfaceDistance& soup, std::span<const Edge> edges, std::span<const std::uint32_t> groups, double near,
+                 double touching)
+        : soup_(soup), edges_(edges), groups_(groups), near_(near), touching_(touching), graph_(edges, groups), candidates_(edges.size()) {}
 
     /// Candidates, and which of them are smallest distances. False when stopped.
     bool find_candidates(const Monitor* monitor) {
@@ -68,7 +71,7 @@ public:
         std::vector<std::pair<std::uint32_t, std::uint32_t>> waiting;  // edge, group
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
             for (const Candidate& c : candidates_[e]) {
-                if (c.is_miss) waiting.push_back({e, c.group});
+                if (c.is_miss && c.closest.distance > touching_) waiting.push_back({e, c.group});
             }
         }
         while (!waiting.empty()) {
@@ -130,7 +133,7 @@ private:
     const SurfaceDistance& soup_;
     std::span<const Edge> edges_;
     std::span<const std::uint32_t> groups_;
-    const double near_;
+    const double near_, touching_;
     const BorderGraph graph_;
     std::vector<std::vector<Candidate>> candidates_;  ///< of each edge, one per group
 
@@ -159,12 +162,24 @@ private:
             const Closest closest = closest_points(segment, soup_.corners(t));
             if (closest.distance >= near_) return;
             Candidate* known = candidate(e, group);
-            if (known == nullptr) candidates_[e].push_back({group, t, closest});
-            else if (closest.distance < known->closest.distance) *known = {group, t, closest};
+            if (known == nullptr) known = &candidates_[e].emplace_back(Candidate{group, t, closest});
+            else if (closest.distance < known->closest.distance) std::tie(known->triangle, known->closest) = std::tie(t, closest);
+            if (closest.distance == 0 && !known->touches) known->touches = touches(e, t);
         });
-        // Where they touch or cross, it is no near miss.
-        std::erase_if(candidates_[e], [](const Candidate& c) { return c.closest.distance == 0; });
+        // Where they touch or cross, it is no near miss; what only rounding brings together is one.
+        std::erase_if(candidates_[e], [](const Candidate& c) { return c.touches; });
+        for (Candidate& c : candidates_[e]) {
+            if (c.closest.distance == 0) c.closest.distance = soup_.rounding(c.closest.on_first);
+        }
         for (Candidate& c : candidates_[e]) c.is_miss = is_smallest(e, c);
+    }
+
+    bool touches(std::uint32_t e, std::uint32_t triangle) const {
+        const auto [p, q] = edges_[e];
+        const auto beside = soup_.around_edge(p, q, groups_[e]);
+        return std::ranges::any_of(beside, [&](std::uint32_t t) {
+            return meeting(soup_.positions(), soup_.triangle(t), soup_.triangle(triangle)).kind != Meeting::none;
+        });
     }
 
     /// The end that is not the closest point is not near.
@@ -274,10 +289,10 @@ private:
 }  // namespace
 
 std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const std::uint32_t> groups, std::span<const Edge> border_edges,
-                                  std::span<const std::uint32_t> border_groups, double near, const Monitor* monitor) {
+                                  std::span<const std::uint32_t> border_groups, double near, const Monitor* monitor, double touching) {
     if (border_edges.empty() || tree.size() == 0 || !(near > 0)) return {};
     const SurfaceDistance soup(tree, groups);
-    BorderSearch search(soup, border_edges, border_groups, near);
+    BorderSearch search(soup, border_edges, border_groups, near, touching);
     if (!search.find_candidates(monitor)) return {};
     search.spread();
     search.leave_out_stubs();

@@ -35,11 +35,12 @@ struct NearMiss {
 /// \param border_edges two vertex numbers each; \param border_groups the group of each, that of the triangle beside it
 /// \param near length; what is 0 apart (touches or crosses) is no near miss
 /// \param monitor may stop the search: nothing is returned then
+/// \param touching what is no farther off touches: it is told alone, as what touches by exact predicates is not told
 /// \pre arrays agree in length, indices are in range, coordinates finite, fewer than 1.4e9 triangles
 /// Cost: as the number of border edges, times the triangles within `near` of one; 18 bytes per triangle besides the tree.
 std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const std::uint32_t> groups,
                                   std::span<const std::array<std::uint32_t, 2>> border_edges, std::span<const std::uint32_t> border_groups,
-                                  double near, const Monitor* monitor = nullptr);
+                                  double near, const Monitor* monitor = nullptr, double touching = 0);
 /// The same, with a tree of its own.
 std::vector<NearMiss> near_misses(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                   std::span<const std::uint32_t> groups, std::span<const std::array<std::uint32_t, 2>> border_edges,

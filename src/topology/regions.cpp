@@ -104,7 +104,7 @@ void add_found_regions(Assembly& a) {
         region.volume = e.closed ? e.volume : std::numeric_limits<double>::quiet_NaN();
         a.brep.regions.push_back(std::move(region));
     }
-    a.brep.universe = found.universe;
+    if (!found.regions.empty()) a.brep.universe = found.universe;  // surfaces that enclose nothing state no outside, either
     if (found.uncertain_lines.empty()) return;
     Finding finding;
     finding.code = "F113";

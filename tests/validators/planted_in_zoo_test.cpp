@@ -1,0 +1,564 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <set>
+
+#include "geometry/vectors.h"
+#include "validators/registry.h"
+#include "validators/rewritten.h"
+#include "validators/zoo.h"
+
+// Defects are planted at random in models of many forms, one alone or several far from one another: each must come out with its
+// code and its entity.
+
+namespace geomend {
+namespace {
+
+using namespace testing;
+using Random = std::mt19937;
+using Corners = std::array<std::uint32_t, 3>;
+
+struct Expected {
+    std::string code, kind, name;
+};
+
+std::size_t pick(Random& random, std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random); }
+
+/// A model in which defects are planted.
+class Patient {
+public:
+    explicit Patient(const Animal& animal) : data_(animal.model.data) {
+        const StatedModel& model = data_.models.front();
+        for (const auto& face : model.faces) ++parts_[face.interface_name];
+        around_.assign(model.faces.size(), {-1, -1});
+        for (std::size_t r = 0; r < model.regions.size(); ++r) {
+            for (const auto& side : model.regions[r].sides) around_[side.face][side.front ? 1 : 0] = static_cast<int>(r);
+        }
+        near_ = validators::lengths_of(data_, {}).near;
+    }
+
+    Dataset& data() { return data_; }
+    StatedModel& model() { return data_.models.front(); }
+    double near() const { return near_; }
+    std::size_t faces() const { return around_.size(); }  // without the extra ones
+    Surface& surface(std::size_t face) { return std::get<Surface>(data_.objects[model().faces[face].object]); }
+    std::string name(std::size_t face) {
+        const auto& f = model().faces[face];
+        return parts_.at(f.interface_name) == 1 ? f.interface_name : f.interface_name + "_" + std::to_string(f.part + 1);
+    }
+    bool separates(std::size_t face) const { return around_[face][0] != around_[face][1]; }
+    bool has_regions() { return !model().regions.empty(); }
+    /// Names of the regions on its two sides, without the Universe.
+    std::vector<std::string> regions_at(std::size_t face) {
+        std::vector<std::string> names;
+        for (const int r : around_[face]) {
+            if (r > 0) names.push_back(model().regions[static_cast<std::size_t>(r)].name);
+        }
+        return names;
+    }
+    /// +1 where a region lies before the face, else -1.
+    double inwards(std::size_t face) const { return around_[face][1] > 0 ? 1 : -1; }
+
+    std::uint64_t first(std::size_t face) {
+        const Surface& s = surface(face);
+        return s.parts.empty() ? 0 : s.parts[model().faces[face].part].first_polygon;
+    }
+    std::uint64_t last(std::size_t face) {
+        const Surface& s = surface(face);
+        const std::uint32_t part = model().faces[face].part;
+        return part + 1 < s.parts.size() ? s.parts[part + 1].first_polygon : s.polygons.size();
+    }
+    Corners corners(std::size_t face, std::uint64_t t) {
+        const auto& c = surface(face).polygons.corners;
+        return {c[3 * t], c[3 * t + 1], c[3 * t + 2]};
+    }
+    Vec3 at(std::size_t face, std::uint32_t point) { return surface(face).points[point]; }
+
+    std::uint32_t add_point(std::size_t face, const Vec3& p) {
+        Surface& s = surface(face);
+        const std::uint32_t part = model().faces[face].part;
+        const bool is_last = part + 1 >= s.parts.size();
+        const auto place = is_last ? static_cast<std::uint32_t>(s.points.size()) : s.parts[part + 1].first_point;
+        s.points.insert(s.points.begin() + place, p);
+        for (std::uint32_t& c : s.polygons.corners) c += c >= place ? 1 : 0;
+        for (std::size_t q = part + 1; q < s.parts.size(); ++q) ++s.parts[q].first_point;
+        return place;
+    }
+    void add_triangle(std::size_t face, const Corners& t) {
+        Surface& s = surface(face);
+        const auto place = s.polygons.corners.begin() + static_cast<std::ptrdiff_t>(3 * last(face));
+        s.polygons.corners.insert(place, t.begin(), t.end());
+        for (std::size_t q = model().faces[face].part + 1; q < s.parts.size(); ++q) ++s.parts[q].first_polygon;
+    }
+    void remove_triangle(std::size_t face, std::uint64_t t) {
+        Surface& s = surface(face);
+        const auto place = s.polygons.corners.begin() + static_cast<std::ptrdiff_t>(3 * t);
+        s.polygons.corners.erase(place, place + 3);
+        for (std::size_t q = model().faces[face].part + 1; q < s.parts.size(); ++q) --s.parts[q].first_polygon;
+    }
+    /// A surface of its own that no region lists.
+    std::string add_extra(const std::vector<std::array<Vec3, 3>>& triangles, FeatureRole role = FeatureRole::fault) {
+        Surface s;
+        s.info.name = "extra" + std::to_string(data_.objects.size());
+        s.info.role = role;
+        std::map<Vec3, std::uint32_t> known;
+        for (const auto& t : triangles) {
+            Corners corners{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto [found, is_new] = known.emplace(t[i], static_cast<std::uint32_t>(s.points.size()));
+                if (is_new) s.points.push_back(t[i]);
+                corners[i] = found->second;
+            }
+            s.polygons.push_back(corners);
+        }
+        StatedModel::Face face;
+        face.number = static_cast<std::int64_t>(model().faces.size()) + 1;
+        face.object = static_cast<std::uint32_t>(data_.objects.size());
+        face.interface_name = s.info.name;
+        face.role = role;
+        model().faces.push_back(face);
+        data_.objects.emplace_back(std::move(s));
+        return std::get<Surface>(data_.objects.back()).info.name;
+    }
+
+    /// Points of a face that are on none of its borders.
+    std::vector<std::uint32_t> inner_points(std::size_t face) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+        for (std::uint64_t t = first(face); t < last(face); ++t) {
+            const Corners c = corners(face, t);
+            for (std::size_t i = 0; i < 3; ++i) ++edges[std::minmax(c[i], c[(i + 1) % 3])];
+        }
+        std::map<std::uint32_t, bool> inner;
+        for (const auto& [edge, uses] : edges) {
+            for (const std::uint32_t v : {edge.first, edge.second}) {
+                const auto found = inner.emplace(v, true).first;
+                found->second = found->second && uses == 2;
+            }
+        }
+        std::vector<std::uint32_t> points;
+        for (const auto& [point, is_inner] : inner) {
+            if (is_inner) points.push_back(point);
+        }
+        return points;
+    }
+    /// No other defect shall come to a face that is touched, or to those that share a point with it.
+    void take(std::size_t face) {
+        const auto mine = surface_points(face);
+        const std::set<Vec3> here(mine.begin(), mine.end());
+        for (std::size_t other = 0; other < faces(); ++other) {
+            const auto points = surface_points(other);
+            if (std::ranges::any_of(points, [&](const Vec3& p) { return here.contains(p); })) taken_.insert(other);
+        }
+    }
+    bool is_free(std::size_t face) const { return !taken_.contains(face); }
+
+private:
+    std::vector<Vec3> surface_points(std::size_t face) {
+        std::vector<Vec3> points;
+        for (std::uint64_t t = first(face); t < last(face); ++t) {
+            for (const std::uint32_t c : corners(face, t)) points.push_back(at(face, c));
+        }
+        return points;
+    }
+
+    Dataset data_;
+    std::map<std::string, int> parts_;
+    std::vector<std::array<int, 2>> around_;  // regions behind and before each face; -1: none stated
+    std::set<std::size_t> taken_;
+    double near_ = 0;
+};
+
+/// A triangle of a face with what is needed to build beside it.
+struct Place {
+    Patient& patient;
+    std::size_t face;
+    std::uint64_t triangle;
+    Corners c;
+    Vec3 a, b, d, middle, normal;  // unit normal
+    double height;                 // the smallest
+
+    Vec3 inside(double u, double v, double lift) const {  // barycentric to b and d
+        return plus(plus(plus(a, times(u, minus(b, a))), times(v, minus(d, a))), times(lift, normal));
+    }
+    std::string name() const { return patient.name(face); }
+    /// A length that is small beside the triangle, but not beside the search length.
+    double small() const { return std::max(0.06 * height, 4 * patient.near()); }
+    double side() const { return patient.inwards(face); }
+};
+
+Place place_at(Patient& p, std::size_t face, std::uint64_t t) {
+    const Corners c = p.corners(face, t);
+    Place place{p, face, t, c, p.at(face, c[0]), p.at(face, c[1]), p.at(face, c[2]), {}, {}, 0};
+    place.middle = times(1.0 / 3, plus(plus(place.a, place.b), place.d));
+    const Vec3 n = cross(minus(place.b, place.a), minus(place.d, place.a));
+    const double length = std::sqrt(dot(n, n));
+    place.normal = times(1 / length, n);
+    double longest = 0;
+    for (const Vec3& e : {minus(place.b, place.a), minus(place.d, place.b), minus(place.a, place.d)})
+        longest = std::max(longest, dot(e, e));
+    place.height = length / std::sqrt(longest);
+    return place;
+}
+
+using Found = std::vector<Expected>;
+
+Found spoiled(Place& at, const std::string& code) {
+    Found all{{code, "surface", at.name()}};
+    for (const std::string& region : at.patient.regions_at(at.face)) all.push_back({"B18", "region", region});
+    return all;
+}
+
+Found degenerate(Place& at, Random& random) {
+    const std::size_t i = pick(random, 3);
+    at.patient.add_triangle(at.face, {at.c[i], at.c[i], at.c[(i + 1) % 3]});
+    return spoiled(at, "B01");
+}
+Found repeated(Place& at, Random& random) {
+    Corners c = at.c;
+    std::ranges::shuffle(c, random);
+    at.patient.add_triangle(at.face, c);
+    return spoiled(at, "M04");
+}
+Found reversed(Place& at, Random&) {
+    if (at.patient.last(at.face) - at.patient.first(at.face) < 3) return {};
+    auto& c = at.patient.surface(at.face).polygons.corners;
+    std::swap(c[3 * at.triangle], c[3 * at.triangle + 1]);
+    return spoiled(at, "M05");
+}
+Found hole_that_leaks(Place& at, Random&) {
+    if (!at.patient.separates(at.face) || at.patient.last(at.face) - at.patient.first(at.face) < 2) return {};
+    at.patient.remove_triangle(at.face, at.triangle);
+    return {{"B12", "surface", at.name()}};
+}
+Found small_hole(Place& at, Random&) {
+    // A small triangle in the middle is left out.
+    const std::array<Vec3, 3> ring{at.inside(0.3, 0.3, 0), at.inside(0.4, 0.3, 0), at.inside(0.3, 0.4, 0)};
+    Corners r{};
+    for (std::size_t i = 0; i < 3; ++i) r[i] = at.patient.add_point(at.face, ring[i]);
+    const Corners c = at.patient.corners(at.face, at.triangle);
+    at.patient.remove_triangle(at.face, at.triangle);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        at.patient.add_triangle(at.face, {c[i], c[j], r[j]});
+        at.patient.add_triangle(at.face, {c[i], r[j], r[i]});
+    }
+    if (!at.patient.separates(at.face)) return {{"M07", "surface", at.name()}};
+    return {{"B12", "surface", at.name()}};
+}
+Found horizon_ends_inside(Place& at, Random&) {
+    const FeatureRole role = at.patient.surface(at.face).info.role;
+    if (role != FeatureRole::horizon && role != FeatureRole::unconformity) return {};
+    if (at.patient.regions_at(at.face).size() != 2) return {};
+    const auto inner = at.patient.inner_points(at.face);
+    std::size_t left = 0;
+    const auto at_border = [&](std::uint64_t t) {
+        return std::ranges::count_if(at.patient.corners(at.face, t), [&](auto v) { return std::ranges::find(inner, v) == inner.end(); }) >=
+               2;
+    };
+    for (std::uint64_t t = at.patient.first(at.face); t < at.patient.last(at.face); ++t) left += at_border(t) ? 0 : 1;
+    if (left == 0) return {};
+    for (std::uint64_t t = at.patient.last(at.face); t-- > at.patient.first(at.face);) {
+        if (at_border(t)) at.patient.remove_triangle(at.face, t);
+    }
+    return {{"B09", "surface", at.name()}};
+}
+Found part_apart(Place& at, Random&) {
+    const double s = at.small();
+    const Vec3 o = plus(at.middle, times(at.side() * s, at.normal));
+    Corners t{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        Vec3 p = o;
+        p[i] += s / 2;
+        t[i] = at.patient.add_point(at.face, p);
+    }
+    at.patient.add_triangle(at.face, t);
+    return spoiled(at, "B04");
+}
+Found part_by_a_corner(Place& at, Random&) {
+    // A further triangle that shares a single point with the rest, on the border or inside.
+    const double s = at.small();
+    const std::uint32_t p = at.patient.add_point(at.face, at.inside(0.3, 0.3, at.side() * s));
+    const std::uint32_t q = at.patient.add_point(at.face, at.inside(0.3, 0.2, at.side() * 2 * s));
+    at.patient.add_triangle(at.face, {at.patient.corners(at.face, at.triangle)[0], p, q});
+    return spoiled(at, "B04");
+}
+Found unused_point(Place& at, Random&) {
+    at.patient.add_point(at.face, plus(at.middle, times(at.side() * at.small(), at.normal)));
+    return {{"M02", "surface", at.name()}};
+}
+Found flat_triangle(Place& at, Random&) {
+    const std::uint32_t p = at.patient.add_point(at.face, at.inside(0.4, 1e-9, 0));
+    at.patient.add_triangle(at.face, {at.patient.corners(at.face, at.triangle)[0], at.patient.corners(at.face, at.triangle)[1], p});
+    return {{"M03", "surface", at.name()}};
+}
+Found fin(Place& at, Random&) {
+    // On an edge that another triangle of the face has, too.
+    const auto inner = at.patient.inner_points(at.face);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t v = at.c[i], w = at.c[(i + 1) % 3];
+        if (std::ranges::find(inner, v) == inner.end() || std::ranges::find(inner, w) == inner.end()) continue;
+        const Vec3 half = times(0.5, plus(at.patient.at(at.face, v), at.patient.at(at.face, w)));
+        const std::uint32_t tip = at.patient.add_point(at.face, plus(half, times(at.side() * at.small(), at.normal)));
+        const Corners now = at.patient.corners(at.face, at.triangle);
+        at.patient.add_triangle(at.face, {now[i], now[(i + 1) % 3], tip});
+        return spoiled(at, "B03");
+    }
+    return {};
+}
+Found meets_itself(Place& at, Random&) {
+    // Hangs at a corner of a triangle and goes through it.
+    const double s = at.small();
+    const std::uint32_t p = at.patient.add_point(at.face, at.inside(0.3, 0.3, s));
+    const std::uint32_t q = at.patient.add_point(at.face, at.inside(0.3, 0.3, -s));
+    at.patient.add_triangle(at.face, {at.patient.corners(at.face, at.triangle)[0], p, q});
+    return spoiled(at, "B02");
+}
+Found seam(Place& at, Random&) {
+    const auto inner = at.patient.inner_points(at.face);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (std::ranges::find(inner, at.c[i]) == inner.end()) continue;
+        const std::uint32_t twin = at.patient.add_point(at.face, at.patient.at(at.face, at.c[i]));
+        at.patient.surface(at.face).polygons.corners[3 * at.triangle + i] = twin;
+        return spoiled(at, "B07");
+    }
+    return {};
+}
+Found needle(Place& at, Random&) {
+    const std::uint32_t p = at.patient.add_point(at.face, at.inside(0.45, 0.003, 0));
+    const Corners c = at.patient.corners(at.face, at.triangle);
+    at.patient.remove_triangle(at.face, at.triangle);
+    for (std::size_t i = 0; i < 3; ++i) at.patient.add_triangle(at.face, {c[i], c[(i + 1) % 3], p});
+    return {{"Q01", "surface", at.name()}};
+}
+Found short_edge(Place& at, Random&) {
+    const Vec3 way = minus(at.middle, at.a);
+    const double far = 0.3 * at.patient.near() / std::sqrt(dot(way, way));
+    const std::uint32_t p = at.patient.add_point(at.face, plus(at.a, times(far, way)));
+    const Corners c = at.patient.corners(at.face, at.triangle);
+    at.patient.remove_triangle(at.face, at.triangle);
+    for (std::size_t i = 0; i < 3; ++i) at.patient.add_triangle(at.face, {c[i], c[(i + 1) % 3], p});
+    return {{"Q02", "surface", at.name()}};
+}
+Found pierced(Place& at, Random&) {
+    const double s = at.small();
+    const std::string extra = at.patient.add_extra({{at.inside(0.3, 0.3, s), at.inside(0.3, 0.3, -s), at.inside(0.4, 0.3, s)}});
+    return {{"B08", "surface", at.name()}, {"B08", "surface", extra}};
+}
+Found foot_on_it(Place& at, Random&) {
+    const double s = at.side() * at.small();
+    const std::string extra = at.patient.add_extra({{at.inside(0.3, 0.3, 0), at.inside(0.5, 0.3, 0), at.inside(0.4, 0.3, s)}});
+    return {{"B11", "surface", at.name()}, {"B11", "surface", extra}};
+}
+Found lies_on_it(Place& at, Random&) {
+    const std::string extra = at.patient.add_extra({{at.inside(0.2, 0.2, 0), at.inside(0.5, 0.2, 0), at.inside(0.2, 0.5, 0)}});
+    return {{"B20", "surface", at.name()}, {"B20", "surface", extra}};
+}
+Found stands_on_a_point(Place& at, Random&) {
+    const double s = at.side() * at.small();
+    const std::string extra = at.patient.add_extra({{at.inside(0.3, 0.3, 0), at.inside(0.35, 0.3, s), at.inside(0.3, 0.4, s)}});
+    return {{"B22", "surface", at.name()}, {"B22", "surface", extra}};
+}
+Found border_near_it(Place& at, Random&) {
+    const double s = at.side() * at.small(), gap = at.side() * 0.4 * at.patient.near();
+    const std::string extra = at.patient.add_extra({{at.inside(0.3, 0.3, gap), at.inside(0.5, 0.3, gap), at.inside(0.4, 0.3, s + gap)}});
+    return {{"B23", "surface", at.name()}, {"B23", "surface", extra}};
+}
+Found tent_near_it(Place& at, Random&) {
+    const double s = at.side() * at.small(), gap = at.side() * 0.4 * at.patient.near();
+    const Vec3 tip = at.inside(0.33, 0.33, gap), p = at.inside(0.25, 0.25, s + gap), q = at.inside(0.5, 0.25, s + gap),
+               r = at.inside(0.25, 0.5, s + gap);
+    const std::string extra = at.patient.add_extra({{tip, p, q}, {tip, q, r}, {tip, r, p}});
+    return {{"B24", "surface", at.name()}, {"B24", "surface", extra}};
+}
+Found sheet_beside_it(Place& at, Random&) {
+    if (!at.patient.has_regions()) return {};
+    const double s = at.side() * at.small();
+    return {{"B25", "surface", at.patient.add_extra({{at.inside(0.3, 0.3, s), at.inside(0.5, 0.3, s), at.inside(0.4, 0.3, 1.5 * s)}})}};
+}
+Found grazing_sheet(Place& at, Random&) {
+    // Leaves an edge of the face at three degrees.
+    const Vec3 ab = minus(at.b, at.a);
+    const Vec3 into = across(minus(at.d, at.a), ab);
+    const double length = 0.4 * std::sqrt(dot(into, into));
+    const Vec3 tip = plus(at.inside(0.5, 0, 0), plus(times(0.4, into), times(at.side() * length * std::tan(0.052), at.normal)));
+    const std::string extra = at.patient.add_extra({{at.a, at.b, tip}});
+    return {{"Q04", "surface", at.name()}, {"Q04", "surface", extra}};
+}
+Found far_away(Place& at, Random&) {
+    if (!at.patient.has_regions()) return {};
+    const double far = 2000 * at.patient.near();  // two diameters
+    std::array<Vec3, 3> t{at.a, at.b, at.d};
+    for (Vec3& p : t) p[2] += far;
+    return {{"B16", "surface", at.patient.add_extra({t})}};
+}
+Found one_sided(Place& at, Random&) {
+    const double s = at.small(), lift = at.side() * 2 * s;
+    std::vector<std::array<Vec3, 3>> strip;
+    constexpr int n = 9;
+    const auto point = [&](int k, int end) {
+        const double turn = 2 * 3.14159265358979 * (k % n) / n, w = (k >= n ? -1 : 1) * (end == 0 ? -0.25 : 0.25) * s;
+        const double r = s + w * std::cos(turn / 2);
+        return plus(at.middle, Vec3{r * std::cos(turn), r * std::sin(turn), w * std::sin(turn / 2) + lift});
+    };
+    for (int k = 0; k < n; ++k) {
+        strip.push_back({point(k, 0), point(k, 1), point(k + 1, 1)});
+        strip.push_back({point(k, 0), point(k + 1, 1), point(k + 1, 0)});
+    }
+    return {{"M06", "surface", at.patient.add_extra(strip)}};
+}
+Found wrong_border(Place& at, Random&) {
+    Surface& s = at.patient.surface(at.face);
+    if (!s.border_starts.empty()) return {};
+    const std::uint32_t p = at.patient.add_point(at.face, plus(at.middle, times(at.side() * at.small(), at.normal)));
+    s.border_starts.push_back({7, at.patient.corners(at.face, at.triangle)[0], p});
+    const bool alone = s.parts.empty();
+    return {{"B19", alone ? "surface|interface" : "interface", s.info.name}};
+}
+
+using Plant = Found (*)(Place&, Random&);
+struct Defect {
+    const char* name;
+    Plant plant;
+};
+std::ostream& operator<<(std::ostream& out, const Defect& defect) { return out << defect.name; }
+constexpr Defect defects[] = {
+    {"degenerate", degenerate},
+    {"repeated", repeated},
+    {"reversed", reversed},
+    {"hole_that_leaks", hole_that_leaks},
+    {"small_hole", small_hole},
+    {"horizon_ends_inside", horizon_ends_inside},
+    {"part_apart", part_apart},
+    {"part_by_a_corner", part_by_a_corner},
+    {"unused_point", unused_point},
+    {"flat_triangle", flat_triangle},
+    {"fin", fin},
+    {"meets_itself", meets_itself},
+    {"seam", seam},
+    {"needle", needle},
+    {"short_edge", short_edge},
+    {"pierced", pierced},
+    {"foot_on_it", foot_on_it},
+    {"lies_on_it", lies_on_it},
+    {"stands_on_a_point", stands_on_a_point},
+    {"border_near_it", border_near_it},
+    {"tent_near_it", tent_near_it},
+    {"sheet_beside_it", sheet_beside_it},
+    {"grazing_sheet", grazing_sheet},
+    {"far_away", far_away},
+    {"one_sided", one_sided},
+    {"wrong_border", wrong_border},
+};
+
+/// Plants a defect at a face where no other is near; nothing where it has no place there.
+Found plant(Patient& patient, const Defect& defect, Random& random) {
+    for (int attempt = 0; attempt < 10; ++attempt) {
+        const std::size_t face = pick(random, patient.faces());
+        if (!patient.is_free(face)) continue;
+        const std::uint64_t first = patient.first(face), last = patient.last(face);
+        Place place = place_at(patient, face, first + pick(random, last - first));
+        if (place.height < 20 * patient.near()) continue;
+        auto found = defect.plant(place, random);
+        if (found.empty()) continue;
+        patient.take(face);
+        return found;
+    }
+    return {};
+}
+
+/// "a|b" matches a and b.
+bool is_one_of(const std::string& choice, const std::string& word) {
+    std::size_t from = 0;
+    while (from <= choice.size()) {
+        const std::size_t to = std::min(choice.find('|', from), choice.size());
+        if (choice.compare(from, to - from, word) == 0) return true;
+        from = to + 1;
+    }
+    return false;
+}
+
+std::string text(const std::vector<Finding>& findings) {
+    std::string all;
+    for (const Finding& f : findings) {
+        all += "\n  " + f.code + ":";
+        for (const EntityRef& e : f.entities) all += " " + e.kind + " " + e.name;
+    }
+    return all;
+}
+
+void expect_found(const Dataset& data, const Found& expected, const std::string& where) {
+    const auto checked = validators::check_models(data, {});
+    ASSERT_TRUE(checked) << where;
+    for (const Expected& e : expected) {
+        const bool found = std::ranges::any_of(checked->findings, [&](const Finding& f) {
+            return is_one_of(e.code, f.code) && std::ranges::any_of(f.entities, [&](const EntityRef& entity) {
+                       return is_one_of(e.kind, entity.kind) && entity.name == e.name;
+                   });
+        });
+        EXPECT_TRUE(found) << where << ": expected " << e.code << " of " << e.kind << " " << e.name << ", found" << text(checked->findings);
+    }
+}
+
+/// As it stands, and turned, so that nothing lies exactly on anything.
+void expect_found(Patient& patient, const Found& expected, const std::string& where) {
+    expect_found(patient.data(), expected, where);
+    expect_found(moved(patient.data(), rotated), expected, where + ", rotated");
+}
+
+unsigned wanted_seeds(unsigned usual) {
+    const char* wanted = std::getenv("GEOMEND_SEEDS");  // for a longer campaign
+    return wanted != nullptr ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10)) : usual;
+}
+
+class PlantedInZoo : public ::testing::TestWithParam<Defect> {};
+
+TEST_P(PlantedInZoo, IsFoundInEachModel) {
+    unsigned planted = 0;
+    for (const Species& species : whole_zoo()) {
+        const Animal animal = species.make();
+        for (unsigned seed = 0; seed < wanted_seeds(2); ++seed) {
+            Random random(seed);
+            Patient patient(animal);
+            const Found expected = plant(patient, GetParam(), random);
+            if (expected.empty()) continue;
+            ++planted;
+            expect_found(patient, expected, std::string(species.name) + ", seed " + std::to_string(seed));
+            if (HasFailure()) return;
+        }
+    }
+    EXPECT_GT(planted, 3u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Defects, PlantedInZoo, ::testing::ValuesIn(defects), [](const auto& defect) { return defect.param.name; });
+
+TEST(SeveralDefects, AreAllFound) {
+    const auto zoo = whole_zoo();
+    unsigned several = 0;
+    for (unsigned seed = 0; seed < wanted_seeds(150); ++seed) {
+        Random random(seed);
+        const Species& species = zoo[pick(random, zoo.size())];
+        Patient patient(species.make());
+        Found expected;
+        std::string names;
+        unsigned planted = 0;
+        for (std::size_t k = 2 + pick(random, 3); k-- > 0;) {
+            const Defect& defect = defects[pick(random, std::size(defects))];
+            const Found more = plant(patient, defect, random);
+            expected.insert(expected.end(), more.begin(), more.end());
+            if (!more.empty()) names += std::string(" ") + defect.name;
+            planted += more.empty() ? 0 : 1;
+        }
+        several += planted > 1 ? 1 : 0;
+        expect_found(patient, expected, std::string(species.name) + ", seed " + std::to_string(seed) + ":" + names);
+        if (::testing::Test::HasFailure()) return;
+    }
+    EXPECT_GT(several, 20u);
+}
+
+}  // namespace
+}  // namespace geomend
