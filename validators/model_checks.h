@@ -38,10 +38,12 @@ void check_stated_borders(const ModelScope&, std::vector<Finding>&);      // B19
 void check_intersections(const ModelScope&, std::vector<Finding>&);       // B02 B08 B10 B11 B20 B22 B26 B27 B28
 void check_shared_points(const ModelScope&, std::vector<Finding>&);       // B22
 void check_near_misses(const ModelScope&, std::vector<Finding>&);         // B23 B24
-void check_region_names(const ModelScope&, std::vector<Finding>&);        // G01
+void check_names_of_model(const ModelScope&, std::vector<Finding>&);      // G01 G06 G08
 void check_region_lists(const ModelScope&, std::vector<Finding>&);        // G02
 void check_fault_displacement(const ModelScope&, std::vector<Finding>&);  // G03
 void check_horizon_order(const ModelScope&, std::vector<Finding>&);       // G04
+void check_horizons_pass(const ModelScope&, std::vector<Finding>&);       // G05
+void check_list_members(const ModelScope&, std::vector<Finding>&);        // G07
 void check_triangle_angles(const ModelScope&, std::vector<Finding>&);     // Q01
 void check_short_edges(const ModelScope&, std::vector<Finding>&);         // Q02
 void check_folds(const ModelScope&, std::vector<Finding>&);               // Q03

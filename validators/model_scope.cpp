@@ -12,27 +12,23 @@ namespace geomend::validators {
 
 namespace {
 
-/// Calls with each point that an element uses, once for each object that it is in.
+/// Calls with each point that an element uses, once for each object that it is in, with the precision of the file and with
+/// the object.
 template <class Visit>
 void each_used_point(const Dataset& dataset, const Visit& visit) {
     std::vector<std::uint8_t> used;
-    const auto visit_used = [&](const std::vector<Vec3>& points, const std::vector<std::uint32_t>& corners, bool single) {
+    const auto visit_used = [&](const Object& object, const std::vector<Vec3>& points, const std::vector<std::uint32_t>& corners) {
+        const bool single = std::ranges::any_of(info_of(object).annotations,
+                                                [](const Annotation& a) { return a.key == "vtk.points_type" && a.value == "Float32"; });
         used.assign(points.size(), 0);
         for (const std::uint32_t c : corners) used[c] = 1;
         for (std::size_t i = 0; i < points.size(); ++i) {
-            if (used[i] != 0) visit(points[i], single);
+            if (used[i] != 0) visit(points[i], single, object);
         }
-    };
-    const auto is_single = [](const ObjectInfo& info) {
-        return std::ranges::any_of(info.annotations,
-                                   [](const Annotation& a) { return a.key == "vtk.points_type" && a.value == "Float32"; });
     };
     for (const Object& object : dataset.objects) {
-        if (const auto* surface = std::get_if<Surface>(&object)) {
-            visit_used(surface->points, surface->polygons.corners, is_single(surface->info));
-        } else if (const auto* mesh = std::get_if<CellMesh>(&object)) {
-            visit_used(mesh->points, mesh->nodes, is_single(mesh->info));
-        }
+        if (const auto* surface = std::get_if<Surface>(&object)) visit_used(object, surface->points, surface->polygons.corners);
+        else if (const auto* mesh = std::get_if<CellMesh>(&object)) visit_used(object, mesh->points, mesh->nodes);
     }
 }
 
@@ -43,7 +39,7 @@ Lengths lengths_of(const Dataset& dataset, const CheckOptions& options) {
     Vec3 origin{};
     double step = 0;
     std::uint64_t count = 0;
-    each_used_point(dataset, [&](const Vec3& p, bool single) {
+    each_used_point(dataset, [&](const Vec3& p, bool single, const Object&) {
         if (count++ == 0) origin = p;
         for (std::size_t k = 0; k < 3; ++k) {
             sum[k] += p[k] - origin[k];
@@ -55,7 +51,7 @@ Lengths lengths_of(const Dataset& dataset, const CheckOptions& options) {
         Vec3 middle = origin;
         for (std::size_t k = 0; k < 3; ++k) middle[k] += sum[k] / static_cast<double>(count);
         double farthest = 0;
-        each_used_point(dataset, [&](const Vec3& p, bool) {
+        each_used_point(dataset, [&](const Vec3& p, bool, const Object&) {
             const Vec3 d = minus(p, middle);
             farthest = std::max(farthest, dot(d, d));
         });
@@ -69,15 +65,20 @@ Lengths lengths_of(const Dataset& dataset, const CheckOptions& options) {
 std::vector<Finding> huge_coordinates(const Dataset& dataset) {
     constexpr double huge = 1e20;
     Finding finding = finding_of("M09", {});
-    each_used_point(dataset, [&](const Vec3& p, bool) {
-        if (std::ranges::none_of(p, [](double x) { return std::abs(x) >= huge; })) return;
+    each_used_point(dataset, [&](const Vec3& p, bool, const Object& object) {
+        if (std::ranges::all_of(p, [](double x) { return std::abs(x) < huge; })) return;
+        const EntityRef entity{kind_name(object), info_of(object).name};
+        const auto& known = finding.entities;
+        const bool is_new = known.empty() || known.back().kind != entity.kind || known.back().name != entity.name;
+        if (is_new && known.size() < listed_elements) finding.entities.push_back(entity);
         ++finding.count;
         if (finding.points.size() < listed_elements) finding.points.push_back(p);
     });
     if (finding.count == 0) return {};
     finding.element_kind = "point";
-    finding.message =
-        counted(finding.count, "point has", "points have") + " a coordinate as large as 1e20: surfaces and cells were not judged";
+    finding.message = counted(finding.count, "point has", "points have") +
+                      " a coordinate that is not finite or as large as 1e20, first in " + quoted(finding.entities[0].name) +
+                      ": surfaces and cells were not judged";
     return {finding};
 }
 

@@ -147,10 +147,15 @@ constexpr std::array catalogue = {
     CodeInfo{"F160", info, "an object holds nothing that a check looks at", ""},
     CodeInfo{"F161", info, "a grid has no geometry: only its records were checked", "give the file that holds COORD and ZCORN"},
     // Geology.
-    CodeInfo{"G01", warning, "a name is used for more than one region", "rename one of them"},
+    CodeInfo{"G01", warning, "a name is used more than once: for regions, layers, fault blocks or surfaces", "rename one of them"},
     CodeInfo{"G02", warning, "a layer or a fault block has no region", "correct its list"},
     CodeInfo{"G03", info, "a fault displaces no horizon", ""},
-    CodeInfo{"G04", error, "two horizons follow one another in both orders", "correct the horizon that is crossed or folded over"},
+    CodeInfo{"G04", error, "horizons do not follow one another in one order", "correct the horizon that is crossed or folded over"},
+    CodeInfo{"G05", error, "two stratigraphic surfaces pass through each other along a line that they share",
+             "correct one of them, or state an unconformity that ends the other"},
+    CodeInfo{"G06", warning, "names differ in upper and lower case only", "rename one of them"},
+    CodeInfo{"G07", warning, "a region is in more than one layer or fault block", "correct their lists"},
+    CodeInfo{"G08", info, "a name is used for a surface and a region", ""},
     // Meshes of surfaces and cells.
     CodeInfo{"M01", warning, "points are nearer to each other than the tolerance, but not equal",
              "join them, or check again with a smaller --tolerance"},
