@@ -1,47 +1,39 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
+#include <span>
 #include <utility>
 
 #include "base/parallel.h"
 #include "geometry/near_misses.h"
 #include "geometry/surface_distance.h"
-#include "geometry/triangle_pair.h"
+#include "geometry/surface_walk.h"
+#include "geometry/vectors.h"
+
+// Where two surfaces are closest, either a vertex of one of them is nearest to something of the other, or the insides of two
+// edges are nearest to each other: wherever else the distance is smallest, an edge or a triangle is parallel to the other, and
+// one can go on to such a place. So all these are looked at. In the directions in which a triangle leaves a point the distance
+// grows where each of its corners lies behind the plane through that point across the line to the closest point.
 
 namespace geomend {
 
 namespace {
 
-constexpr std::size_t fours_per_block = 4;    // the triangles whose vertices look about together
+constexpr std::size_t fours_per_block = 4;    // the triangles whose vertices and edges look about together
 constexpr std::size_t blocks_per_chunk = 64;  // what one thread does at a time
-constexpr int tries_per_pair = 16;            // descents that end in a smallest distance, for each two groups
 constexpr std::uint32_t mixed = 0xffffffff;   // four triangles of more than one group
 
-/// The triangle of another group (by its place in the tree) that is closest to a vertex.
-struct NearGroup {
-    std::uint32_t group, triangle;
-    Closest closest;
-};
-
-/// A vertex that is closer to another group than its neighbours on its own group are.
-struct Start {
-    std::uint32_t group, vertex;
-    NearGroup other;
-};
-
-/// A place where two surfaces are close, on the way to where they are closest.
+/// A place where the distance between two groups is smallest.
 struct Place {
-    std::uint32_t triangle_a, triangle_b;
-    Closest closest;
+    std::uint32_t group_a, group_b, triangle_a, triangle_b;  ///< group_a < group_b; triangles by their places in the tree
+    Closest closest;                                         ///< its first is a
 };
 
-/// Finds starts among the vertices of some triangles.
-class StartSearch {
+/// Finds places from the vertices and edges of some triangles.
+class PlaceSearch {
 public:
-    StartSearch(const SurfaceDistance& soup, std::span<const std::uint32_t> four_groups, double near, std::vector<Start>& starts)
-        : soup_(soup), four_groups_(four_groups), near_(near), around_(soup.tree()), starts_(starts) {}
+    PlaceSearch(const SurfaceDistance& soup, std::span<const std::uint32_t> four_groups, double near, std::vector<Place>& places)
+        : soup_(soup), four_groups_(four_groups), near_(near), around_(soup.tree()), places_(places) {}
 
     void run(std::size_t block) {
         const auto& fours = soup_.tree().levels().front();
@@ -52,8 +44,11 @@ public:
                         [&](std::size_t four) { return own == mixed || four_groups_[four] != own; });
         if (around_.empty()) return;
         for (std::size_t i = 4 * first; i < std::min(4 * last, soup_.tree().size()); ++i) {
-            for (const std::uint32_t v : soup_.tree().triangle(i)) {
-                if (soup_.around(v).front() == i) look_about(v);
+            const auto t = static_cast<std::uint32_t>(i);
+            find_others(t);
+            for (std::size_t k = 0; k < 3 && !others_.empty(); ++k) {
+                look_about(t, soup_.triangle(t)[k]);
+                look_along(t, k);
             }
         }
     }
@@ -63,86 +58,154 @@ private:
     const std::span<const std::uint32_t> four_groups_;
     const double near_;
     Neighbourhood around_;
-    std::vector<NearGroup> near_groups_;
-    std::vector<std::uint32_t> beside_;
-    std::vector<Start>& starts_;
+    std::vector<Place>& places_;
+    std::vector<std::uint32_t> others_;  ///< triangles of other groups near the one at hand
+    std::vector<Vec3> ways_;
 
-    void look_about(std::uint32_t vertex) {
+    /// Those that share a vertex with the triangle come closer to it wherever one starts.
+    void find_others(std::uint32_t t) {
+        others_.clear();
+        around_.visit_triangles(soup_.tree().widened(box_of(t), near_), [&](std::size_t i) {
+            const auto other = static_cast<std::uint32_t>(i);
+            if (soup_.group(other) != soup_.group(t) && !share_a_vertex(t, other)) others_.push_back(other);
+        });
+    }
+    Box box_of(std::uint32_t t) const { return soup_.tree().levels().front()[t / 4].box(t % 4); }
+    bool share_a_vertex(std::uint32_t a, std::uint32_t b) const {
+        const Triangle& v = soup_.triangle(a);
+        return soup_.has(b, v[0]) || soup_.has(b, v[1]) || soup_.has(b, v[2]);
+    }
+    bool overlaps(std::uint32_t t, const Box& box) const {
+        const Box own = box_of(t);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (own.low[k] > box.high[k] || own.high[k] < box.low[k]) return false;
+        }
+        return true;
+    }
+
+    /// The first triangle of its group that has this edge, or vertex where p = q.
+    bool is_first_at_edge(std::uint32_t t, std::uint32_t p, std::uint32_t q) const {
+        for (const std::uint32_t other : soup_.around(p)) {
+            if (soup_.group(other) == soup_.group(t) && soup_.has(other, q)) return other == t;
+        }
+        return true;
+    }
+
+    /// Whether it is a triangle's turn to look from one of its vertices or edges; seldom asked.
+    enum class Turn : std::uint8_t { unknown, its_own, of_another };
+
+    bool is_first_at(std::uint32_t t, std::uint32_t p, std::uint32_t q, Turn& turn) {
+        if (turn == Turn::unknown) {
+            turn = is_first_at_edge(t, p, q) ? Turn::its_own : Turn::of_another;
+            if (turn == Turn::its_own) find_ways(t, p, q);
+        }
+        return turn == Turn::its_own;
+    }
+
+    /// The directions in which the triangles at a vertex or edge leave it.
+    void find_ways(std::uint32_t t, std::uint32_t p, std::uint32_t q) {
+        ways_.clear();
+        const Vec3 along = minus(soup_.position(q), soup_.position(p));
+        for (const std::uint32_t other : soup_.around(p)) {
+            if (soup_.group(other) != soup_.group(t) || !soup_.has(other, q)) continue;
+            for (const std::uint32_t v : soup_.triangle(other)) {
+                if (v == p || v == q) continue;
+                const Vec3 way = minus(soup_.position(v), soup_.position(p));
+                ways_.push_back(p == q ? way : across(way, along));
+            }
+        }
+    }
+
+    /// A triangle that lies wholly ahead in one of these directions: from there one gets closer to it. Rounding is none here.
+    bool has_all_ahead(std::uint32_t t, const Vec3& from) const {
+        const std::array<Vec3, 3> corners = soup_.corners(t);
+        const std::array<Vec3, 3> to{minus(corners[0], from), minus(corners[1], from), minus(corners[2], from)};
+        return std::ranges::any_of(ways_, [&](const Vec3& way) {
+            const double least = std::min({dot(to[0], way), dot(to[1], way), dot(to[2], way)});
+            return least > 0 && least * least > 1e-18 * near_ * near_ * dot(way, way);
+        });
+    }
+
+    // ---- a vertex, and whatever of another group is closest to it there
+
+    void look_about(std::uint32_t t, std::uint32_t vertex) {
         const Vec3& point = soup_.position(vertex);
-        const std::uint32_t own = soup_.group(soup_.around(vertex).front());
-        near_groups_.clear();
-        find_groups_beside(vertex, own);
-        around_.visit_triangles(soup_.tree().box(point, point, near_), [&](std::size_t i) {
-            const auto t = static_cast<std::uint32_t>(i);
-            const std::uint32_t group = soup_.group(t);
-            if (group == own || std::find(beside_.begin(), beside_.end(), group) != beside_.end()) return;
-            NearGroup* known = nullptr;
-            for (NearGroup& n : near_groups_) {
-                if (n.group == group) known = &n;
-            }
-            if (known == nullptr) {
-                known = &near_groups_.emplace_back(NearGroup{group, t, {}});
-                known->closest.distance = near_;
-            }
-            if (soup_.tree().is_farther(point, i, known->closest.distance)) return;
-            const Closest closest = closest_points(point, soup_.corners(t));
-            if (closest.distance < known->closest.distance) *known = {group, t, closest};
-        });
-        for (const NearGroup& other : near_groups_) {
-            if (other.closest.distance == 0 || other.closest.distance >= near_ || joined(vertex, other)) continue;
-            for (const std::uint32_t group : soup_.groups_at(vertex)) {
-                if (neighbours_are_farther(vertex, group, other)) starts_.push_back({group, vertex, other});
-            }
+        const std::uint32_t own = soup_.group(t);
+        Turn turn = Turn::unknown;
+        for (const std::uint32_t other : others_) {
+            if (soup_.tree().is_farther(point, other, near_)) continue;
+            if (!is_first_at(t, vertex, vertex, turn)) return;
+            if (has_all_ahead(other, point)) continue;
+            Closest closest = closest_points(point, soup_.corners(other));
+            if (!(closest.distance > 0) || closest.distance >= near_) continue;
+            if (!soup_.none_ahead(point, vertex, vertex, own, closest.apart)) continue;
+            if (!soup_.none_ahead_at_part(closest.on_second, other, closest.second_part, times(-1, closest.apart))) continue;
+            // The point is met once: from the first triangle that has it.
+            if (soup_.around_part(other, closest.second_part, soup_.group(other)).front() != other) continue;
+            closest.first_part = bit_of(vertex, t);
+            add({own, soup_.group(other), t, other, closest});
         }
     }
 
-    /// Groups that the vertex is on; those that its neighbours are on, too, where all of these are on its only group: they are
-    /// closer.
-    void find_groups_beside(std::uint32_t vertex, std::uint32_t own) {
-        beside_.clear();
-        const auto add_groups_at = [&](std::uint32_t v) {
-            for (const std::uint32_t t : soup_.around(v)) {
-                const std::uint32_t group = soup_.group(t);
-                if (group != own && (beside_.empty() || beside_.back() != group)) beside_.push_back(group);
-            }
-        };
-        add_groups_at(vertex);
-        if (!beside_.empty()) return;
-        for (const std::uint32_t t : soup_.around(vertex)) {
-            for (const std::uint32_t v : soup_.triangle(t)) add_groups_at(v);
+    unsigned bit_of(std::uint32_t vertex, std::uint32_t t) const {
+        const Triangle& corners = soup_.triangle(t);
+        return corners[0] == vertex ? 1 : corners[1] == vertex ? 2 : 4;
+    }
+
+    void add(const Place& place) {
+        if (place.group_a < place.group_b) {
+            places_.push_back(place);
+            return;
+        }
+        const Closest& c = place.closest;
+        places_.push_back({place.group_b,
+                           place.group_a,
+                           place.triangle_b,
+                           place.triangle_a,
+                           {c.distance, c.on_second, c.on_first, times(-1, c.apart), c.second_part, c.first_part}});
+    }
+
+    // ---- the insides of two edges; each two are met once, from the lower group
+
+    void look_along(std::uint32_t t, std::size_t k) {
+        const std::uint32_t p = soup_.triangle(t)[k], q = soup_.triangle(t)[(k + 1) % 3], own = soup_.group(t);
+        Vec3 low{}, high{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(soup_.position(p)[axis], soup_.position(q)[axis]);
+            high[axis] = std::max(soup_.position(p)[axis], soup_.position(q)[axis]);
+        }
+        const Box box = soup_.tree().box(low, high, near_);
+        Turn turn = Turn::unknown;
+        for (const std::uint32_t other : others_) {
+            if (soup_.group(other) < own || !overlaps(other, box)) continue;
+            if (!is_first_at(t, p, q, turn)) return;
+            if (has_all_ahead(other, soup_.position(p))) continue;
+            for (std::size_t m = 0; m < 3; ++m) try_edges(t, k, other, m);
         }
     }
 
-    /// A third group passes through both points.
-    bool joined(std::uint32_t vertex, const NearGroup& other) const {
-        const auto there = soup_.groups_around_part(other.triangle, other.closest.second_part);
-        return std::ranges::any_of(there, [&](std::uint32_t group) { return soup_.on_group(vertex, group); });
-    }
-
-    /// Whether a triangle of the group, among those near the block, comes closer to the point than `distance`.
-    bool has_closer(const Vec3& point, std::uint32_t group, double distance) const {
-        bool found = false;
-        around_.visit_triangles(soup_.tree().box(point, point, distance), [&](std::size_t i) {
-            const auto t = static_cast<std::uint32_t>(i);
-            if (found || soup_.group(t) != group || soup_.tree().is_farther(point, i, distance)) return;
-            found = closest_points(point, soup_.corners(t)).distance < distance;
-        });
-        return found;
-    }
-
-    bool neighbours_are_farther(std::uint32_t vertex, std::uint32_t own, const NearGroup& other) const {
-        const std::array<Vec3, 3> closest = soup_.corners(other.triangle);
-        const auto all_neighbours = [&](const auto& is_farther) {
-            return std::ranges::all_of(soup_.around(vertex), [&](std::uint32_t t) {
-                return soup_.group(t) != own ||
-                       std::ranges::all_of(soup_.triangle(t), [&](std::uint32_t v) { return v == vertex || is_farther(v); });
-            });
-        };
-        const double distance = other.closest.distance;
-        // Nearly always a neighbour is closer to the same triangle already.
-        return all_neighbours([&](std::uint32_t v) { return closest_points(soup_.position(v), closest).distance >= distance; }) &&
-               all_neighbours([&](std::uint32_t v) { return !soup_.on_group(v, other.group); }) &&
-               all_neighbours([&](std::uint32_t v) { return !has_closer(soup_.position(v), other.group, distance); });
+    void try_edges(std::uint32_t t, std::size_t k, std::uint32_t other, std::size_t m) {
+        const std::uint32_t p = soup_.triangle(t)[k], q = soup_.triangle(t)[(k + 1) % 3];
+        const std::uint32_t r = soup_.triangle(other)[m], s = soup_.triangle(other)[(m + 1) % 3];
+        const Vec3& from = soup_.position(p);
+        const Vec3 u = minus(soup_.position(q), from), v = minus(soup_.position(s), soup_.position(r));
+        const Vec3 w = minus(soup_.position(r), from), normal = cross(u, v);
+        const double square = dot(normal, normal), height = dot(normal, w);
+        if (!(height * height < near_ * near_ * square) || height == 0) return;
+        const double on_u = dot(cross(w, v), normal), on_v = dot(cross(w, u), normal);
+        if (!(on_u > 0) || on_u >= square || !(on_v > 0) || on_v >= square) return;
+        const Vec3 apart = times(height / square, normal);
+        const Vec3 on_first = plus(from, times(on_u / square, u)), on_second = plus(soup_.position(r), times(on_v / square, v));
+        if (!soup_.none_ahead(on_first, p, q, soup_.group(t), apart)) return;
+        if (!soup_.none_ahead(on_second, r, s, soup_.group(other), times(-1, apart)) || !is_first_at_edge(other, r, s)) return;
+        Closest closest;
+        closest.distance = std::abs(height) / std::sqrt(square);
+        closest.on_first = on_first;
+        closest.on_second = on_second;
+        closest.apart = apart;
+        closest.first_part = 1u << k | 1u << (k + 1) % 3;
+        closest.second_part = 1u << m | 1u << (m + 1) % 3;
+        if (closest.distance > 0 && closest.distance < near_) add({soup_.group(t), soup_.group(other), t, other, closest});
     }
 };
 
@@ -151,49 +214,48 @@ public:
     PairSearch(const SurfaceDistance& soup, double near) : soup_(soup), near_(near) {}
 
     /// False when stopped.
-    bool find_starts(const Monitor* monitor) {
+    bool find_places(const Monitor* monitor) {
         const std::size_t fours = soup_.tree().levels().front().size();
         const std::vector<std::uint32_t> groups = groups_of_fours(fours);
         const std::size_t blocks = (fours + fours_per_block - 1) / fours_per_block;
-        std::vector<std::vector<Start>> parts((blocks + blocks_per_chunk - 1) / blocks_per_chunk);
+        std::vector<std::vector<Place>> parts((blocks + blocks_per_chunk - 1) / blocks_per_chunk);
         parallel_for_each_index(parts.size(), [&](std::size_t part) {
             if (monitor != nullptr && monitor->stopped()) return;
-            StartSearch search(soup_, groups, near_, parts[part]);
+            PlaceSearch search(soup_, groups, near_, parts[part]);
             const std::size_t last = std::min(blocks, (part + 1) * blocks_per_chunk);
             for (std::size_t block = part * blocks_per_chunk; block != last; ++block) search.run(block);
         });
-        for (const auto& part : parts) starts_.insert(starts_.end(), part.begin(), part.end());
-        const auto distance = [](const Start& start) { return start.other.closest.distance; };
-        std::ranges::stable_sort(starts_, {}, distance);
+        for (const auto& part : parts) places_.insert(places_.end(), part.begin(), part.end());
+        std::ranges::sort(places_, [](const Place& p, const Place& q) {
+            if (p.group_a != q.group_a) return p.group_a < q.group_a;
+            if (p.group_b != q.group_b) return p.group_b < q.group_b;
+            if (p.closest.distance != q.closest.distance) return p.closest.distance < q.closest.distance;
+            return std::pair(p.closest.on_first, p.closest.on_second) < std::pair(q.closest.on_first, q.closest.on_second);
+        });
         return monitor == nullptr || !monitor->stopped();
     }
 
-    std::vector<ClosePair> pairs() {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, Best> all;
-        for (const Start& start : starts_) {
-            Best& best = all[{std::min(start.group, start.other.group), std::max(start.group, start.other.group)}];
-            if (best.tries == tries_per_pair) continue;
-            const auto found = descend(start);
-            if (!found) continue;
-            ++best.tries;
-            if (best.tries == 1 || found->distance < best.pair.distance) best.pair = *found;
+    std::vector<ClosePair> pairs(const Monitor* monitor) const {
+        std::vector<std::size_t> first;  // place of each two groups
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            if (i == 0 || places_[i].group_a != places_[i - 1].group_a || places_[i].group_b != places_[i - 1].group_b) first.push_back(i);
         }
+        first.push_back(places_.size());
+        std::vector<std::vector<ClosePair>> found(first.size() - 1);
+        parallel_for_each_index(found.size(), [&](std::size_t i) {
+            if (monitor != nullptr && monitor->stopped()) return;
+            const auto miss = closest_miss(std::span(places_).subspan(first[i], first[i + 1] - first[i]));
+            if (miss != nullptr) found[i].push_back(pair_at(*miss));
+        });
         std::vector<ClosePair> list;
-        for (const auto& [groups, best] : all) {
-            if (best.tries > 0) list.push_back(best.pair);
-        }
-        return list;
+        for (const auto& pair : found) list.insert(list.end(), pair.begin(), pair.end());
+        return monitor == nullptr || !monitor->stopped() ? list : std::vector<ClosePair>{};
     }
 
 private:
-    struct Best {
-        int tries = 0;
-        ClosePair pair{};
-    };
-
     const SurfaceDistance& soup_;
     const double near_;
-    std::vector<Start> starts_;  ///< the closest first
+    std::vector<Place> places_;  ///< by groups, then the closest first
 
     std::vector<std::uint32_t> groups_of_fours(std::size_t count) const {
         std::vector<std::uint32_t> groups(count);
@@ -205,52 +267,30 @@ private:
         return groups;
     }
 
-    /// Moves both points over their surfaces for as long as they come closer. Nothing where they meet or where the place does not count.
-    std::optional<ClosePair> descend(const Start& start) const {
-        const std::uint32_t other = start.other.group;
-        const std::uint32_t t = soup_.around_edge(start.vertex, start.vertex, start.group).front();
-        Place place{t, start.other.triangle, start.other.closest};
-        for (unsigned i = 0; i < 3; ++i) {
-            if (soup_.triangle(t)[i] == start.vertex) place.closest.first_part = 1u << i;
-        }
-        while (true) {
-            const auto next = closest_around(place, start.group, other);
-            if (!next) return std::nullopt;
-            if (next->closest.distance >= place.closest.distance - soup_.rounding(place.closest.on_first)) break;
-            place = *next;
-        }
-        if (lie_on_one_group(place)) return std::nullopt;
-        if (soup_.common_vertex_within(2 * near_, place.closest.on_first, start.group, other)) return std::nullopt;
+    ClosePair pair_at(const Place& place) const {
         const Closest& c = place.closest;
-        const std::uint32_t a = soup_.tree().number(place.triangle_a), b = soup_.tree().number(place.triangle_b);
-        if (start.group < other) return ClosePair{start.group, other, a, b, c.distance, c.on_first, c.on_second};
-        return ClosePair{other, start.group, b, a, c.distance, c.on_second, c.on_first};
+        return {place.group_a, place.group_b, soup_.tree().number(place.triangle_a), soup_.tree().number(place.triangle_b), c.distance,
+                c.on_first,    c.on_second};
     }
 
-    /// The closest of the triangles around both points; nothing where any of them meet.
-    std::optional<Place> closest_around(const Place& place, std::uint32_t group_a, std::uint32_t group_b) const {
-        Place best = place;
-        best.closest.distance = HUGE_VAL;
-        for (const std::uint32_t a : soup_.around_part(place.triangle_a, place.closest.first_part, group_a)) {
-            for (const std::uint32_t b : soup_.around_part(place.triangle_b, place.closest.second_part, group_b)) {
-                if (share_a_vertex(a, b) || meeting(soup_.positions(), soup_.triangle(a), soup_.triangle(b)).kind != Meeting::none)
-                    return std::nullopt;
-                const Closest closest = closest_points(soup_.corners(a), soup_.corners(b));
-                if (closest.distance < best.closest.distance) best = {a, b, closest};
-            }
+    /// The closest place from which no short way leads to where the groups meet; null where there is none.
+    const Place* closest_miss(std::span<const Place> places) const {
+        std::vector<const Place*> joined;
+        for (const Place& place : places) {
+            const auto is_beside = [&](const Place* other) {
+                return within_near(place.closest.on_first, other->closest.on_first) &&
+                       within_near(place.closest.on_second, other->closest.on_second);
+            };
+            if (std::ranges::any_of(joined, is_beside)) continue;
+            if (!leads_to_meeting(soup_, place.triangle_a, place.triangle_b, place.closest.on_first, near_)) return &place;
+            joined.push_back(&place);
         }
-        return best;
+        return nullptr;
     }
 
-    bool share_a_vertex(std::uint32_t a, std::uint32_t b) const {
-        const Triangle &p = soup_.triangle(a), &q = soup_.triangle(b);
-        return std::find_first_of(p.begin(), p.end(), q.begin(), q.end()) != p.end();
-    }
-
-    bool lie_on_one_group(const Place& place) const {
-        const auto a = soup_.groups_around_part(place.triangle_a, place.closest.first_part);
-        const auto b = soup_.groups_around_part(place.triangle_b, place.closest.second_part);
-        return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+    bool within_near(const Vec3& p, const Vec3& q) const {
+        const Vec3 d = minus(p, q);
+        return dot(d, d) < near_ * near_;
     }
 };
 
@@ -260,8 +300,8 @@ std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const s
     if (tree.size() == 0 || !(near > 0)) return {};
     const SurfaceDistance soup(tree, groups);
     PairSearch search(soup, near);
-    if (!search.find_starts(monitor)) return {};
-    return search.pairs();
+    if (!search.find_places(monitor)) return {};
+    return search.pairs(monitor);
 }
 
 std::vector<ClosePair> closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,

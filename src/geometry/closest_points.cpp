@@ -92,8 +92,12 @@ Vec3 back_from(const Vec3& origin, const Vec3& point, unsigned part, const std::
 
 template <std::size_t n, std::size_t m>
 Closest back_from(const Vec3& origin, const Squared& found, const std::array<Vec3, n>& first, const std::array<Vec3, m>& second) {
-    return {std::sqrt(found.square), back_from(origin, found.first, found.first_part, first),
-            back_from(origin, found.second, found.second_part, second), found.first_part, found.second_part};
+    return {std::sqrt(found.square),
+            back_from(origin, found.first, found.first_part, first),
+            back_from(origin, found.second, found.second_part, second),
+            minus(found.second, found.first),
+            found.first_part,
+            found.second_part};
 }
 
 template <std::size_t n>

@@ -12,6 +12,7 @@ namespace geomend {
 struct Closest {
     double distance = 0;
     Vec3 on_first{}, on_second{};
+    Vec3 apart{};  ///< from on_first to on_second, without their rounding far from the origin
     /// The corners of the smallest part that has the point: bit i for corner i. One: the corner itself, to the bit; two: inside an
     /// edge; three: inside the triangle.
     unsigned first_part = 0, second_part = 0;

@@ -17,15 +17,15 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-/// A border that keeps near for so many times `near` belongs to no wedge, unless that is one of less than 6 degrees.
-constexpr double far_along = 10;
+/// A border that is no farther off than this part of the way along it since both met leaves too slowly: in a wedge of less than
+/// 3 degrees.
+constexpr double slow = 0.05;
 
 /// The triangle of a group (by its place in the tree) that is closest to a border edge, without those that share a vertex with it.
 struct Candidate {
     std::uint32_t group = 0, triangle = 0;
     Closest closest{};
     bool is_miss = false;
-    bool touches = false;  ///< by exact predicates; a rounded distance of 0 does not say so
 };
 
 /// The border edges at each vertex, for those of one group.
@@ -144,12 +144,32 @@ private:
         return nullptr;
     }
 
+    /// What an edge comes near of one group: whether it meets that somewhere by exact predicates, the closest triangle, the closest
+    /// of those where the distance is smallest, and one that only rounding brings to 0; HUGE_VAL where there is none.
+    struct Group {
+        Candidate closest, smallest, rounded;
+        bool touches = false;
+    };
+
+    static Group& group_in(std::vector<Group>& groups, std::uint32_t group) {
+        for (Group& g : groups) {
+            if (g.closest.group == group) return g;
+        }
+        Group& added = groups.emplace_back();
+        for (Candidate* c : {&added.closest, &added.smallest, &added.rounded}) {
+            c->group = group;
+            c->closest.distance = HUGE_VAL;
+        }
+        return added;
+    }
+
     void find_candidates(std::uint32_t e) {
         const auto [p, q] = edges_[e];
         const std::array<Vec3, 2> segment{soup_.position(p), soup_.position(q)};
         Vec3 low{}, high{};
         for (std::size_t k = 0; k < 3; ++k) std::tie(low[k], high[k]) = std::minmax({segment[0][k], segment[1][k]});
         std::vector<std::uint32_t> ring;  // the vertices of the triangles around the edge
+        std::vector<Group> groups;
         soup_.tree().visit_triangles(soup_.tree().box(low, high, near_), [&](std::size_t i) {
             const auto t = static_cast<std::uint32_t>(i);
             const std::uint32_t group = soup_.group(t);
@@ -159,19 +179,29 @@ private:
                 if (ring.empty()) ring = ring_around(e);
                 if (has_any_of(corners, ring)) return;
             }
-            const Closest closest = closest_points(segment, soup_.corners(t));
-            if (closest.distance >= near_) return;
-            Candidate* known = candidate(e, group);
-            if (known == nullptr) known = &candidates_[e].emplace_back(Candidate{group, t, closest});
-            else if (closest.distance < known->closest.distance) std::tie(known->triangle, known->closest) = std::tie(t, closest);
-            if (closest.distance == 0 && !known->touches) known->touches = touches(e, t);
+            Candidate here{group, t, closest_points(segment, soup_.corners(t)), true};
+            const double distance = here.closest.distance;
+            if (distance >= near_) return;
+            Group& known = group_in(groups, group);
+            if (distance == 0) {
+                known.touches = known.touches || touches(e, t);
+                here.closest.distance = soup_.rounding(here.closest.on_first);
+                known.rounded = here;
+                return;
+            }
+            if (distance < known.closest.closest.distance) known.closest = here;
+            if (distance < known.smallest.closest.distance && is_smallest(e, here)) known.smallest = here;
         });
-        // Where they touch or cross, it is no near miss; what only rounding brings together is one.
-        std::erase_if(candidates_[e], [](const Candidate& c) { return c.touches; });
-        for (Candidate& c : candidates_[e]) {
-            if (c.closest.distance == 0) c.closest.distance = soup_.rounding(c.closest.on_first);
+        for (Group& g : groups) {
+            if (!g.touches && g.rounded.closest.distance < near_ && !meets_beside(e, g.rounded)) {
+                candidates_[e].push_back(g.rounded);
+            } else if (g.smallest.closest.distance < near_) {
+                candidates_[e].push_back(g.smallest);
+            } else if (!g.touches) {
+                g.closest.is_miss = false;
+                candidates_[e].push_back(g.closest);
+            }
         }
-        for (Candidate& c : candidates_[e]) c.is_miss = is_smallest(e, c);
     }
 
     bool touches(std::uint32_t e, std::uint32_t triangle) const {
@@ -214,11 +244,17 @@ private:
     /// Neither end can be moved along its surface so that they come closer.
     bool is_smallest(std::uint32_t e, const Candidate& c) const {
         const Closest& closest = c.closest;
-        const std::uint32_t p = edges_[e][closest.first_part == 2 ? 1 : 0], q = edges_[e][closest.first_part == 1 ? 0 : 1];
-        if (!soup_.none_closer(closest.on_second, soup_.around_edge(p, q, groups_[e]), closest.distance)) return false;
-        if (!soup_.none_closer(closest.on_first, soup_.around_part(c.triangle, closest.second_part, c.group), closest.distance))
+        const auto [p, q] = edges_[e];
+        if (!soup_.none_ahead(closest.on_first, closest.first_part == 2 ? q : p, closest.first_part == 1 ? p : q, groups_[e],
+                              closest.apart))
             return false;
-        return c.group == groups_[e] || !soup_.common_vertex_within(2 * closest.distance, closest.on_first, groups_[e], c.group);
+        if (!soup_.none_ahead_at_part(closest.on_second, c.triangle, closest.second_part, times(-1, closest.apart))) return false;
+        return !meets_beside(e, c);
+    }
+
+    /// Whether both groups have a vertex in common as near by as they are apart.
+    bool meets_beside(std::uint32_t e, const Candidate& c) const {
+        return c.group != groups_[e] && soup_.common_vertex_within(2 * c.closest.distance, c.closest.on_first, groups_[e], c.group);
     }
 
     /// Part of the border of a hole: an edge, and the gap at its farther end.
@@ -228,12 +264,13 @@ private:
     };
 
     /// Follows the border from a vertex on another group for as long as it keeps near that group: when it comes back to the
-    /// group or ends, or has come far, the edges passed are the border of a hole.
+    /// group or ends, the edges passed are the border of a hole; else those up to where it has last left too slowly.
     void follow(std::uint32_t edge, std::size_t start, std::uint32_t group) {
         std::vector<Step> path;
+        std::size_t slowly = 0;  // so many edges of the path
         std::uint32_t from = edges_[edge][start];
         Candidate before{group, 0, {}};
-        double length = 0;
+        double way = 0;
         while (path.size() < edges_.size()) {
             const std::uint32_t to = edges_[edge][edges_[edge][0] == from ? 1 : 0];
             if (soup_.on_group(to, group)) {
@@ -241,23 +278,54 @@ private:
                 if (before.closest.distance > 0) path.push_back({edge, before});
                 return keep(path);
             }
-            Candidate here{group, 0, {}};
-            here.closest = soup_.from_group(soup_.position(to), group, near_, here.triangle);
+            const Vec3 step = minus(soup_.position(to), soup_.position(from));
+            const double length = std::sqrt(dot(step, step));
+            Candidate here = gap_at(soup_.position(to), group);
             if (here.closest.distance == 0) return;
             if (here.closest.distance >= near_) {
-                if (length > far_along * near_) keep(path);
-                return;
+                // On the way there it may have left slowly for as long as it was near.
+                const double last = near_ / slow - way;
+                if (last > 0 && last < length) here = gap_at(plus(soup_.position(from), times(last / length, step)), group);
+                if (here.closest.distance > 0 && here.closest.distance < near_ && runs_beside(edge, here.closest)) {
+                    path.push_back({edge, here});
+                    slowly = path.size();
+                }
+                break;
             }
-            const Vec3 step = minus(soup_.position(to), soup_.position(from));
-            length += std::sqrt(dot(step, step));
+            way += length;
             path.push_back({edge, here.closest.distance > before.closest.distance ? here : before});
+            if (here.closest.distance <= slow * way && runs_beside(edge, here.closest)) slowly = path.size();
             const std::vector<std::uint32_t> next = others(edge, to);
             if (next.empty()) return keep(path);
-            if (next.size() > 1) return;
+            if (next.size() > 1) break;
             edge = next.front();
             from = to;
             before = here;
         }
+        path.resize(slowly);
+        keep(path);
+    }
+
+    Candidate gap_at(const Vec3& point, std::uint32_t group) const {
+        Candidate gap{group, 0, {}};
+        gap.closest = soup_.from_group(point, group, near_, gap.triangle);
+        return gap;
+    }
+
+    /// Whether the surface leaves the other one across its border, more steeply than along it. Where a whole surface
+    /// leaves another one slowly, as beds do that wedge out, so does its border, which is no miss.
+    bool runs_beside(std::uint32_t edge, const Closest& gap) const {
+        const auto [p, q] = edges_[edge];
+        const Vec3 along = minus(soup_.position(q), soup_.position(p));
+        for (const std::uint32_t t : soup_.around_edge(p, q, groups_[edge])) {
+            for (const std::uint32_t v : soup_.triangle(t)) {
+                if (v == p || v == q) continue;
+                const Vec3 inward = across(minus(soup_.position(v), soup_.position(p)), along);
+                const double rise = -dot(inward, gap.apart) / std::sqrt(dot(inward, inward));
+                if (rise < std::abs(dot(along, gap.apart)) / std::sqrt(dot(along, along))) return false;
+            }
+        }
+        return true;
     }
 
     std::vector<std::uint32_t> others(std::uint32_t edge, std::uint32_t vertex) const {
@@ -268,10 +336,8 @@ private:
 
     /// Both ends of a border edge are on the group: the gap at its middle, 0 where the group has this edge, too.
     Candidate gap_over_chord(std::uint32_t from, std::uint32_t to, std::uint32_t group) const {
-        Candidate gap{group, 0, {}};
-        if (!soup_.around_edge(from, to, group).empty()) return gap;
-        const Vec3 middle = plus(soup_.position(from), times(0.5, minus(soup_.position(to), soup_.position(from))));
-        gap.closest = soup_.from_group(middle, group, near_, gap.triangle);
+        if (!soup_.around_edge(from, to, group).empty()) return {group, 0, {}};
+        Candidate gap = gap_at(plus(soup_.position(from), times(0.5, minus(soup_.position(to), soup_.position(from)))), group);
         if (gap.closest.distance >= near_) gap.closest.distance = 0;
         return gap;
     }

@@ -11,9 +11,9 @@
 
 namespace geomend {
 
-// What nearly touches, but does not. Surfaces that meet along a line are close to each other beside it, and that is no
-// miss: so a miss is a place where the distance between two surfaces is smallest, is not 0, and grows whichever way one
-// goes from there along either of them. A sound model has none unless it has a feature as small as `near`.
+// What nearly touches, but does not. Surfaces that meet along a line are close to each other beside it, and that is no miss: so
+// a miss is a place where the distance of two surfaces is smallest, less than `near` and not 0: whichever way one goes from
+// there, along either of them, it does not shrink. What is not told, because the surfaces are joined, is said at each function.
 
 /// A border that nearly meets a surface.
 struct NearMiss {
@@ -25,11 +25,15 @@ struct NearMiss {
 
 /// Border edges that nearly meet the triangles of another group, or others of their own (not the two rings of triangles
 /// around them). A miss is one of
-/// - a place where the distance is smallest, as above, with the border edges next to it, up to where the distance stops growing
-///   (edges with one end beyond `near` only where there are no others);
-/// - a run of edges, all of whose vertices are closer than `near`, from a vertex of the other group to another such vertex, to
-///   the end of the border, or for more than 10 `near`: a hole in a contact, or a strip narrower than `near`. Its edges are told
-///   with the distance at the end that is farther off.
+/// - an edge that has a place where the distance is smallest, as above, unless both groups have a vertex in common within
+///   twice the distance; with the border edges next to it, up to where the distance stops growing (edges with one end beyond `near`
+///   only where there are no others);
+/// - a hole in a contact: a run of edges, all of whose vertices are closer than `near`, from a vertex of the other group to
+///   another such vertex or to the end of the border;
+/// - a slow wedge: a run of edges from a vertex of the other group to the last place that is closer than `near` and than 1/20 of
+///   the way along the border up to there, where the surface leaves the other one more steeply across its border than along it.
+/// Edges of holes and wedges are told with the distance at the end that is farther off. So a border that leaves a surface at
+/// more than 3 degrees is no miss, nor is that of a bed that wedges out as a whole.
 /// At most one for each border edge and group of triangles: ascending by edge, then by group.
 /// \param groups the surface of each triangle; patches of one geological surface may share a group
 /// \param border_edges two vertex numbers each; \param border_groups the group of each, that of the triangle beside it
@@ -54,13 +58,13 @@ struct ClosePair {
     Vec3 on_a, on_b;                       ///< the two closest points
 };
 
-/// For each two groups the closest pair of triangles that share no vertex and do not meet, at a place where the distance is
-/// smallest, as above; ascending by group_a, then group_b. Left out are places within 2 `near` of a vertex that both groups
-/// have, and places where both lie on one third group: two contact lines on a fault are joined by the fault.
-/// The search starts from vertices that are closer to the other group than their neighbours are: where no vertex of either
-/// surface comes within `near` of the other although two edges do, that is not found.
-/// Parameters as for near_misses(). Cost: as the number of vertices, times the triangles within `near` of one: some microseconds
-/// each where `near` is three edges long.
+/// For each two groups the closest place where the distance is smallest, as above; ascending by group_a, then group_b. Left out
+/// are places that are joined: from where a way leads over both surfaces to where they meet or where a third group joins them
+/// (two contact lines on a fault), with never more than `near` between the two and no farther than 10 `near` from the place;
+/// and places within `near` of one that is left out. See leads_to_meeting().
+/// Parameters as for near_misses(). Cost: as the number of vertices, times the triangles within `near` of one, and some
+/// milliseconds for each place that is looked at: 20 microseconds for each vertex where `near` is three edges long, 1 where it is
+/// shorter than an edge.
 std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const std::uint32_t> groups, double near,
                                      const Monitor* monitor = nullptr);
 /// The same, with a tree of its own.

@@ -12,8 +12,6 @@ namespace geomend {
 
 namespace {
 
-bool has(const Triangle& t, std::uint32_t vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
-
 /// The first and the last corner of a part: the same one twice for a corner.
 std::array<std::uint32_t, 2> ends_of(const Triangle& t, unsigned part) {
     const auto first = static_cast<std::size_t>(std::countr_zero(part)), last = static_cast<std::size_t>(std::bit_width(part) - 1);
@@ -53,7 +51,7 @@ std::vector<std::uint32_t> SurfaceDistance::groups_around_part(std::uint32_t t, 
     const auto [p, q] = ends_of(tree_.triangle(t), part);
     std::vector<std::uint32_t> found;
     for (const std::uint32_t other : around_.at(p)) {
-        if (has(tree_.triangle(other), q)) found.push_back(groups_[other]);
+        if (has(other, q)) found.push_back(groups_[other]);
     }
     return found;
 }
@@ -61,14 +59,26 @@ std::vector<std::uint32_t> SurfaceDistance::groups_around_part(std::uint32_t t, 
 std::vector<std::uint32_t> SurfaceDistance::around_edge(std::uint32_t p, std::uint32_t q, std::uint32_t group) const {
     std::vector<std::uint32_t> found;
     for (const std::uint32_t t : around_.at(p)) {
-        if (groups_[t] == group && has(tree_.triangle(t), q)) found.push_back(t);
+        if (groups_[t] == group && has(t, q)) found.push_back(t);
     }
     return found;
 }
 
-bool SurfaceDistance::none_closer(const Vec3& point, std::span<const std::uint32_t> list, double distance) const {
-    const double least = distance - rounding(point);
-    return std::ranges::none_of(list, [&](std::uint32_t t) { return closest_points(point, corners(t)).distance < least; });
+bool SurfaceDistance::none_ahead(const Vec3& point, std::uint32_t p, std::uint32_t q, std::uint32_t group, const Vec3& direction) const {
+    const double slack = rounding(point) * std::sqrt(dot(direction, direction));
+    const auto is_ahead = [&](std::uint32_t v) {
+        const Vec3 d = minus(vertices_[v], point);
+        return v != p && v != q && dot(d, direction) > slack + 1e-15 * dot(d, d);
+    };
+    return std::ranges::none_of(around_.at(p), [&](std::uint32_t t) {
+        const Triangle& corners = tree_.triangle(t);
+        return groups_[t] == group && has(t, q) && std::ranges::any_of(corners, is_ahead);
+    });
+}
+
+bool SurfaceDistance::none_ahead_at_part(const Vec3& point, std::uint32_t t, unsigned part, const Vec3& direction) const {
+    const auto [p, q] = ends_of(tree_.triangle(t), part);
+    return part == 7 || none_ahead(point, p, q, groups_[t], direction);
 }
 
 Closest SurfaceDistance::from_group(const Vec3& point, std::uint32_t group, double near, std::uint32_t& triangle) const {

@@ -30,6 +30,11 @@ public:
         return {vertices_[v[0]], vertices_[v[1]], vertices_[v[2]]};
     }
 
+    /// Whether a triangle has a vertex.
+    bool has(std::uint32_t t, std::uint32_t vertex) const {
+        const Triangle& v = tree_.triangle(t);
+        return v[0] == vertex || v[1] == vertex || v[2] == vertex;
+    }
     bool on_group(std::uint32_t vertex, std::uint32_t group) const;
     /// The groups of the triangles around a vertex, ascending.
     std::vector<std::uint32_t> groups_at(std::uint32_t vertex) const;
@@ -42,8 +47,11 @@ public:
     /// The groups of all triangles around such a part.
     std::vector<std::uint32_t> groups_around_part(std::uint32_t t, unsigned part) const;
 
-    /// No triangle of a list comes closer to the point than `distance`, apart from rounding.
-    bool none_closer(const Vec3& point, std::span<const std::uint32_t> list, double distance) const;
+    /// From a point on an edge p, q (or on a vertex: p = q) no triangle of a group there leads ahead in a direction: none of their
+    /// other corners lies ahead of the point by more than rounding. \param direction across the edge, of any length but 0
+    bool none_ahead(const Vec3& point, std::uint32_t p, std::uint32_t q, std::uint32_t group, const Vec3& direction) const;
+    /// The same for a point on a part of a triangle (bits of corners as in Closest), and the triangle's group.
+    bool none_ahead_at_part(const Vec3& point, std::uint32_t t, unsigned part, const Vec3& direction) const;
 
     /// The point of a group that is closest to a point, and its triangle; distance HUGE_VAL
     /// where there is none within `near`.

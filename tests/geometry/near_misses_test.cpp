@@ -276,11 +276,13 @@ Planted plant(unsigned seed, double near, bool with_defect) {
     if (with_defect) {
         auto first = static_cast<std::uint32_t>(any(0, length)), count = static_cast<std::uint32_t>(any(1, length));
         count = std::min(count, length - first);
-        // A gap that opens towards the end of the border is one when it is long, else the beginning of a border that leaves.
-        const bool is_long = count > 10 * near + 1;
-        if (first == 0 && count + 1 < length && !is_long) first = 1;
-        if (first + count >= length && first > 0 && !is_long) count = length - 1 - first;
-        const double gap = any(0.1, 0.6) * near, slope = any(-0.03, 0.03) * near;
+        // A gap that opens towards the end of the border is one where it opens slowly, else the beginning of a border that leaves.
+        const double gap = any(0.1, 0.6) * near;
+        double slope = any(-0.03, 0.03) * near;
+        if (gap + slope * length < 0.03 * near) slope = 0;  // it must not pass through
+        const auto is_slow = [&] { return gap + std::max(0.0, slope * (count - 1)) <= 0.049 * count; };
+        if (first == 0 && count + 1 < length && !is_slow()) first = 1;
+        if (first + count >= length && first > 0 && !is_slow()) count = length - 1 - first;
         for (std::uint32_t i = first; i <= std::min(length, first + count); ++i) {
             Vec3& v = s.vertices[start + i];
             v[2] += gap + slope * (i - first);
@@ -312,6 +314,93 @@ TEST(NearMisses, PlantedGapsAreFoundAndSoundContactsAreNot) {
         }
         EXPECT_LE(f.smallest(), broken.largest_gap) << "seed " << seed;
     }
+}
+
+/// A horizon and an upright fault on it whose lower border leaves it after four edges and rises by `rise` with each of six more.
+Soup slow_wedge(double rise) {
+    Soup s;
+    s.add_sheet(20, 20, [](double i, double j) { return Vec3{i, j, 0}; });
+    s.add_sheet(10, 6, [&](double i, double j) { return Vec3{6, 5 + i, std::max(j, i > 4 && j < 1 ? rise * (i - 4) : 0.0)}; });
+    return welded(s);
+}
+
+TEST(NearMisses, AContactThatComesApartSlowlyIsToldBeforeTheEndOfTheBorder) {
+    for (const double near : {0.1, 0.3, 1.0}) {
+        for (const double rise : {0.01, 0.03, 0.049}) {
+            const Found f = search(slow_wedge(rise), near);
+            // Where the end of the border is farther off than near, the wedge is told up to there.
+            const auto edges = static_cast<std::size_t>(std::min(6.0, near / rise));
+            EXPECT_GE(f.misses.size(), edges) << "near " << near << ", rise " << rise;
+            EXPECT_LE(f.misses.size(), edges + 1);
+        }
+        EXPECT_TRUE(search(slow_wedge(0.06), near).misses.empty()) << "a wedge of more than 3 degrees";
+        EXPECT_TRUE(search(slow_wedge(0), near).misses.empty());
+    }
+}
+
+// The same wedge under edges of any length.
+TEST(NearMisses, ASlowWedgeIsToldWhateverTheLengthsOfTheEdges) {
+    for (const std::uint32_t pieces : {1u, 2u, 5u, 40u}) {
+        Soup s;
+        s.add_sheet(20, 20, [](double i, double j) { return Vec3{i, j, 0}; });
+        s.add_sheet(1 + pieces, 1, [&](double i, double j) {
+            return i == 0 ? Vec3{6, 5, 4 * j} : Vec3{6, 6 + 8 * (i - 1) / pieces, j > 0 ? 4 : 0.04 * 8 * (i - 1) / pieces};
+        });
+        const Found f = search(welded(s), 0.2);  // near for 5 of 8
+        double farthest = 0;
+        for (const NearMiss& m : f.misses) farthest = std::max(farthest, m.distance);
+        EXPECT_GE(farthest, pieces == 1 ? 0.15 : 0.2 * 0.75) << pieces;
+    }
+}
+
+// Beds that wedge out: the whole surface leaves the other one slowly, and its borders do.
+TEST(NearMisses, ASurfaceThatWedgesOutIsNone) {
+    for (const double degrees : {0.5, 1.0, 2.0, 2.8}) EXPECT_TRUE(search(wedge(degrees), 0.06).misses.empty()) << degrees;
+}
+
+/// Two flat sheets side by side in one plane, `gap` apart.
+Soup side_by_side(double gap) {
+    Soup s;
+    s.add_sheet(6, 6, [](double i, double j) { return Vec3{i, j, 0}; });
+    s.add_sheet(5, 7, [&](double i, double j) { return Vec3{6 + gap + i, 0.9 * j - 0.1, 0}; });
+    return s;
+}
+
+TEST(NearMisses, BordersThatNearlyMeetBordersAreToldForBoth) {
+    const Soup s = side_by_side(0.3);
+    const Found f = search(s, 0.5);
+    EXPECT_GE(f.vertices(0).size(), 7u);
+    EXPECT_GE(f.vertices(1).size(), 7u);
+    for (const NearMiss& m : f.misses) EXPECT_NEAR(m.distance, 0.3, 1e-12);
+    EXPECT_TRUE(search(s, 0.29).misses.empty());
+}
+
+TEST(NearMisses, ACornerThatNearlyMeetsALineIsTold) {
+    // A contact of two surfaces at x = 6, and the corner of a third one beside it.
+    Soup s = side_by_side(0);
+    s = welded(s);
+    const auto first = static_cast<std::uint32_t>(s.vertices.size());
+    s.vertices.insert(s.vertices.end(), {{6, 3.3, 0.2}, {6, 8, 5}, {7, 3, 5}});
+    s.triangles.push_back({first, first + 1, first + 2});
+    s.groups.push_back(2);
+    const Found f = search(s, 0.5);
+    std::map<std::uint32_t, int> groups;
+    for (const NearMiss& m : f.misses) {
+        if (f.borders.groups[m.border_edge] != 2) continue;
+        ++groups[s.groups[m.triangle]];
+        EXPECT_NEAR(m.distance, 0.2, 1e-12);
+    }
+    EXPECT_GE(groups[0] + groups[1], 2) << "both edges at the corner";
+}
+
+// One edge meets the surface in one place and nearly meets it in another.
+TEST(NearMisses, AnEdgeThatTouchesElsewhereIsToldAllTheSame) {
+    Soup s;
+    s.add_sheet(2, 1, [](double i, double j) { return Vec3{10 * i, 4 * j - 2, i == 1 ? -1.0 : i == 0 ? -0.2 : 0.5}; });
+    s.add_sheet(1, 1, [](double i, double j) { return Vec3{22 * i - 1, 0, 3 * j}; });
+    const Found f = search(s, 0.4);
+    EXPECT_EQ(f.vertices(1).size(), 2u);
+    EXPECT_NEAR(f.smallest(), 0.2, 1e-2);
 }
 
 TEST(NearMisses, OneBorderNearTwoSurfacesIsToldForEach) {
@@ -408,6 +497,45 @@ TEST(ClosestPairs, GoOnFromVerticesToWhereEdgesAreClosest) {
     EXPECT_NEAR(found[0].distance, 0.2, 1e-12);
     EXPECT_NEAR(found[0].on_a[0], 0, 1e-12);
     EXPECT_NEAR(found[0].on_a[1], 0, 1e-12);
+}
+
+TEST(ClosestPairs, BarsThatPassEachOtherAreFound) {
+    Soup s;  // long triangles with all vertices far away
+    s.vertices = {{-10, 0, 0}, {10, 0, 0}, {0, 1, -9}, {0, -10, 0.3}, {0, 10, 0.3}, {1, 0, 9}};
+    s.triangles = {{0, 1, 2}, {3, 4, 5}};
+    s.groups = {0, 1};
+    const auto found = pairs(s, 0.5);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].distance, 0.3, 1e-12);
+    EXPECT_NEAR(found[0].on_b[0], 0, 1e-12);
+    EXPECT_TRUE(pairs(s, 0.3).empty());
+}
+
+TEST(ClosestPairs, RidgesWithoutAVertexNearAreFound) {
+    for (const double gap : {0.01, 0.2, 0.49}) {
+        Soup s;
+        s.add_sheet(3, 2, [](double i, double j) { return Vec3{40 * i - 50, 20 * j - 20, j == 1 ? 0.0 : -10.0}; });
+        s.add_sheet(2, 3, [&](double i, double j) { return Vec3{20 * i - 20, 40 * j - 50, i == 1 ? gap : 10}; });
+        const auto found = pairs(s, 0.5);
+        ASSERT_EQ(found.size(), 1u);
+        EXPECT_NEAR(found[0].distance, gap, 1e-12);
+    }
+}
+
+TEST(ClosestPairs, AVertexThatNearlyPiercesIsFound) {
+    Soup s;
+    s.add_sheet(2, 2, [](double i, double j) { return Vec3{i, j, 0}; });
+    s.add_sheet(2, 2, [](double i, double j) { return Vec3{0.3 + i, 0.4 + j, i == 1 && j == 1 ? 0.05 : 3.0}; });
+    const auto found = pairs(s, 0.1);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_DOUBLE_EQ(found[0].distance, 0.05);
+}
+
+// Rough sheets that part along a line: beside it there are many places where the distance is smallest.
+TEST(ClosestPairs, BesideALineOfRoughSurfacesThereAreNone) {
+    for (const double degrees : {10.0, 20.0, 45.0}) {
+        for (const double near : {0.2, 0.5, 0.8}) EXPECT_TRUE(pairs(wedge(degrees, 0.08), near).empty()) << degrees << ' ' << near;
+    }
 }
 
 TEST(ClosestPairs, SurfacesThatCrossOrTouchAreNone) {
