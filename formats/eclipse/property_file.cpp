@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "formats/eclipse/findings.h"
 #include "formats/eclipse/grid_arrays.h"
 #include "formats/eclipse/read_egrid.h"
 
@@ -123,7 +122,7 @@ Result<void> PropertyGrids::find_companion(const std::vector<PropertyPart>& part
     const auto name = companion_name(file_.input, file_.formatted);
     if (!name) return {};
     const auto unused = [&](const std::string& why) {
-        findings.push_back(finding("F133", Severity::warning, "the grid '" + *name + "' is not used: " + why, {file_.input.name()}));
+        findings.push_back(make_finding("F133", Severity::warning, "the grid '" + *name + "' is not used: " + why, {file_.input.name()}));
     };
     const auto input = file_.input.neighbour(*name);
     if (!input) {

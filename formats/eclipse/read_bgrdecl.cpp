@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "formats/eclipse/cell_arrays.h"
-#include "formats/eclipse/findings.h"
 #include "formats/eclipse/grid_arrays.h"
 #include "formats/eclipse/kept_arrays.h"
 #include "formats/eclipse/read_egrid.h"
@@ -30,8 +29,8 @@ Result<void> take_spec(const ArrayFile& file, const Array& array, GridParts& par
 
 void tell_unknown(const ArrayFile& file, const std::vector<const Array*>& unknown, std::vector<Finding>& findings) {
     if (unknown.empty()) return;
-    Finding f = finding("F102", Severity::info, "arrays that are not of the grid are kept as they are:", place_of(file, *unknown.front()),
-                        unknown.size());
+    Finding f = make_finding("F102", Severity::info,
+                             "arrays that are not of the grid are kept as they are:", place_of(file, *unknown.front()), unknown.size());
     for (std::size_t i = 0; i < std::min<std::size_t>(100, unknown.size()); ++i) {
         f.message += ' ' + unknown[i]->name;
         f.entities.push_back({"array", unknown[i]->name});

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "formats/eclipse/cell_corners_grid.h"
-#include "formats/eclipse/findings.h"
 #include "formats/eclipse/grid_arrays.h"
 #include "formats/eclipse/kept_arrays.h"
 #include "formats/eclipse/read_egrid.h"
@@ -141,7 +140,7 @@ private:
         std::ranges::replace(grid.activity, absent, std::uint8_t{0});
         if (std::ranges::count(grid.activity, std::uint8_t{0}) == 0) grid.activity.clear();
         if (missing != 0) {
-            data_.findings.push_back(finding(
+            data_.findings.push_back(make_finding(
                 "F134", Severity::info, "cells are not in the file: they are inactive, and their corners are put between those around them",
                 where, missing));
             data_.findings.back().entities = {{"corner-point-grid", grid.info.name}};

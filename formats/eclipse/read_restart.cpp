@@ -5,7 +5,6 @@
 #include <set>
 
 #include "base/number_text.h"
-#include "formats/eclipse/findings.h"
 #include "formats/eclipse/grid_arrays.h"
 #include "formats/eclipse/property_file.h"
 #include "formats/eclipse/read_egrid.h"
@@ -92,8 +91,8 @@ private:
             auto read = read_init(*input, options_);
             if (!read) {
                 if (read.why().kind == FailureKind::cancelled) return read.why();
-                grids_.findings.push_back(
-                    finding("F133", Severity::warning, "'" + name + "' is not used: " + read.why().error.message, {file_.input.name()}));
+                grids_.findings.push_back(make_finding("F133", Severity::warning, "'" + name + "' is not used: " + read.why().error.message,
+                                                       {file_.input.name()}));
                 return {};
             }
             for (Object& object : read->objects) {

@@ -294,7 +294,7 @@ private:
                 losses_.push_back({LossClass::substance, name, "property of texts", "MSH holds numbers only", 1});
                 continue;
             }
-            Attribute merged = describe(*shares.front().attribute);
+            Attribute merged = without_values(*shares.front().attribute);
             merged.location = on_points ? AttributeLocation::point : AttributeLocation::cell;
             std::size_t covered = 0;
             for (const Share& share : shares) {
@@ -307,22 +307,6 @@ private:
             merged.values = std::move(values);
             out_.mesh.info.attributes.push_back(std::move(merged));
         }
-    }
-
-    static Attribute describe(const Attribute& a) {
-        Attribute copy;
-        copy.name = a.name;
-        copy.components = a.components;
-        copy.unit = a.unit;
-        copy.kind = a.kind;
-        copy.property_class = a.property_class;
-        copy.no_data = a.no_data;
-        copy.legal_min = a.legal_min;
-        copy.legal_max = a.legal_max;
-        copy.component_names = a.component_names;
-        copy.code_names = a.code_names;
-        copy.annotations = a.annotations;
-        return copy;
     }
 
     void fill(std::vector<double>& values, const Share& share, const Attribute& merged) {

@@ -14,16 +14,6 @@ namespace geomend::roff {
 
 namespace {
 
-Finding finding(const char* code, Severity severity, std::string message, Location where, std::uint64_t count) {
-    Finding f;
-    f.code = code;
-    f.severity = severity;
-    f.message = std::move(message);
-    f.where = std::move(where);
-    f.count = count;
-    return f;
-}
-
 std::string stem_of(const Input& input) {
     std::string name = input.base_name();
     if (const std::size_t dot = name.rfind('.'); dot != std::string::npos && dot > 0) name.resize(dot);
@@ -326,9 +316,9 @@ private:
                 ++count;
             }
             if (count == 0) return;
-            data_.findings.push_back(finding("F120", Severity::warning,
-                                             "values of '" + a.name + "' that are not finite are taken as missing",
-                                             place_at(doc_, data.place), count));
+            data_.findings.push_back(make_finding("F120", Severity::warning,
+                                                  "values of '" + a.name + "' that are not finite are taken as missing",
+                                                  place_at(doc_, data.place), count));
             data_.findings.back().entities = {{"attribute", a.name}};
         }
     }
@@ -362,9 +352,9 @@ private:
         for (std::size_t v = 2; v < grid_.pillars.size(); v += 3) grid_.pillars[v] = 0.0 - grid_.pillars[v];
         crs.z_positive = ZPositive::elevation;
         data_.findings.push_back(
-            finding("F132", Severity::warning,
-                    "the corner depths are negative and decrease downwards: they are elevations, and were turned into depths",
-                    place_at(doc_, find_tag(doc_, "zvalues")->place), 1));
+            make_finding("F132", Severity::warning,
+                         "the corner depths are negative and decrease downwards: they are elevations, and were turned into depths",
+                         place_at(doc_, find_tag(doc_, "zvalues")->place), 1));
     }
 
     const Document& doc_;

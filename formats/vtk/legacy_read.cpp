@@ -84,16 +84,6 @@ std::uint64_t non_finite_values(const AttributeValues& values) {
     return 0;
 }
 
-Finding finding(std::string_view code, Severity severity, std::string message, Location where, std::uint64_t count) {
-    Finding f;
-    f.code = code;
-    f.severity = severity;
-    f.message = std::move(message);
-    f.where = std::move(where);
-    f.count = count;
-    return f;
-}
-
 class Mapper {
 public:
     Mapper(LegacyScanner& scanner, LegacyFile& file) : s_(scanner), file_(file) {}
@@ -139,9 +129,9 @@ bool Mapper::sections(ObjectInfo& info, std::uint64_t points, std::uint64_t cell
             info.attributes.push_back(
                 attribute_of(std::move(array), section.of_cells ? AttributeLocation::cell : AttributeLocation::point));
             if (strange != 0)
-                findings_.push_back(finding("F120", Severity::warning,
-                                            "attribute '" + info.attributes.back().name + "' has values that are not finite",
-                                            s_.location(at), strange));
+                findings_.push_back(make_finding("F120", Severity::warning,
+                                                 "attribute '" + info.attributes.back().name + "' has values that are not finite",
+                                                 s_.location(at), strange));
         }
     }
     return true;
@@ -347,7 +337,7 @@ bool Mapper::unstructured(CellMesh& mesh) {
     }
     if (builder.empty_cells() != 0)
         findings_.push_back(
-            finding("F119", Severity::warning, "empty cells are left out", s_.location(file_.types_offset), builder.empty_cells()));
+            make_finding("F119", Severity::warning, "empty cells are left out", s_.location(file_.types_offset), builder.empty_cells()));
     const std::uint64_t point_count = file_.points.size();
     mesh.points = std::move(file_.points);
     note_points(mesh.info, "UnstructuredGrid");
@@ -457,7 +447,7 @@ bool Mapper::run(Dataset& data) {
         fields(none);
         for (const Attribute& a : none.attributes)
             add_loss(data.losses, {LossClass::substance, a.name, "array '" + a.name + "'", "it stands on no geometry"});
-        findings_.push_back(finding("F119", Severity::warning, "the file holds arrays only, and no geometry", s_.location(0), 1));
+        findings_.push_back(make_finding("F119", Severity::warning, "the file holds arrays only, and no geometry", s_.location(0), 1));
     } else {
         ObjectInfo& info = info_of(object);
         fields(info);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,5 +48,8 @@ struct Finding {
     std::vector<std::vector<Vec3>> polylines;
     std::vector<std::pair<std::string, double>> measures;
 };
+
+/// A finding of no entity yet; `count` says how often.
+Finding make_finding(std::string_view code, Severity severity, std::string message, Location where = {}, std::uint64_t count = 1);
 
 }  // namespace geomend

@@ -14,6 +14,16 @@ std::string to_string(const Location& where) {
     return text;
 }
 
+Finding make_finding(std::string_view code, Severity severity, std::string message, Location where, std::uint64_t count) {
+    Finding f;
+    f.code = code;
+    f.severity = severity;
+    f.message = std::move(message);
+    f.where = std::move(where);
+    f.count = count;
+    return f;
+}
+
 Failure failure(FailureKind kind, std::string code, Location where, std::string message) {
     Failure f;
     f.kind = kind;

@@ -36,6 +36,23 @@ bool is_no_data(const Attribute& a, double value) {
     return value == *a.no_data || static_cast<float>(value) == static_cast<float>(*a.no_data);
 }
 
+Attribute without_values(const Attribute& a) {
+    Attribute copy;
+    copy.name = a.name;
+    copy.location = a.location;
+    copy.components = a.components;
+    copy.unit = a.unit;
+    copy.kind = a.kind;
+    copy.property_class = a.property_class;
+    copy.no_data = a.no_data;
+    copy.legal_min = a.legal_min;
+    copy.legal_max = a.legal_max;
+    copy.component_names = a.component_names;
+    copy.code_names = a.code_names;
+    copy.annotations = a.annotations;
+    return copy;
+}
+
 const Attribute* find_attribute(const std::vector<Attribute>& all, const std::string& name, AttributeLocation location) {
     for (const Attribute& a : all) {
         if (a.name == name && a.location == location) return &a;

@@ -52,6 +52,9 @@ const char* to_string(AttributeLocation location);
 /// programs print no-data through single precision.
 bool is_no_data(const Attribute& a, double value);
 
+/// All that describes an attribute, without its values.
+Attribute without_values(const Attribute& a);
+
 /// The attribute of a name at a location, or nullptr.
 const Attribute* find_attribute(const std::vector<Attribute>& all, const std::string& name, AttributeLocation location);
 

@@ -9,23 +9,6 @@ namespace geomend::topology {
 
 namespace {
 
-Attribute without_values(const Attribute& a) {
-    Attribute copy;
-    copy.name = a.name;
-    copy.location = a.location;
-    copy.components = a.components;
-    copy.unit = a.unit;
-    copy.kind = a.kind;
-    copy.property_class = a.property_class;
-    copy.no_data = a.no_data;
-    copy.legal_min = a.legal_min;
-    copy.legal_max = a.legal_max;
-    copy.component_names = a.component_names;
-    copy.code_names = a.code_names;
-    copy.annotations = a.annotations;
-    return copy;
-}
-
 struct Range {
     std::size_t first, last;
 };
