@@ -247,5 +247,36 @@ TEST(GridModels, OfManyRandomGridsAreSound) {
     }
 }
 
+// Depths from a few whole numbers: layers without thickness, gaps that close, faces that coincide.
+TEST(GridModels, OfManyGridsWithPinchesAndGapsClose) {
+    std::uint64_t state = 7;
+    const auto below = [&](std::uint32_t n) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return static_cast<std::uint32_t>((state >> 33) % n);
+    };
+    for (int round = 0; round < 60; ++round) {
+        SCOPED_TRACE(round);
+        CornerPointGrid grid = brick_grid(5, 5, 4);
+        const double lean = round % 2 == 0 ? 0 : 20;
+        for (std::uint32_t p = 0; p < 36; ++p) pillar(grid, p % 6, p / 6)[3] += lean * std::sin(p);
+        for (std::uint32_t column = 0; column < 100; ++column) {
+            const std::uint32_t i = column / 4 % 5, j = column / 20;
+            double depth = 1000 + below(4);
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                depth += below(6) == 0 ? 1 : 0;
+                corner(grid, i, j, k, column % 4) = depth;
+                depth += below(3);
+                corner(grid, i, j, k, column % 4 + 4) = depth;
+            }
+        }
+        grid.activity.assign(grid.cell_count(), 1);
+        for (int n = 0; n < 10; ++n) grid.activity[below(100)] = 0;
+        for (const Finding& f : findings_of(grid, as_brep("", {2}))) ASSERT_NE(f.code[0], 'B') << f.code << ' ' << f.message;
+        const Codes of_model = codes_of_model(grid, {"", {2}});
+        for (const char* code : {"B03 error", "B04 error", "B05 error", "B07 error", "M05 error"})
+            ASSERT_FALSE(of_model.contains(code)) << code;
+    }
+}
+
 }  // namespace
 }  // namespace geomend
