@@ -308,6 +308,12 @@ Result<void> check_grid_model(const GridScope& scope, const grid::ModelRequest& 
     }
     grid::ModelSources sources;
     auto dataset = grid::boundary_model(scope.grid(), request, &sources);
+    if (!dataset && dataset.why().kind == FailureKind::usage) {  // of many grids some have other attributes and layers
+        Finding f = grid_finding(scope, "F162", dataset.why().error.message + ": the boundary representation was not judged");
+        f.severity = Severity::warning;
+        findings.push_back(std::move(f));
+        return {};
+    }
     if (!dataset) return std::move(dataset).why();
     if (scope.stopped() || dataset->objects.empty()) return {};
     // Points are shared as they are: layers thinner than the tolerance stay layers.

@@ -145,7 +145,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F154", info, "coordinates were given a local origin", ""},
     CodeInfo{"F160", info, "no check exists yet for objects of this kind", ""},
     CodeInfo{"F161", info, "a grid has no geometry: only its records were checked", "give the file that holds COORD and ZCORN"},
-    CodeInfo{"F162", info, "whether the regions of a grid close was not judged: cells overlap or are folded", "mend those cells first"},
+    CodeInfo{"F162", info, "the boundary representation of a grid was not judged, or not wholly", ""},
     // Geology.
     CodeInfo{"G01", warning, "a name is used for more than one region", "rename one of them"},
     CodeInfo{"G02", warning, "a layer or a fault block has no region", "correct its list"},

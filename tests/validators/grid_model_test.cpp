@@ -217,8 +217,8 @@ TEST(GridModels, OfRegionsTellOfScatteredOnesOnce) {
     block = {1, 2, 1, 1, 2};
     EXPECT_EQ(codes_of(findings_of(grid, as_brep("BLOCK"))), Codes{"C23 info"});
     EXPECT_EQ(codes_of(grid), Codes{}) << "an attribute that nobody asked for";
-    EXPECT_FALSE(validators::check(grid, as_brep("NONE")));
-    EXPECT_FALSE(validators::check(grid, as_brep("", {1}))) << "there is nothing below the only layer";
+    EXPECT_EQ(codes_of(findings_of(grid, as_brep("NONE"))), Codes{"F162 warning"});
+    EXPECT_EQ(codes_of(findings_of(grid, as_brep("", {1}))), Codes{"F162 warning"}) << "there is nothing below the only layer";
 }
 
 TEST(GridModels, OfManyRandomGridsAreSound) {
