@@ -247,6 +247,74 @@ TEST(GridModels, OfManyRandomGridsAreSound) {
     }
 }
 
+// The outline of a column of a ribbon, round.
+std::array<std::array<double, 2>, 4> outline_of(CornerPointGrid& grid, std::uint32_t i) {
+    const auto at = [&](std::uint32_t a, std::uint32_t j) { return std::array{pillar(grid, a, j)[0], pillar(grid, a, j)[1]}; };
+    return {at(i, 0), at(i + 1, 0), at(i + 1, 1), at(i, 1)};
+}
+
+// How far two convex outlines reach into each other, along the direction in which that is least; negative: they are apart.
+double reach_of(const std::array<std::array<double, 2>, 4>& a, const std::array<std::array<double, 2>, 4>& b) {
+    double least = HUGE_VAL;
+    for (const auto* outline : {&a, &b}) {
+        for (std::size_t n = 0; n < 4; ++n) {
+            const auto &p = (*outline)[n], &q = (*outline)[(n + 1) % 4];
+            const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
+            const std::array normal{(p[1] - q[1]) / length, (q[0] - p[0]) / length};
+            std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+            for (const auto* shape : {&a, &b}) {
+                const std::size_t which = shape == &a ? 0 : 1;
+                for (const auto& corner : *shape) {
+                    const double along = corner[0] * normal[0] + corner[1] * normal[1];
+                    low[which] = std::min(low[which], along);
+                    high[which] = std::max(high[which], along);
+                }
+            }
+            least = std::min({least, high[0] - low[1], high[1] - low[0]});
+        }
+    }
+    return least;
+}
+
+// Ribbons that wander about, and run into themselves or not: the columns told are those whose outlines overlap, by the
+// separating directions of convex outlines.
+TEST(GridModels, C27TellsJustTheColumnsThatOverlap) {
+    std::uint64_t state = 5;
+    const auto random = [&] {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return double(state >> 40) / double(1u << 24);
+    };
+    int folded = 0, free = 0;
+    for (int round = 0; round < 300; ++round) {
+        SCOPED_TRACE(round);
+        std::vector<std::array<double, 2>> line{{0, 0}};
+        double way = 0, turn = 1.6 * (random() - 0.5);
+        for (int n = 0; n < 14; ++n) {
+            way += 0.7 * turn;
+            turn += 0.3 * (random() - 0.5);
+            const double step = 120 + 60 * random();
+            line.push_back({line.back()[0] + step * std::cos(way), line.back()[1] + step * std::sin(way)});
+        }
+        CornerPointGrid grid = ribbon(line);
+        std::set<std::int64_t> expected;
+        bool close = false;
+        for (std::uint32_t p = 0; p < 14; ++p) {
+            for (std::uint32_t q = p + 2; q < 14; ++q) {
+                const double reach = reach_of(outline_of(grid, p), outline_of(grid, q));
+                close = close || std::abs(reach) < 0.01;
+                if (reach > 0) expected.insert({p + 1, q + 1});
+            }
+        }
+        if (close) continue;
+        ++(expected.empty() ? free : folded);
+        std::set<std::int64_t> columns;
+        for (const Cell& cell : cells_of(find(findings_of(grid, as_brep()), "C27", Severity::error))) columns.insert(cell[0]);
+        ASSERT_EQ(columns, expected);
+    }
+    EXPECT_GT(folded, 30);
+    EXPECT_GT(free, 30);
+}
+
 // Depths from a few whole numbers: layers without thickness, gaps that close, faces that coincide.
 TEST(GridModels, OfManyGridsWithPinchesAndGapsClose) {
     std::uint64_t state = 7;
