@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
 
 #include "base/disjoint_sets.h"
@@ -18,7 +19,7 @@ namespace geomend::validators {
 namespace {
 
 // Regions that are places. Those of rock (SATNUM, ROCKNUM, IMBNUM, OPERNUM) are kinds, which may lie anywhere.
-constexpr std::array places = {"EQLNUM", "PVTNUM", "FLUXNUM", "MULTNUM"};
+constexpr std::array place_arrays = {"EQLNUM", "PVTNUM", "FLUXNUM", "MULTNUM"};
 // Regions that simulators number from 1.
 constexpr std::array numbered = {"SATNUM", "PVTNUM", "EQLNUM", "ROCKNUM", "IMBNUM"};
 
@@ -36,11 +37,6 @@ std::string region_name(const std::string& array, double number) { return array 
 
 constexpr double no_region = -std::numeric_limits<double>::infinity();
 
-/// A region within one part of the grid.
-struct Place {
-    std::uint32_t parts = 0, largest = 0, cells_of_largest = 0;
-};
-
 // Calls body(a, b) for present cells that are neighbours by (i,j,k) in one layer, whatever the throw between them: a fault does
 // not tear a region.
 template <class Body>
@@ -53,65 +49,90 @@ void each_side_by_side(const CornerPointGrid& grid, const std::vector<std::uint8
     }
 }
 
-void find_scattered(const GridScope& scope, const Attribute& regions, const std::vector<std::uint32_t>& part_of_grid,
-                    std::vector<Finding>& findings) {
+/// The cells of one array, by the parts in which those of one number hang together.
+struct RegionParts {
+    const Attribute* regions = nullptr;
+    std::vector<double> number;        ///< per cell, or no_region
+    std::vector<std::uint32_t> part;   ///< per cell: the first cell of its part
+    std::vector<std::uint32_t> first;  ///< the first cells of all parts of present cells with a number; they ascend
+    bool scattered = false;            ///< a number has several parts
+};
+
+RegionParts parts_of(const GridScope& scope, const Attribute& regions) {
     const auto& grid = scope.grid();
     const auto& present = scope.connections().present;
-    std::vector<double> number(grid.cell_count());
-    for (std::size_t cell = 0; cell < number.size(); ++cell) {
+    RegionParts parts;
+    parts.regions = &regions;
+    parts.number.resize(grid.cell_count());
+    for (std::size_t cell = 0; cell < parts.number.size(); ++cell) {
         const double value = value_as_double(regions, cell);
-        number[cell] = std::isfinite(value) && !is_no_data(regions, value) ? value : no_region;
+        parts.number[cell] = std::isfinite(value) && !is_no_data(regions, value) ? value : no_region;
     }
     DisjointSets joined(grid.cell_count());
     const auto join_alike = [&](std::size_t a, std::size_t b) {
-        if (number[a] == number[b]) joined.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+        if (parts.number[a] == parts.number[b]) joined.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     };
     each_touch(scope, [&](std::size_t a, std::size_t b, bool) { join_alike(a, b); });
     each_side_by_side(grid, present, join_alike);
-    const std::vector<std::uint32_t> part = std::move(joined).roots();
-    std::vector<std::uint32_t> size(part.size(), 0);
-    for (std::size_t cell = 0; cell < part.size(); ++cell) size[part[cell]] += present[cell] != 0 ? 1 : 0;
-    // What lies in different parts of the grid (C17) cannot hang together.
-    std::map<std::pair<double, std::uint32_t>, Place> all;
-    for (std::uint32_t cell = 0; cell < part.size(); ++cell) {
-        if (size[cell] == 0 || part[cell] != cell || number[cell] == no_region) continue;
-        Place& place = all[{number[cell], part_of_grid[cell]}];
-        ++place.parts;
-        if (size[cell] > place.cells_of_largest) {
-            place.largest = cell;
-            place.cells_of_largest = size[cell];
-        }
+    parts.part = std::move(joined).roots();
+    std::set<double> numbers;
+    for (std::uint32_t cell = 0; cell < parts.part.size(); ++cell) {  // only present cells are joined
+        if (present[cell] == 0 || parts.part[cell] != cell || parts.number[cell] == no_region) continue;
+        parts.first.push_back(cell);
+        parts.scattered = !numbers.insert(parts.number[cell]).second || parts.scattered;
     }
-    std::vector<std::uint8_t> at_home(part.size(), 0);  // per part, at its first cell
-    for (const auto& [key, place] : all) at_home[place.largest] = 1;
+    return parts;
+}
+
+std::vector<std::uint32_t> parts_of_grid(const GridScope& scope) {
+    DisjointSets joined(scope.grid().cell_count());
+    each_touch(scope,
+               [&](std::size_t a, std::size_t b, bool) { joined.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)); });
+    return std::move(joined).roots();
+}
+
+/// "3 into 2, 7 into 4"
+std::string list_regions(const std::map<double, std::uint32_t>& parts_of_region) {
+    std::string list;
+    for (const auto& [region, parts] : parts_of_region) {
+        if (!list.empty()) list += ", ";
+        if (list.size() > 100) return list + "...";
+        list += number_text(region) + " into " + std::to_string(parts);
+    }
+    return list;
+}
+
+void tell_scattered(const GridScope& scope, const RegionParts& parts, const std::vector<std::uint32_t>& part_of_grid,
+                    std::vector<Finding>& findings) {
+    std::vector<std::uint32_t> size(parts.part.size(), 0);
+    for (const std::uint32_t part : parts.part) ++size[part];
+    // What lies in different parts of the grid (C17) cannot hang together: each such part is a place of its own.
+    std::map<std::pair<double, std::uint32_t>, std::vector<std::uint32_t>> places;
+    for (const std::uint32_t cell : parts.first) places[{parts.number[cell], part_of_grid[cell]}].push_back(cell);
+    std::vector<std::uint8_t> astray(parts.part.size(), 0);  // at the first cells of parts
+    std::map<double, std::uint32_t> parts_of_region;
+    std::set<double> regions;
+    for (const auto& [place, firsts] : places) {
+        regions.insert(place.first);
+        if (firsts.size() < 2) continue;
+        parts_of_region[place.first] += static_cast<std::uint32_t>(firsts.size());
+        for (const std::uint32_t cell : firsts) astray[cell] = 1;
+        astray[*std::ranges::max_element(firsts, {}, [&](std::uint32_t cell) { return size[cell]; })] = 0;
+    }
     FoundCells found;
-    for (std::uint32_t cell = 0; cell < part.size(); ++cell) {
-        if (present[cell] != 0 && number[cell] != no_region && at_home[part[cell]] == 0) found.add(cell, 0);
+    for (std::size_t cell = 0; cell < parts.part.size(); ++cell) {
+        if (astray[parts.part[cell]] != 0) found.add(cell, 0);
     }
     if (found.count == 0) return;
-    std::map<double, std::uint32_t> parts_of_region;
-    std::uint64_t regions_in_all = 0;
-    for (auto place = all.begin(); place != all.end(); ++place) {
-        if (place == all.begin() || std::prev(place)->first.first != place->first.first) ++regions_in_all;
-        if (place->second.parts > 1) parts_of_region[place->first.first] += place->second.parts;
-    }
-    std::string which;
-    for (const auto& [region, parts] : parts_of_region) {
-        if (!which.empty()) which += ", ";
-        if (which.size() > 100) {
-            which += "...";
-            break;
-        }
-        which += number_text(region) + " into " + std::to_string(parts);
-    }
+    const std::string& name = parts.regions->name;
     Finding f = cells_finding(scope, "C23",
-                              std::to_string(parts_of_region.size()) + " of " + counted(regions_in_all, "region", "regions") + " of " +
-                                  regions.name + (parts_of_region.size() == 1 ? " falls" : " fall") +
-                                  " into parts that are no neighbours (region " + which + "): " + counted(found.count, "cell", "cells") +
-                                  " outside of the largest parts, which are listed",
+                              std::to_string(parts_of_region.size()) + " of " + counted(regions.size(), "region", "regions") + " of " +
+                                  name + (parts_of_region.size() == 1 ? " falls" : " fall") +
+                                  " into parts that are no neighbours (region " + list_regions(parts_of_region) +
+                                  "): " + counted(found.count, "cell", "cells") + " outside of the largest parts, which are listed",
                               found);
-    for (const auto& [region, parts] : parts_of_region) {
-        if (f.entities.size() <= listed_elements) f.entities.push_back({"region", region_name(regions.name, region)});
+    for (const auto& [region, count] : parts_of_region) {
+        if (f.entities.size() <= listed_elements) f.entities.push_back({"region", region_name(name, region)});
     }
     f.measures = {{"regions", static_cast<double>(parts_of_region.size())}};
     findings.push_back(std::move(f));
@@ -122,18 +143,23 @@ void find_scattered(const GridScope& scope, const Attribute& regions, const std:
 void check_scattered_regions(const GridScope& scope, std::vector<Finding>& findings) {
     const auto& grid = scope.grid();
     if (!fits_in_32_bits(grid)) return;
-    std::vector<std::uint32_t> part_of_grid;
+    std::vector<const Attribute*> arrays;
     for (const Attribute& a : grid.info.attributes) {
-        const bool is_place = is_one_of(places, a.name) || is_in_place(a.name) || a.name == scope.asked_regions();
-        if (!is_of_cells(grid, a) || !is_place || scope.stopped()) continue;
-        if (part_of_grid.empty()) {
-            DisjointSets joined(grid.cell_count());
-            each_touch(scope, [&](std::size_t c, std::size_t d, bool) {
-                joined.join(static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(d));
-            });
-            part_of_grid = std::move(joined).roots();
-        }
-        find_scattered(scope, a, part_of_grid, findings);
+        const bool is_place = is_one_of(place_arrays, a.name) || is_in_place(a.name) || a.name == scope.asked_regions();
+        if (is_of_cells(grid, a) && is_place) arrays.push_back(&a);
+    }
+    if (arrays.empty()) return;
+    scope.connections();  // before threads ask for them
+    std::vector<RegionParts> parts(arrays.size());
+    parallel_for_each_index(arrays.size(), [&](std::size_t n) {
+        if (scope.stopped()) return;
+        RegionParts of_array = parts_of(scope, *arrays[n]);
+        if (of_array.scattered) parts[n] = std::move(of_array);
+    });
+    if (std::ranges::none_of(parts, &RegionParts::scattered)) return;
+    const std::vector<std::uint32_t> part_of_grid = parts_of_grid(scope);
+    for (const RegionParts& of_array : parts) {
+        if (of_array.scattered) tell_scattered(scope, of_array, part_of_grid, findings);
     }
 }
 

@@ -166,10 +166,20 @@ bool cover_each_other(const GridModel& grid, std::uint32_t a, std::uint32_t b) {
            dot(normal_of(model, model.triangles()[a]), normal_of(model, model.triangles()[b])) > 0;
 }
 
+double length_of(const std::array<Vec3, 2>& segment) {
+    const Vec3 d = minus(segment[1], segment[0]);
+    return std::sqrt(dot(d, d));
+}
+
+std::array<Vec3, 2> longest_edge(const ModelScope& model, const std::array<std::uint32_t, 3>& t) {
+    const auto& v = model.brep().vertices;
+    std::array<std::array<Vec3, 2>, 3> edges{{{v[t[0]], v[t[1]]}, {v[t[1]], v[t[2]]}, {v[t[2]], v[t[0]]}}};
+    return *std::ranges::max_element(edges, {}, length_of);
+}
+
 /// Triangles with the same three vertices: intersections() is about what triangles do not share.
-void find_repeats(const GridModel& grid, Crossings& apart) {
+void find_repeats(const GridScope& scope, const GridModel& grid, Crossings& apart) {
     const auto triangles = grid.model().triangles();
-    const auto& v = grid.model().brep().vertices;
     std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> sorted(triangles.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         sorted[t] = {triangles[t], t};
@@ -179,8 +189,9 @@ void find_repeats(const GridModel& grid, Crossings& apart) {
     for (std::size_t i = 0; i < sorted.size(); ++i) {
         for (std::size_t j = i + 1; j < sorted.size() && sorted[j].first == sorted[i].first; ++j) {
             const std::uint32_t a = sorted[i].second, b = sorted[j].second;
-            if (!cover_each_other(grid, a, b)) continue;
-            apart.add(grid.side_of_triangle(a), grid.side_of_triangle(b), 0, {v[triangles[a][0]], v[triangles[a][1]]});
+            const auto edge = longest_edge(grid.model(), triangles[a]);
+            if (length_of(edge) > scope.tolerance() && cover_each_other(grid, a, b))
+                apart.add(grid.side_of_triangle(a), grid.side_of_triangle(b), 0, edge);
         }
     }
 }
@@ -195,11 +206,12 @@ std::array<Crossings, 2> find_crossings(const GridScope& scope, const GridModel&
             const auto &one = model.triangles()[pair.a], &other = model.triangles()[pair.b];
             const double depth = std::min(depth_through(model, one, other), depth_through(model, other, one));
             if (depth > scope.tolerance()) (grid.are_neighbours(a, b) ? near : apart).add(a, b, depth, pair.how.segment);
-        } else if (pair.how.kind == Meeting::overlap && cover_each_other(grid, pair.a, pair.b)) {
+        } else if (pair.how.kind == Meeting::overlap && length_of(pair.how.segment) > scope.tolerance() &&
+                   cover_each_other(grid, pair.a, pair.b)) {
             apart.add(a, b, 0, pair.how.segment);
         }
     }
-    find_repeats(grid, apart);
+    find_repeats(scope, grid, apart);
     return {std::move(apart), std::move(near)};
 }
 
@@ -308,6 +320,12 @@ Result<void> check_grid_model(const GridScope& scope, const grid::ModelRequest& 
     }
     grid::ModelSources sources;
     auto dataset = grid::boundary_model(scope.grid(), request, &sources);
+    if (!dataset && dataset.why().kind == FailureKind::usage) {  // of many grids some have other attributes and layers
+        Finding f = grid_finding(scope, "F162", dataset.why().error.message + ": the boundary representation was not judged");
+        f.severity = Severity::warning;
+        findings.push_back(std::move(f));
+        return {};
+    }
     if (!dataset) return std::move(dataset).why();
     if (scope.stopped() || dataset->objects.empty()) return {};
     // Points are shared as they are: layers thinner than the tolerance stay layers.

@@ -8,7 +8,8 @@
 namespace geomend::validators {
 
 /// Calls body(a, b, lateral) for each pair of present cells that touch: as simulators connect them, as the file states,
-/// and one above the other within the tolerance; lateral: of different columns. Not for several threads at once.
+/// and one above the other within the tolerance; lateral: of different columns. Not for
+/// several threads at once before scope.connections() has been called.
 template <class Body>
 void each_touch(const GridScope& scope, const Body& body) {
     const auto& grid = scope.grid();

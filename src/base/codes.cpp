@@ -152,7 +152,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F154", info, "coordinates were given a local origin", ""},
     CodeInfo{"F160", info, "an object holds nothing that a check looks at", ""},
     CodeInfo{"F161", info, "a grid has no geometry: only its records were checked", "give the file that holds COORD and ZCORN"},
-    CodeInfo{"F162", info, "whether the regions of a grid close was not judged: cells overlap or are folded", "mend those cells first"},
+    CodeInfo{"F162", info, "the boundary representation of a grid was not judged, or not wholly", ""},
     // Geology.
     CodeInfo{"G01", warning, "a name is used more than once: for regions, layers, fault blocks or surfaces", "rename one of them"},
     CodeInfo{"G02", warning, "a layer or a fault block has no region", "correct its list"},

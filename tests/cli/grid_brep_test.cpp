@@ -55,7 +55,16 @@ TEST_F(GridAsModel, NeedsOptionsThatItKnows) {
         const ProgramRun run = run_geomend({"validate", at("crossing.grdecl"), "--option", "as=brep", "--option", option});
         EXPECT_EQ(run.status, 2) << option << ' ' << run.out;
     }
-    EXPECT_EQ(run_geomend({"validate", at("crossing.grdecl"), "--option", "as=brep", "--option", "regions=NONE"}).status, 2);
+}
+
+TEST_F(GridAsModel, SaysWhatAGridHasNot) {
+    const ProgramRun run =
+        run_geomend({"validate", at("crossing.grdecl"), "--checks", "C27", "--option", "as=brep", "--option", "regions=NONE", "--json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    const Json found = Json::parse(run.out)["files"][0]["findings"];
+    ASSERT_EQ(found.size(), 1u) << run.out;
+    EXPECT_EQ(found[0]["code"], "F162");
+    EXPECT_NE(found[0]["message"].get<std::string>().find("NONE"), std::string::npos);
 }
 
 TEST_F(GridAsModel, WritesDebrisOfWhatRunsIntoEachOther) {
