@@ -81,12 +81,12 @@ std::array<Vec3, 3> corners_of(const ModelScope& scope, std::uint32_t triangle) 
 /// What two triangles have in common once the tolerance is granted, so that rounding (or a rotation) does not change the kind: a
 /// border that reaches through by no more only touches, and a segment as short as that is a point.
 Meeting judged_kind(const ModelScope& scope, const TriangleMeetingPair& pair) {
-    if (pair.how.kind != Meeting::crossing && pair.how.kind != Meeting::touch) return pair.how.kind;
+    if (pair.how.kind == Meeting::none || pair.how.kind == Meeting::overlap) return pair.how.kind;
     const auto a = corners_of(scope, pair.a), b = corners_of(scope, pair.b);
     const double tolerance = scope.lengths().tolerance;
     if (lie_on_each_other(a, b, tolerance)) return Meeting::overlap;
     if (pair.how.kind == Meeting::crossing && std::min(depth(a, b), depth(b, a)) > tolerance) return Meeting::crossing;
-    const Vec3 way = minus(pair.how.segment[1], pair.how.segment[0]);
+    const Vec3 way = minus(pair.how.segment[1], pair.how.segment[0]);  // none for a point
     return dot(way, way) <= tolerance * tolerance ? Meeting::point : Meeting::touch;
 }
 

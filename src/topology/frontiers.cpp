@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <optional>
 
 #include "base/disjoint_sets.h"
 #include "geometry/predicates.h"
 #include "geometry/vectors.h"
 #include "topology/face_volume.h"
+#include "topology/upward_ray.h"
 
 namespace geomend::topology {
 
@@ -94,82 +95,16 @@ struct Shell {
     std::vector<BrepData::Side> sides;
     double volume = 0;  // inwards positive
     std::uint32_t group = 0;
-    Vec3 low{}, high{};
 };
 
-void measure(const BrepData& brep, std::span<const double> cones, Shell& shell) {
+void measure(std::span<const double> cones, Shell& shell) {
     PreciseSum sum;
     double scale = 0;
-    shell.low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    shell.high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (const auto& side : shell.sides) {
         sum.add(side.front ? -cones[side.surface.value] : cones[side.surface.value]);
         scale += std::abs(cones[side.surface.value]);
-        for (const VertexId v : brep.surfaces[side.surface.value].nodes) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                shell.low[k] = std::min(shell.low[k], brep.vertices[v.value][k]);
-                shell.high[k] = std::max(shell.high[k], brep.vertices[v.value][k]);
-            }
-        }
     }
     shell.volume = std::abs(sum.value()) <= 1e-14 * scale ? 0 : sum.value();  // both sides of a sheet cancel
-}
-
-bool box_contains(const Shell& shell, const Vec3& p) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (p[k] < shell.low[k] || p[k] > shell.high[k]) return false;
-    }
-    return true;
-}
-
-/// Solid angle under which a triangle is seen (van Oosterom and Strackee), positive from behind.
-double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double la = std::sqrt(dot(a, a)), lb = std::sqrt(dot(b, b)), lc = std::sqrt(dot(c, c));
-    const double numerator = dot(a, cross(b, c));
-    const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-    return 2 * std::atan2(numerator, denominator);
-}
-
-/// Whether a point is enclosed by a shell, by the angle under which it sees the shell: all around inside, nothing outside.
-/// Nothing where it lies on the shell.
-std::optional<bool> encloses(const BrepData& brep, const Shell& shell, const Vec3& p) {
-    if (!box_contains(shell, p)) return false;
-    double angle = 0;
-    for (const auto& side : shell.sides) {
-        const auto& surface = brep.surfaces[side.surface.value];
-        double part = 0;
-        for (std::size_t i = 0; i < surface.polygons.size(); ++i) {
-            const auto polygon = surface.polygons[i];
-            const auto at = [&](std::size_t k) { return minus(brep.vertices[surface.nodes[polygon[k]].value], p); };
-            for (std::size_t k = 0; k < polygon.size(); ++k) {
-                if (at(k) == Vec3{}) return std::nullopt;
-            }
-            for (std::size_t k = 1; k + 1 < polygon.size(); ++k) part += solid_angle(at(0), at(k), at(k + 1));
-        }
-        angle += side.front ? -part : part;
-    }
-    constexpr double all_around = 4 * std::numbers::pi;
-    if (angle < 0.25 * all_around) return false;
-    if (angle > 0.75 * all_around) return true;
-    return std::nullopt;
-}
-
-/// Whether a shell lies within another one; they may touch, so that not each of its points can tell.
-bool encloses(const BrepData& brep, const Shell& shell, const Shell& inner) {
-    for (const auto& side : inner.sides) {
-        const auto& surface = brep.surfaces[side.surface.value];
-        for (const std::uint32_t node : surface.polygons.corners) {
-            if (const auto inside = encloses(brep, shell, brep.vertices[surface.nodes[node].value])) return *inside;
-        }
-        for (std::size_t i = 0; i < surface.polygons.size(); ++i) {
-            Vec3 middle{};
-            const auto polygon = surface.polygons[i];
-            for (const std::uint32_t node : polygon)
-                middle = plus(middle, times(1.0 / static_cast<double>(polygon.size()), brep.vertices[surface.nodes[node].value]));
-            if (const auto inside = encloses(brep, shell, middle)) return *inside;
-        }
-    }
-    return false;
 }
 
 std::vector<Shell> make_shells(const BrepData& brep, std::span<const double> cones, DisjointSets& sides, DisjointSets& groups) {
@@ -185,20 +120,69 @@ std::vector<Shell> make_shells(const BrepData& brep, std::span<const double> con
         }
         shells[shell_of[root]].sides.push_back({SurfaceId(i / 2), i % 2 == 1});
     }
-    for (Shell& shell : shells) measure(brep, cones, shell);
+    for (Shell& shell : shells) measure(cones, shell);
     return shells;
 }
 
-/// The smallest shell with a volume, of another group, around a group of surfaces; or nothing.
-std::optional<std::size_t> shell_around(const BrepData& brep, const std::vector<Shell>& shells, const Shell& inner) {
-    std::optional<std::size_t> best;
-    for (std::size_t s = 0; s < shells.size(); ++s) {
-        if (shells[s].volume <= 0 || shells[s].group == inner.group) continue;
-        if (best && shells[*best].volume <= shells[s].volume) continue;
-        if (encloses(brep, shells[s], inner)) best = s;
+/// Finds which shell lies in which.
+class Containment {
+public:
+    Containment(const BrepData& brep, const std::vector<Shell>& shells, DisjointSets& groups)
+        : brep_(brep), shells_(shells), groups_(groups), shell_of_side_(2 * brep.surfaces.size(), no_index) {
+        for (std::uint32_t s = 0; s < shells.size(); ++s) {
+            for (const auto& side : shells[s].sides) shell_of_side_[side_index(side.surface.value, side.front)] = s;
+            several_ = several_ || shells[s].group != shells[0].group;
+        }
     }
-    return best;
-}
+
+    /// The smallest shell with a volume, of another group, around a shell; or nothing.
+    std::optional<std::size_t> around(const Shell& inner) {
+        if (!several_) return std::nullopt;
+        if (!ray_) ray_.emplace(brep_);
+        // Points inside polygons, so that they are on no other shell even where the two touch.
+        constexpr std::size_t attempts = 20;  // a polygon on another surface: there is no answer then
+        std::size_t attempt = 0;
+        for (const auto& side : inner.sides) {
+            const auto& surface = brep_.surfaces[side.surface.value];
+            for (std::size_t p = 0; p < surface.polygons.size() && attempt < attempts; ++p) {
+                if (surface.polygons[p].size() < 3) continue;
+                const auto above = ray_->above(point_inside(surface, p), [&](std::uint32_t s) { return groups_.root(s) != inner.group; });
+                if (above) return smallest_around(*above);
+                ++attempt;
+            }
+        }
+        return std::nullopt;
+    }
+
+private:
+    Vec3 point_inside(const BrepData::Surface& surface, std::size_t p) const {
+        const auto polygon = surface.polygons[p];
+        const auto at = [&](std::size_t k) { return brep_.vertices[surface.nodes[polygon[k]].value]; };
+        return plus(at(0), plus(times(0.37, minus(at(1), at(0))), times(0.29, minus(at(2), at(0)))));
+    }
+
+    std::optional<std::size_t> smallest_around(const std::vector<UpwardRay::Hit>& above) {
+        std::map<std::uint32_t, int> passed;  // how often the way up leaves each shell with a volume
+        for (const auto& hit : above) {
+            for (const bool front : {false, true}) {
+                const std::uint32_t shell = shell_of_side_[side_index(hit.surface, front)];
+                if (shell != no_index && shells_[shell].volume > 0) passed[shell] += front ? -hit.sign : hit.sign;
+            }
+        }
+        std::optional<std::size_t> best;
+        for (const auto& [shell, times_left] : passed) {
+            if (times_left > 0 && (!best || shells_[shell].volume < shells_[*best].volume)) best = shell;
+        }
+        return best;
+    }
+
+    const BrepData& brep_;
+    const std::vector<Shell>& shells_;
+    DisjointSets& groups_;
+    std::vector<std::uint32_t> shell_of_side_;
+    bool several_ = false;
+    std::optional<UpwardRay> ray_;
+};
 
 }  // namespace
 
@@ -224,9 +208,10 @@ FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::spa
         region_of[s] = found.regions.size();
         found.regions.push_back(shells[s].sides);
     }
+    Containment containment(brep, shells, groups);
     for (const Shell& shell : shells) {
         if (shell.volume > 0) continue;
-        const auto around = shell_around(brep, shells, shell);
+        const auto around = containment.around(shell);
         auto& target = around ? found.regions[region_of[*around]] : found.universe;
         target.insert(target.end(), shell.sides.begin(), shell.sides.end());
     }

@@ -225,7 +225,7 @@ Found repeated(Place& at, Random& random) {
     return spoiled(at, "M04");
 }
 Found reversed(Place& at, Random&) {
-    if (at.patient.last(at.face) - at.patient.first(at.face) < 3) return {};
+    if (at.patient.last(at.face) - at.patient.first(at.face) < 3 || at.name() == "strip") return {};  // which has one side anyway
     auto& c = at.patient.surface(at.face).polygons.corners;
     std::swap(c[3 * at.triangle], c[3 * at.triangle + 1]);
     return spoiled(at, "M05");
@@ -329,7 +329,7 @@ Found seam(Place& at, Random&) {
     return {};
 }
 Found needle(Place& at, Random&) {
-    const std::uint32_t p = at.patient.add_point(at.face, at.inside(0.45, 0.003, 0));
+    const std::uint32_t p = at.patient.add_point(at.face, at.inside(0.45, 0.001, 0));
     const Corners c = at.patient.corners(at.face, at.triangle);
     at.patient.remove_triangle(at.face, at.triangle);
     for (std::size_t i = 0; i < 3; ++i) at.patient.add_triangle(at.face, {c[i], c[(i + 1) % 3], p});
@@ -376,7 +376,7 @@ Found tent_near_it(Place& at, Random&) {
     return {{"B24", "surface", at.name()}, {"B24", "surface", extra}};
 }
 Found sheet_beside_it(Place& at, Random&) {
-    if (!at.patient.has_regions()) return {};
+    if (!at.patient.has_regions() || at.small() > 0.1 * at.height) return {};  // else it may reach through a neighbour
     const double s = at.side() * at.small();
     return {{"B25", "surface", at.patient.add_extra({{at.inside(0.3, 0.3, s), at.inside(0.5, 0.3, s), at.inside(0.4, 0.3, 1.5 * s)}})}};
 }

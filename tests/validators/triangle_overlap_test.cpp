@@ -14,7 +14,7 @@ TEST(TwoTriangles, HaveAnAreaInCommon) {
     EXPECT_DOUBLE_EQ(common_area(right, right), 2);
     EXPECT_DOUBLE_EQ(common_area({{{0, 0, 0}, {0, 2, 0}, {2, 0, 0}}}, right), 2) << "wound the other way";
     EXPECT_DOUBLE_EQ(common_area({{{0.5, 0.5, 0}, {1, 0.5, 0}, {0.5, 1, 0}}}, right), 0.125) << "inside";
-    EXPECT_DOUBLE_EQ(common_area({{{-9, -9, 0}, {9, -9, 0}, {0, 99, 0}}}, right), 2) << "around";
+    EXPECT_NEAR(common_area({{{-9, -9, 0}, {9, -9, 0}, {0, 99, 0}}}, right), 2, 1e-12) << "around";
     EXPECT_DOUBLE_EQ(common_area({{{1, 0, 0}, {3, 0, 0}, {1, 2, 0}}}, right), 0.5) << "across a side";
     EXPECT_DOUBLE_EQ(common_area({{{2, 0, 0}, {2, 2, 0}, {0, 2, 0}}}, right), 0) << "beside";
     EXPECT_DOUBLE_EQ(common_area({{{5, 5, 0}, {6, 5, 0}, {5, 6, 0}}}, right), 0) << "apart";
