@@ -5,7 +5,7 @@
 
 // The checks of corner-point grids, one function per code; the table that joins them is in registry.cpp. Each adds one
 // finding to the list, or none where all is well (C04 and C18 one for each of the two things that they tell apart, C23 and
-// C24 one for each array, C25 and G03 one for each fault).
+// C24 one for each array, C25 one for faults with multipliers and one for others).
 
 namespace geomend::validators {
 

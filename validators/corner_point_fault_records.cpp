@@ -40,39 +40,57 @@ bool has_cells_on_both_sides(const CornerPointGrid& grid, const std::vector<std:
     return (grid.is_active(cell) && columns[other % columns.size()] != 0) || (grid.is_active(other) && columns[cell % columns.size()] != 0);
 }
 
+// Whether a fault has active cells on both sides anywhere, or a record of which C20 tells.
+bool has_effect(const CornerPointGrid& grid, const std::vector<std::uint8_t>& columns, const Fault& fault) {
+    bool any = false;
+    for (const Fault::Box& box : fault.boxes) {
+        if (!inside(grid, box) || !flat(box)) return true;
+        grid::each_cell(grid, box, [&](std::size_t cell) { any = any || has_cells_on_both_sides(grid, columns, cell, box.face); });
+        if (any) return true;
+    }
+    return false;
+}
+
+// One finding about faults that are stated for nothing.
+void tell_idle(const GridScope& scope, const std::vector<const Fault*>& faults, bool multiplied, std::vector<Finding>& findings) {
+    if (faults.empty()) return;
+    std::vector<std::size_t> cells;
+    std::uint64_t without_record = 0;
+    for (const Fault* fault : faults) {
+        without_record += fault->boxes.empty() ? 1 : 0;
+        for (const Fault::Box& box : fault->boxes) grid::each_cell(scope.grid(), box, [&](std::size_t cell) { cells.push_back(cell); });
+    }
+    std::ranges::sort(cells);
+    cells.erase(std::ranges::unique(cells).begin(), cells.end());
+    FoundCells found;
+    for (const std::size_t cell : cells) found.add(cell, 0);
+    std::string message = counted(faults.size(), "fault lies", "faults lie") + " between no active cells: '" + faults[0]->name +
+                          (faults.size() > 1 ? "', ..." : "'");
+    if (without_record > 0) message += "; " + std::to_string(without_record) + " of them without any FAULTS record here";
+    if (multiplied) message += faults.size() > 1 ? "; their multipliers act on nothing" : "; its multiplier acts on nothing";
+    Finding f = cells_finding(scope, "C25", std::move(message), found);
+    if (multiplied) f.severity = Severity::warning;
+    f.count = std::max<std::uint64_t>(1, found.count);
+    for (const Fault* fault : faults) {
+        if (f.entities.size() <= listed_elements) f.entities.push_back({"fault", fault->name});
+    }
+    f.measures = {{"faults", static_cast<double>(faults.size())}};
+    findings.push_back(std::move(f));
+}
+
 }  // namespace
 
 void check_fault_effects(const GridScope& scope, std::vector<Finding>& findings) {
     const auto& grid = scope.grid();
     if (grid.faults.empty()) return;
     const std::vector<std::uint8_t> columns = active_columns(grid);
+    std::vector<const Fault*> plain, multiplied;
     for (const Fault& fault : grid.faults) {
-        bool any = false;
-        std::uint64_t sides = 0;
-        FoundCells cells;
-        for (const Fault::Box& box : fault.boxes) {
-            if (any) break;
-            if (!inside(grid, box) || !flat(box)) {
-                any = true;  // C20 tells
-                break;
-            }
-            grid::each_cell(grid, box, [&](std::size_t cell) {
-                ++sides;
-                cells.add(cell, 0);
-                any = any || has_cells_on_both_sides(grid, columns, cell, box.face);
-            });
-        }
-        if (any) continue;
-        std::string message = fault.boxes.empty() ? "fault '" + fault.name + "' has no faces here: no FAULTS record is for it"
-                                                  : "fault '" + fault.name + "' lies between no active cells: none of the " +
-                                                        counted(sides, "side", "sides") + " where it is stated has them on both sides";
-        if (fault.multiplier) message += "; its multiplier acts on nothing";
-        Finding f = cells_finding(scope, "C25", std::move(message), cells);
-        if (fault.multiplier) f.severity = Severity::warning;
-        f.count = std::max<std::uint64_t>(1, sides);
-        f.entities.push_back({"fault", fault.name});
-        findings.push_back(std::move(f));
+        if (has_effect(grid, columns, fault)) continue;
+        (fault.multiplier && *fault.multiplier != 1 ? multiplied : plain).push_back(&fault);
     }
+    tell_idle(scope, multiplied, true, findings);
+    tell_idle(scope, plain, false, findings);
 }
 
 void check_shared_fault_faces(const GridScope& scope, std::vector<Finding>& findings) {

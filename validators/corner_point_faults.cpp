@@ -122,20 +122,34 @@ void check_fault_throws(const GridScope& scope, std::vector<Finding>& findings) 
 }
 
 void check_idle_faults(const GridScope& scope, std::vector<Finding>& findings) {
-    for (const Fault& fault : scope.grid().faults) {
+    const auto& grid = scope.grid();
+    std::vector<std::size_t> cells;
+    std::vector<EntityRef> faults;
+    std::uint64_t sides = 0;
+    for (const Fault& fault : grid.faults) {
         const FaultThrow all = throw_of(scope, fault);
         if (!all.is_idle()) continue;
-        FoundCells cells;
-        each_stated_side(scope.grid(), fault, [&](std::size_t cell, std::size_t axis) {
-            if (both_judged(scope, cell, axis)) cells.add(cell, 0);
+        sides += all.judged;
+        faults.push_back({"fault", fault.name});
+        each_stated_side(grid, fault, [&](std::size_t cell, std::size_t axis) {
+            if (both_judged(scope, cell, axis)) cells.push_back(cell);
         });
-        Finding f = cells_finding(scope, "G03",
-                                  "fault '" + fault.name + "' displaces nothing: at all " + counted(all.judged, "side", "sides") +
-                                      " of cells where it is stated (+I or +J of those listed) neighbours of one layer meet",
-                                  cells);
-        f.entities.push_back({"fault", fault.name});
-        findings.push_back(std::move(f));
     }
+    if (faults.empty()) return;
+    std::ranges::sort(cells);
+    cells.erase(std::ranges::unique(cells).begin(), cells.end());
+    FoundCells found;
+    for (const std::size_t cell : cells) found.add(cell, 0);
+    const bool one = faults.size() == 1;
+    Finding f = cells_finding(scope, "G03",
+                              counted(faults.size(), "fault displaces", "faults displace") + " nothing: '" + faults[0].name +
+                                  (one ? "'" : "', ...") + ": at all " + counted(sides, "side", "sides") + " of cells where " +
+                                  (one ? "it is" : "they are") + " stated (+I or +J of those listed) neighbours of one layer meet",
+                              found);
+    f.measures = {{"faults", static_cast<double>(faults.size())}, {"sides", static_cast<double>(sides)}};
+    faults.resize(std::min(faults.size(), listed_elements));
+    f.entities.insert(f.entities.end(), faults.begin(), faults.end());
+    findings.push_back(std::move(f));
 }
 
 void check_fault_boxes(const GridScope& scope, std::vector<Finding>& findings) {

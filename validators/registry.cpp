@@ -110,7 +110,7 @@ constexpr std::array table = {
           "regions=NAME fall into parts that neither touch nor are side by side in a layer, within one part of the grid",
           check_scattered_regions},
     Check{"C24", "SATNUM, PVTNUM, EQLNUM, ROCKNUM, IMBNUM or a FIP array is below 1 in an active cell", check_region_numbers},
-    Check{"C25", "a stated fault has active cells on both sides at none of its faces; a warning where it has a multiplier",
+    Check{"C25", "a stated fault has active cells on both sides at none of its faces; a warning where it has a multiplier other than 1",
           check_fault_effects},
     Check{"C26", "a side of a cell is stated in more than one fault", check_shared_fault_faces, true},
     Check{"C27",

@@ -95,8 +95,15 @@ TEST(FaultRecords, C25NamesFaultsBetweenNoActiveCells) {
     grid.faults = {{"EDGE", {{{3, 0, 0}, {3, 0, 1}, CellFace::i_plus}}, {}}};
     const Finding f = find(findings_of(grid), "C25", Severity::info);
     EXPECT_EQ(cells_of(f), (std::vector<Cell>{{4, 1, 1}, {4, 1, 2}}));
+    grid.faults[0].multiplier = 1;
+    EXPECT_EQ(codes_of(grid), Codes{"C25 info"});
     grid.faults[0].multiplier = 0.1;
     EXPECT_EQ(codes_of(grid), Codes{"C25 warning"}) << "a multiplier was meant to do something";
+    grid.faults.push_back({"TOO", {{{0, 0, 0}, {0, 0, 0}, CellFace::i_minus}}, {}});
+    grid.faults.push_back({"THREE", {{{0, 0, 1}, {0, 0, 1}, CellFace::i_minus}}, {}});
+    const auto found = findings_of(grid);
+    EXPECT_EQ(measure(find(found, "C25", Severity::warning), "faults"), 1);
+    EXPECT_EQ(measure(find(found, "C25", Severity::info), "faults"), 2) << "one finding for all";
     grid.faults = {{"MET", {{{1, 0, 0}, {1, 0, 1}, CellFace::i_plus}}, 0.1}};
     add_throw(grid, 2, 5);
     EXPECT_EQ(codes_of(grid), Codes{});

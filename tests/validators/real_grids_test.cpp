@@ -107,6 +107,36 @@ TEST(RealGrids, SidesOfTwoFaultsAreCounted) {
     EXPECT_EQ(cells_of(find(reek->findings, "C26", Severity::info)).front(), (Cell{31, 8, 1}));
 }
 
+// The records of Norne on bricks: which faults lie between no active cells, and which sides two faults have, were counted
+// by a program of its own.
+TEST(RealGrids, FaultsOfNorneWithoutEffectAreNamed) {
+    const auto at = [](const char* name) { return test::real_data(std::string("cornerpoint/norne/") + name); };
+    if (!at("FAULT_JUN_05.INC")) GTEST_SKIP() << "no real data";
+    LoadOptions options;
+    options.options = {{"dims", "46,112,22"}};
+    CornerPointGrid grid = brick_grid(46, 112, 22);
+    for (const char* name : {"ACTNUM_0704.prop", "FAULT_JUN_05.INC", "FAULTMULT_AUG-2006.INC"}) {
+        auto part = load(at(name)->string(), options);
+        ASSERT_TRUE(part.ok()) << name;
+        auto& records = std::get<CornerPointGrid>(part->objects[0]);
+        if (!records.activity.empty()) grid.activity = records.activity;
+        for (auto& fault : records.faults) {
+            const auto same = std::ranges::find(grid.faults, fault.name, &CornerPointGrid::Fault::name);
+            if (same == grid.faults.end()) grid.faults.push_back(fault);
+            else if (fault.multiplier) same->multiplier = fault.multiplier;
+        }
+    }
+    CheckOptions only;
+    only.only = {"C25", "C26"};
+    const auto found = findings_of(grid, only);
+    std::set<std::string> multiplied, plain;
+    for (const EntityRef& e : find(found, "C25", Severity::warning).entities) multiplied.insert(e.name);
+    for (const EntityRef& e : find(found, "C25", Severity::info).entities) plain.insert(e.name);
+    EXPECT_EQ(multiplied, (std::set<std::string>{"bricks", "BC", "G_08"}));
+    EXPECT_EQ(plain, (std::set<std::string>{"bricks", "B2", "H_03", "IH", "m_east", "m_east_2", "m_north", "m_northe", "m_west"}));
+    EXPECT_EQ(measure(find(found, "C26", Severity::info), "sides"), 66);
+}
+
 // One column of the lower layers bears the number of the upper ones; found by a program of its own, too.
 TEST(RealGrids, AStrayColumnOfReeksRegionsIsFound) {
     REPORT_OF(file, "reek/reek_grd_w_props.roffasc");
