@@ -60,7 +60,7 @@ Things surface_objects_by_name(const ModelScope& scope) {
             objects[name].insert(surface.source_object);
     }
     Things all;
-    for (const auto& [name, numbers] : objects) all[name].assign(numbers.size(), {"surface object", name});
+    for (const auto& [name, numbers] : objects) all[name].assign(numbers.size(), {"surface", name});
     return all;
 }
 
