@@ -60,7 +60,7 @@ Things surface_objects_by_name(const ModelScope& scope) {
             objects[name].insert(surface.source_object);
     }
     Things all;
-    for (const auto& [name, numbers] : objects) all[name].assign(numbers.size(), {"surface object", name});
+    for (const auto& [name, numbers] : objects) all[name].assign(numbers.size(), {"surface", name});
     return all;
 }
 
@@ -69,6 +69,15 @@ void tell_repeats(const Things& things, std::string_view many, std::vector<Findi
         if (all.size() < 2 || name.empty()) continue;
         findings.push_back(names_finding("G01", std::to_string(all.size()) + " " + std::string(many) + " are named " + quoted(name), all));
     }
+}
+
+/// Whether the file states one group of volumes of a name (a physical group of MSH): its parts are meant to have that name.
+bool is_one_group(const ModelScope& scope, std::uint32_t region) {
+    const auto& r = scope.brep().regions[region];
+    if (r.source_object >= scope.dataset().objects.size()) return false;
+    const auto* mesh = std::get_if<CellMesh>(&scope.dataset().objects[r.source_object]);
+    if (mesh == nullptr) return false;
+    return std::ranges::count_if(mesh->groups, [&](const CellMesh::Group& g) { return g.dimension == 3 && g.name == r.name; }) == 1;
 }
 
 void tell_case_only(const Things& things, std::string_view many, std::vector<Finding>& findings) {
@@ -89,6 +98,13 @@ void check_names_of_model(const ModelScope& scope, std::vector<Finding>& finding
     const Things regions = regions_by_name(scope), interfaces = interfaces_by_name(scope);
     const Things layers = lists_by_name(brep.layers, "layer"), blocks = lists_by_name(brep.fault_blocks, "fault block");
     tell_repeats(regions, "regions", findings);
+    for (Finding& finding : findings) {
+        const bool repeat = finding.code == "G01" && finding.element_kind == "region";
+        if (repeat && is_one_group(scope, static_cast<std::uint32_t>(finding.entities[0].id))) {
+            finding.severity = Severity::info;
+            finding.message += ", as parts of one group";
+        }
+    }
     tell_repeats(layers, "layers", findings);
     tell_repeats(blocks, "fault blocks", findings);
     tell_repeats(surface_objects_by_name(scope), "objects of surfaces, taken for one surface,", findings);

@@ -60,7 +60,7 @@ constexpr std::array table = {
     of_model("B15", "twice the volume of a region over the area around it is below the search length", check_thin_regions),
     of_model("B16", "neither side of a surface bounds a region, in a model that has regions", check_outside_surfaces),
     of_model("B17", "two polygons at a line lie in the same half-plane; exact", check_radial_order),
-    Check{"B18", "a surface with a finding B01 to B04, B07, M04 or M05 that is an error bounds the region"},
+    Check{"B18", "a surface with a finding B01 to B04, B07, B26, B27, M04 or M05 that is an error bounds the region"},
     of_model("B19", "a BORDER record names two points that no triangle of the surface has as an edge", check_stated_borders),
     of_model("B20", "triangles of two surfaces have an area in common; exact", check_intersections),
     of_model("B22", "triangles of two surfaces have single points in common that they do not share (exact), or a vertex away from lines",
@@ -117,7 +117,10 @@ constexpr std::array table = {
           "with --option as=brep: triangles of the outside or of faults cross by more than the tolerance, or outer ones that look the "
           "same way overlap, in columns that share no pillar"},
     Check{"C28", "with --option as=brep: as C27, in columns that share a pillar, or one column"},
-    of_model("G01", "two regions, layers, fault blocks or objects of surfaces of one model have the same name", check_names_of_model),
+    of_model("G01",
+             "two regions, layers, fault blocks or objects of surfaces of one model have the same name; info where the file states one "
+             "group of volumes of it",
+             check_names_of_model),
     of_model("G02", "a stated layer or fault block lists no region that exists", check_region_lists),
     Check{"G03",
           "at each contact of a fault with a horizon the horizon comes up from both sides; of corner-point grids: a stated fault has throw "

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 #include "base/codes.h"
 #include "cli/commands.h"
@@ -40,13 +43,53 @@ std::string table_text() {
     return text;
 }
 
+// Text in which scdoc finds no marks.
+std::string plain(std::string_view text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '_' || c == '*' || c == '\\') escaped += '\\';
+        escaped += c;
+    }
+    return escaped;
+}
+
+// The source of geomend-codes(7).
+std::string table_scdoc() {
+    static constexpr std::pair<char, const char*> families[] = {{'B', "BOUNDARY REPRESENTATIONS"},
+                                                                {'C', "CORNER-POINT GRIDS"},
+                                                                {'F', "FILES"},
+                                                                {'G', "GEOLOGY"},
+                                                                {'M', "MESHES AND OTHER OBJECTS"},
+                                                                {'Q', "QUALITY"},
+                                                                {'S', "SIMULATORS AND MESHERS"}};
+    std::string text =
+        "geomend-codes(7)\n\n; SPDX-License-Identifier: AGPL-3.0-or-later\n\n# NAME\n\n"
+        "geomend-codes - what the codes in reports mean\n\n# DESCRIPTION\n\n"
+        "For each code: the severity, the meaning, when a check tells it, and what mends it. *geomend checks* prints the same. "
+        "Codes are stable and never reused.\n";
+    char family = 0;
+    for (const CodeInfo& row : code_catalogue()) {
+        if (row.code[0] != family) {
+            family = row.code[0];
+            const auto at = std::ranges::find(families, family, &std::pair<char, const char*>::first);
+            text += std::string("\n# ") + (at == std::end(families) ? "OTHERS" : at->second) + "\n";
+        }
+        text += "\n*" + std::string(row.code) + "* (" + to_string(row.severity) + ")\n\t" + plain(row.meaning) + ".\n";
+        if (const std::string condition = condition_of(row.code); !condition.empty()) text += "\n\tWhen: " + plain(condition) + ".\n";
+        if (!row.fix.empty()) text += "\n\tTo mend it: " + plain(row.fix) + ".\n";
+    }
+    return text + "\n# SEE ALSO\n\n*geomend-checks*(1), *geomend-validate*(1)\n";
+}
+
 }  // namespace
 
 void add_checks(CLI::App& program, ExitStatus& status) {
     auto* command = program.add_subcommand("checks", "Table of checks: code, severity, meaning, condition, what mends it");
     auto json = std::make_shared<bool>(false);
+    auto manual = std::make_shared<bool>(false);
     command->add_flag("--json", *json, "Machine-readable table");
-    command->callback([json, &status] { status = print(*json ? table_json() : table_text()); });
+    command->add_flag("--scdoc", *manual, "The table as source of a manual page")->excludes("--json");
+    command->callback([json, manual, &status] { status = print(*json ? table_json() : *manual ? table_scdoc() : table_text()); });
 }
 
 }  // namespace geomend::cli
