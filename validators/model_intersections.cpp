@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <unordered_set>
 
 #include "geometry/cell_volume.h"
@@ -37,6 +39,8 @@ struct Common {
     std::vector<std::array<Vec3, 2>> segments;
     std::vector<Vec3> points;
     std::vector<std::uint32_t> polygons;  // of the first surface
+    bool is_crowded = false;              // so many pairs that only triangles that were in none yet are looked at
+    bool has_more = false;                // pairs were passed over
 
     std::uint64_t all() const { return crossing + overlap + border + inside + point; }
 };
@@ -112,36 +116,154 @@ Edge edge_on_it(const ModelScope& scope, const LineEdges& lines, std::uint32_t a
 
 using SurfacePair = std::pair<std::uint32_t, std::uint32_t>;
 
-std::map<SurfacePair, Common> gather(const ModelScope& scope) {
-    std::map<SurfacePair, Common> all;
-    const auto pairs = intersections(scope.tree(), scope.monitor());
-    if (pairs.empty()) return all;
-    const LineEdges lines(scope);
-    constexpr std::size_t most_segments = 100000;
-    for (const TriangleMeetingPair& pair : pairs) {
-        const std::uint32_t sa = scope.surface_of(pair.a), sb = scope.surface_of(pair.b);
-        Common& common = all[{sa, sb}];
-        const std::uint32_t polygon = scope.polygon_of(pair.a);
-        if (sa == sb && scope.polygon_of(pair.b) == polygon) continue;  // a polygon that is not plane
-        common.polygons.push_back(polygon);
-        if (sa == sb) common.polygons.push_back(scope.polygon_of(pair.b));
-        const Meeting kind = judged_kind(scope, pair);
-        if (kind == Meeting::point) {
-            const Edge edge = std::max(edge_on_it(scope, lines, pair.a, pair.b), edge_on_it(scope, lines, pair.b, pair.a));
-            if (edge != Edge::none) {
-                ++(edge == Edge::border ? common.border : common.inside);
-                continue;
-            }
+void sort_and_unite(std::vector<std::uint32_t>& numbers) {
+    std::ranges::sort(numbers);
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// Sums up the pairs of triangles for each two surfaces. Very many triangles on each other have more pairs than can be told or
+/// kept: where two surfaces have so many in a part of the search, or in all, only triangles that were in no pair yet are looked at.
+/// Likewise where very many surfaces meet each other, as the loose triangles of a file do: then only surfaces that met none yet.
+class Gathering {
+public:
+    explicit Gathering(const ModelScope& scope)
+        : scope_(scope),
+          surfaces_(scope.triangles().size()),
+          parts_(intersection_parts(scope.tree())),
+          meets_others_(scope.brep().surfaces.size()) {
+        for (std::uint32_t s = 0; s < scope.brep().surfaces.size(); ++s) {
+            for (std::uint32_t t = scope.first_triangle(s); t < scope.first_triangle(s + 1); ++t) surfaces_[t] = s;
         }
+    }
+
+    /// Whether surfaces that meet were passed over in run().
+    bool has_more_pairs() const { return has_more_pairs_; }
+
+    std::map<SurfacePair, Common> run() {
+        visit_intersections(
+            scope_.tree(), [&](std::size_t part) -> PairTaker& { return taker_of(parts_[part]); },
+            [&](std::size_t first, std::size_t last) {
+                for (std::size_t part = first; part < last; ++part) {
+                    for (auto& [pair, some] : parts_[part].pairs) add(all_[pair], some.common);
+                    for (const std::uint32_t s : parts_[part].surfaces) meets_others_[s] = 1;
+                    known_.insert(parts_[part].known.begin(), parts_[part].known.end());
+                    has_more_pairs_ = has_more_pairs_ || parts_[part].has_more_pairs;
+                    parts_[part] = {};
+                }
+            },
+            scope_.monitor());
+        return std::move(all_);
+    }
+
+private:
+    static constexpr std::size_t most_segments = 100000;
+    static constexpr std::uint64_t crowd_in_part = 20000, crowd_in_all = 200000;
+    static constexpr std::size_t most_pairs_in_part = 2000, most_pairs = 10000;  // of surfaces
+
+    struct Some {
+        Common common;
+        std::unordered_set<std::uint32_t> seen;  // triangles
+    };
+    struct Part {
+        PairTaker taker;
+        std::map<SurfacePair, Some> pairs;
+        SurfacePair last_pair{};
+        Some* last = nullptr;
+        std::unordered_set<std::uint32_t> surfaces;  // that meet others
+        std::unordered_set<std::uint64_t> known;     // pairs of surfaces
+        bool has_more_pairs = false;
+    };
+
+    const ModelScope& scope_;
+    std::vector<std::uint32_t> surfaces_;  // of the triangles
+    std::vector<Part> parts_;
+    std::map<SurfacePair, Common> all_;
+    std::vector<std::uint8_t> meets_others_;  // of the surfaces
+    std::unordered_set<std::uint64_t> known_;
+    bool has_more_pairs_ = false;
+    std::once_flag lines_are_known_;
+    std::optional<LineEdges> lines_;
+
+    PairTaker& taker_of(Part& part) {
+        part.taker.take = [this, &part](const TriangleMeetingPair& pair) { take(part, pair); };
+        part.taker.wants = [this, &part](std::uint32_t a, std::uint32_t b) {
+            if (is_passed_over(part, surfaces_[a], surfaces_[b])) return false;
+            Some& some = of_surfaces(part, std::min(a, b), std::max(a, b));
+            if (!some.common.is_crowded || !some.seen.contains(a) || !some.seen.contains(b)) return true;
+            some.common.has_more = true;
+            return false;
+        };
+        part.taker.is_choosy =
+            all_.size() >= most_pairs || std::ranges::any_of(all_, [](const auto& pair) { return pair.second.is_crowded; });
+        return part.taker;
+    }
+
+    /// Two surfaces of which nothing is known yet, although each is known to meet others, when there are very many such.
+    bool is_passed_over(Part& part, std::uint32_t a, std::uint32_t b) const {
+        if (part.pairs.size() < most_pairs_in_part && all_.size() < most_pairs) return false;
+        const auto meets_others = [&](std::uint32_t s) { return meets_others_[s] != 0 || part.surfaces.contains(s); };
+        if (!meets_others(a) || !meets_others(b)) return false;
+        const std::uint64_t key = key_of(std::minmax(a, b));
+        if (part.known.contains(key) || known_.contains(key)) return false;
+        part.has_more_pairs = true;
+        return true;
+    }
+
+    Some& of_surfaces(Part& part, std::uint32_t a, std::uint32_t b) const {
+        const SurfacePair pair{surfaces_[a], surfaces_[b]};
+        if (part.last != nullptr && part.last_pair == pair) return *part.last;
+        const auto [at, added] = part.pairs.try_emplace(pair);
+        if (added) {
+            part.known.insert(key_of(pair));
+            const auto known = all_.find(pair);
+            at->second.common.is_crowded = known != all_.end() && known->second.is_crowded;
+        }
+        part.last_pair = pair;
+        part.last = &at->second;
+        return at->second;
+    }
+
+    static std::uint64_t key_of(const SurfacePair& pair) { return std::uint64_t{pair.first} << 32 | pair.second; }
+
+    const LineEdges& lines() {
+        std::call_once(lines_are_known_, [&] { lines_.emplace(scope_); });
+        return *lines_;
+    }
+
+    void take(Part& part, const TriangleMeetingPair& pair) {
+        const bool one_surface = surfaces_[pair.a] == surfaces_[pair.b];
+        if (one_surface && scope_.polygon_of(pair.a) == scope_.polygon_of(pair.b)) return;  // a polygon that is not plane
+        Some& some = of_surfaces(part, pair.a, pair.b);
+        Common& common = some.common;
+        if (some.seen.insert(pair.a).second) common.polygons.push_back(scope_.polygon_of(pair.a));
+        if (some.seen.insert(pair.b).second && one_surface) common.polygons.push_back(scope_.polygon_of(pair.b));
+        const Meeting kind = judged_kind(scope_, pair);
+        if (kind == Meeting::point) count_point(common, pair);
+        else count(common, kind, pair);
+        part.surfaces.insert({surfaces_[pair.a], surfaces_[pair.b]});
+        if (part.pairs.size() >= most_pairs_in_part) part.taker.is_choosy = true;
+        if (common.all() == crowd_in_part) common.is_crowded = part.taker.is_choosy = true;
+    }
+
+    void count_point(Common& common, const TriangleMeetingPair& pair) {
+        const Edge edge = std::max(edge_on_it(scope_, lines(), pair.a, pair.b), edge_on_it(scope_, lines(), pair.b, pair.a));
+        if (edge == Edge::border) ++common.border;
+        else if (edge == Edge::inside) ++common.inside;
+        else {
+            ++common.point;
+            if (common.points.size() < listed_elements) common.points.push_back(pair.how.segment[0]);
+        }
+    }
+
+    void count(Common& common, Meeting kind, const TriangleMeetingPair& pair) {
+        if (common.segments.size() < most_segments) common.segments.push_back(pair.how.segment);
         switch (kind) {
             case Meeting::none:
-                break;
             case Meeting::point:
-                ++common.point;
                 break;
             case Meeting::touch:
-                if (pair.how.kind == Meeting::crossing || on_line_edge(scope, lines, scope.triangles()[pair.a], pair.how.segment) ||
-                    on_line_edge(scope, lines, scope.triangles()[pair.b], pair.how.segment))
+                if (pair.how.kind == Meeting::crossing || on_line_edge(scope_, lines(), scope_.triangles()[pair.a], pair.how.segment) ||
+                    on_line_edge(scope_, lines(), scope_.triangles()[pair.b], pair.how.segment))
                     ++common.border;
                 else ++common.inside;
                 break;
@@ -152,25 +274,41 @@ std::map<SurfacePair, Common> gather(const ModelScope& scope) {
                 ++common.overlap;
                 break;
         }
-        if (kind == Meeting::point && common.points.size() < listed_elements) common.points.push_back(pair.how.segment[0]);
-        if (kind != Meeting::point && common.segments.size() < most_segments) common.segments.push_back(pair.how.segment);
     }
-    return all;
-}
+
+    static void add(Common& all, Common& part) {
+        all.crossing += part.crossing;
+        all.overlap += part.overlap;
+        all.border += part.border;
+        all.inside += part.inside;
+        all.point += part.point;
+        all.is_crowded = all.is_crowded || all.all() >= crowd_in_all;
+        all.has_more = all.has_more || part.has_more;
+        const auto append = [](auto& to, const auto& from, std::size_t most) {
+            const std::size_t room = std::min(from.size(), most - std::min(most, to.size()));
+            to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(room));
+        };
+        append(all.segments, part.segments, most_segments);
+        append(all.points, part.points, listed_elements);
+        const bool is_long = all.polygons.size() + part.polygons.size() > std::max<std::size_t>(100000, all.polygons.capacity());
+        append(all.polygons, part.polygons, SIZE_MAX);
+        if (is_long) sort_and_unite(all.polygons);
+    }
+};
 
 void add_kind(std::string& text, std::uint64_t count, std::string_view what) {
     if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(what);
 }
 
 Finding common_finding(const ModelScope& scope, std::string_view code, const SurfacePair& pair, Common& common, std::string message) {
-    std::ranges::sort(common.polygons);
-    common.polygons.erase(std::unique(common.polygons.begin(), common.polygons.end()), common.polygons.end());
+    sort_and_unite(common.polygons);
     std::string kinds;
     add_kind(kinds, common.crossing, "crossing");
     add_kind(kinds, common.overlap, "overlapping in a plane");
     add_kind(kinds, common.border, "touching along a border");
     add_kind(kinds, common.inside, "touching along an inner edge");
     add_kind(kinds, common.point, "touching in a point");
+    if (common.has_more) kinds += ", and more that were not counted";
     Finding finding = polygons_finding(scope, code, pair.first, std::move(message) + ": pairs of triangles " + kinds, common.polygons);
     if (pair.second != pair.first) finding.entities.push_back(surface_ref(scope, pair.second));
     finding.count = common.all();
@@ -204,7 +342,8 @@ std::pair<std::string_view, const char*> meeting_with_itself(const Common& commo
 
 void check_intersections(const ModelScope& scope, std::vector<Finding>& findings) {
     const BrepData& brep = scope.brep();
-    for (auto& [pair, common] : gather(scope)) {
+    Gathering gathering(scope);
+    for (auto& [pair, common] : gathering.run()) {
         if (common.all() == 0) continue;
         const auto& a = brep.surfaces[pair.first];
         const auto& b = brep.surfaces[pair.second];
@@ -224,6 +363,10 @@ void check_intersections(const ModelScope& scope, std::vector<Finding>& findings
         } else {
             findings.push_back(common_finding(scope, "B22", pair, common, both + " touch in points that they do not share"));
         }
+    }
+    if (gathering.has_more_pairs()) {
+        findings.push_back(
+            finding_of("B08", "very many surfaces cross or touch others: further pairs of those that are told here were not looked at"));
     }
 }
 

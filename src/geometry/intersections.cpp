@@ -12,36 +12,34 @@ namespace geomend {
 
 namespace {
 
-constexpr std::size_t chunk_level = 4;         // what one thread does at a time: a node of this level, 1024 triangles
-constexpr std::size_t chunks_per_round = 256;  // between looks at the limit and at the monitor
+constexpr std::size_t chunk_level = 4;        // what one thread does at a time: a node of this level, 1024 triangles
+constexpr std::size_t chunks_per_round = 64;  // between looks at the limit and at the monitor
 
 /// Pairs of the triangles in one node with these and those that come after them in the tree's order.
 class NodeSearch {
 public:
-    NodeSearch(const TriangleTree& tree, std::size_t most) : tree_(tree), most_(most) {}
+    NodeSearch(const TriangleTree& tree, PairTaker& taker) : tree_(tree), taker_(taker) {}
 
-    std::vector<TriangleMeetingPair> run(std::size_t level, std::size_t node) {
+    void run(std::size_t level, std::size_t node) {
         const std::size_t size = std::size_t{4} << (2 * level), end = std::min(tree_.size(), (node + 1) * size);
         first_ = node * size;
         for (std::size_t i = first_; i < end; ++i) own_.emplace_back(corners(i));
         const auto with = [&](std::size_t other) {
-            if (other < node || found_.size() >= most_) return;
+            if (other < node || taker_.is_full) return;
             tree_.visit_pairs(level, node, other, [&](std::size_t i, std::size_t first, unsigned hits) {
-                if (found_.size() >= most_) return;
+                if (taker_.is_full) return;
                 visit_bits(hits, [&](std::size_t k) { test(i, first + k); });
             });
         };
         if (level + 1 == tree_.levels().size()) with(node);
         else tree_.visit_nodes(level, tree_.outer_box(level, node), with);
-        return std::move(found_);
     }
 
 private:
     const TriangleTree& tree_;
-    const std::size_t most_;
+    PairTaker& taker_;
     std::size_t first_ = 0;
     std::vector<Separator> own_;  ///< of the triangles of the node, from first_ on
-    std::vector<TriangleMeetingPair> found_;
 
     std::array<Vec3, 3> corners(std::size_t i) const {
         const Triangle& t = tree_.triangle(i);
@@ -50,6 +48,7 @@ private:
     }
 
     void test(std::size_t i, std::size_t j) {
+        if (taker_.is_choosy && !taker_.wants(tree_.number(i), tree_.number(j))) return;
         const Triangle &a = tree_.triangle(i), &b = tree_.triangle(j);
         Corners a_shared = 0, b_shared = 0;
         for (unsigned m = 0; m < 3; ++m) {
@@ -69,7 +68,7 @@ private:
         pair.how = ascending ? meeting(tree_.vertices(), a, b) : meeting(tree_.vertices(), b, a);
         if (pair.how.kind == Meeting::none) return;
         if (!ascending) std::swap(pair.a, pair.b);
-        found_.push_back(pair);
+        taker_.take(pair);
     }
 };
 
@@ -82,20 +81,50 @@ std::vector<TriangleMeetingPair> intersections(std::span<const Vec3> vertices, s
 
 std::vector<TriangleMeetingPair> intersections(const TriangleTree& tree, const Monitor* monitor, std::size_t most) {
     std::vector<TriangleMeetingPair> found;
-    if (tree.size() == 0) return found;
-    const std::size_t level = std::min(chunk_level, tree.levels().size() - 1);
-    const std::size_t chunks = tree.levels()[level].size();
-    for (std::size_t round = 0; round < chunks && found.size() < most; round += chunks_per_round) {
-        if (monitor != nullptr && monitor->stopped()) break;
-        const std::size_t size = std::min(chunks_per_round, chunks - round);
-        std::vector<std::vector<TriangleMeetingPair>> parts(size);
-        parallel_for_each_index(size, [&](std::size_t part) { parts[part] = NodeSearch(tree, most).run(level, round + part); });
-        for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
-        if (monitor != nullptr) monitor->progress("intersections", static_cast<double>(round + size) / static_cast<double>(chunks));
-    }
+    struct Part {
+        PairTaker taker;
+        std::vector<TriangleMeetingPair> pairs;
+    };
+    std::vector<Part> parts(intersection_parts(tree));
+    const auto taker_of = [&](std::size_t i) -> PairTaker& {
+        Part& part = parts[i];
+        part.taker.is_full = found.size() >= most;
+        part.taker.take = [&part, most](const TriangleMeetingPair& pair) {
+            part.pairs.push_back(pair);
+            part.taker.is_full = part.pairs.size() >= most;
+        };
+        return part.taker;
+    };
+    const auto after_round = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            found.insert(found.end(), parts[i].pairs.begin(), parts[i].pairs.end());
+            parts[i].pairs = {};
+        }
+    };
+    visit_intersections(tree, taker_of, after_round, monitor);
     std::sort(found.begin(), found.end(), [](const auto& p, const auto& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
     if (found.size() > most) found.resize(most);
     return found;
+}
+
+std::size_t intersection_parts(const TriangleTree& tree) {
+    return tree.size() == 0 ? 0 : tree.levels()[std::min(chunk_level, tree.levels().size() - 1)].size();
+}
+
+void visit_intersections(const TriangleTree& tree, const std::function<PairTaker&(std::size_t part)>& taker_of,
+                         const std::function<void(std::size_t first, std::size_t last)>& after_round, const Monitor* monitor) {
+    const std::size_t chunks = intersection_parts(tree);
+    for (std::size_t round = 0; round < chunks; round += chunks_per_round) {
+        if (monitor != nullptr && monitor->stopped()) break;
+        const std::size_t size = std::min(chunks_per_round, chunks - round);
+        const std::size_t level = std::min(chunk_level, tree.levels().size() - 1);
+        parallel_for_each_index(size, [&](std::size_t part) {
+            PairTaker& taker = taker_of(round + part);
+            if (!taker.is_full) NodeSearch(tree, taker).run(level, round + part);
+        });
+        after_round(round, round + size);
+        if (monitor != nullptr) monitor->progress("intersections", static_cast<double>(round + size) / static_cast<double>(chunks));
+    }
 }
 
 }  // namespace geomend

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,5 +30,24 @@ std::vector<TriangleMeetingPair> intersections(std::span<const Vec3> vertices, s
 
 /// The same for a tree that is there already; its vertices must still be.
 std::vector<TriangleMeetingPair> intersections(const TriangleTree& tree, const Monitor* monitor = nullptr, std::size_t most = SIZE_MAX);
+
+/// What becomes of the pairs that are found in one part of a soup, 1024 triangles with those behind them.
+struct PairTaker {
+    std::function<void(const TriangleMeetingPair&)> take;
+    /// Asked while `is_choosy`: false for a pair of triangles to be passed over, before it is known whether they meet.
+    std::function<bool(std::uint32_t a, std::uint32_t b)> wants;
+    bool is_choosy = false;
+    bool is_full = false;  ///< no more are wanted
+};
+
+/// How many parts visit_intersections() goes through.
+std::size_t intersection_parts(const TriangleTree& tree);
+
+/// All pairs, where there may be too many to keep: ten thousand triangles on each other have fifty million. The parts follow each
+/// other in the order of the tree, and what they are handed does not depend on the number of threads.
+/// \param taker_of makes the taker of a part; called by the thread that works on it, which then calls the taker
+/// \param after_round called between rounds, on one thread, with the first part that was done since and the one behind the last
+void visit_intersections(const TriangleTree& tree, const std::function<PairTaker&(std::size_t part)>& taker_of,
+                         const std::function<void(std::size_t first, std::size_t last)>& after_round, const Monitor* monitor = nullptr);
 
 }  // namespace geomend

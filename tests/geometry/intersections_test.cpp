@@ -218,6 +218,43 @@ TEST(Intersections, DoNotDependOnThreadsNorWithALimit) {
     EXPECT_EQ(kinds(intersections(s.vertices, s.triangles, nullptr, all.size())), all) << "a limit that is not passed changes nothing";
 }
 
+TEST(Intersections, AreHandedOverPartByPart) {
+    const Soup s = random_soup(80, 2500, 0.7);
+    const TriangleTree tree(s.vertices, s.triangles);
+    const auto all = kinds(intersections(tree));
+    for (const std::size_t threads : {std::size_t{1}, std::size_t{0}}) {
+        const ThreadBudget budget(threads);
+        std::vector<PairTaker> takers(intersection_parts(tree));
+        std::vector<std::vector<TriangleMeetingPair>> parts(takers.size());
+        std::size_t done = 0;
+        visit_intersections(
+            tree,
+            [&](std::size_t part) -> PairTaker& {
+                takers[part].take = [&parts, part](const TriangleMeetingPair& pair) { parts[part].push_back(pair); };
+                takers[part].wants = [](std::uint32_t a, std::uint32_t b) { return (a + b) % 3 != 0; };
+                takers[part].is_choosy = part % 2 == 0;
+                return takers[part];
+            },
+            [&](std::size_t first, std::size_t last) {
+                EXPECT_EQ(first, done);
+                done = last;
+            });
+        EXPECT_EQ(done, parts.size());
+        std::vector<Found> found;
+        std::set<std::pair<std::uint32_t, std::uint32_t>> here;
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            for (const Found& f : kinds(parts[part])) {
+                EXPECT_TRUE(part % 2 != 0 || (f.a + f.b) % 3 != 0) << "not wanted";
+                found.push_back(f);
+                here.insert({f.a, f.b});
+            }
+        }
+        EXPECT_EQ(here.size(), found.size()) << "each once";
+        for (const Found& f : found) EXPECT_TRUE(std::binary_search(all.begin(), all.end(), f));
+        for (const Found& f : all) EXPECT_TRUE((f.a + f.b) % 3 == 0 || here.contains({f.a, f.b}));
+    }
+}
+
 TEST(Intersections, CanBeStopped) {
     const Soup s = random_soup(79, 100, 2);
     const std::atomic<bool> stop = true;

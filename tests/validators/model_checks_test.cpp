@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "geometry/intersections.h"
 #include "validators/layered_model.h"
 #include "validators/registry.h"
 
@@ -55,6 +56,68 @@ Dataset loose(std::vector<Surface> surfaces) {
 }
 
 std::vector<test::Triangle> square(double x0, double x1, double z) { return test::quad({x0, 0, z}, {x1, 0, z}, {x1, 1, z}, {x0, 1, z}); }
+
+/// A strip folded up so that all its triangles lie on each other, in one plane.
+std::vector<test::Triangle> folded_strip(std::size_t count) {
+    std::vector<test::Triangle> triangles;
+    const auto at = [](std::size_t i, double y) { return Vec3{double(i % 2) + 1e-4 * double(i), y + 1e-5 * double(i), 0}; };
+    for (std::size_t i = 0; 2 * i < count; ++i) {
+        triangles.push_back({at(i, 0), at(i + 1, 0), at(i + 1, 1)});
+        triangles.push_back({at(i, 0), at(i + 1, 1), at(i, 1)});
+    }
+    return triangles;
+}
+
+std::uint64_t pairs_of(const std::vector<test::Triangle>& triangles) {
+    const Surface surface = surface_of("", triangles);
+    std::vector<Triangle> numbers;
+    for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+        const auto t = surface.polygons[p];
+        numbers.push_back({t[0], t[1], t[2]});
+    }
+    return intersections(surface.points, numbers).size();
+}
+
+TEST(Crowds, OfTrianglesOnEachOtherAreOneFindingWithAllTriangles) {
+    validators::CheckOptions options;
+    options.only = {"B02"};
+    const auto many = folded_strip(1000);
+    ASSERT_GT(pairs_of(many), 400000u);
+    const auto findings = findings_of(loose({surface_of("pile", many)}), options);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_GE(findings[0].count, 20000u);
+    EXPECT_LT(findings[0].count, 400000u);
+    EXPECT_NE(findings[0].message.find("more that were not counted"), std::string::npos) << findings[0].message;
+    const auto few = findings_of(loose({surface_of("pile", folded_strip(100))}), options);
+    ASSERT_EQ(few.size(), 1u);
+    EXPECT_EQ(few[0].count, pairs_of(folded_strip(100))) << "exact where there are not so many";
+    EXPECT_EQ(few[0].message.find("not counted"), std::string::npos);
+}
+
+/// Triangles on each other, each turned a little.
+std::vector<test::Triangle> leaves(std::size_t count) {
+    std::vector<test::Triangle> triangles;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double turn = 1e-4 * double(i);
+        triangles.push_back({Vec3{1e-4 * turn, -turn, 0}, Vec3{1, turn, 0}, Vec3{-turn, 1 + turn, 0}});
+    }
+    return triangles;
+}
+
+TEST(Crowds, OfSurfacesOnEachOtherAreToldForEachSurface) {
+    validators::CheckOptions options;
+    options.only = {"B20", "B08"};
+    std::vector<Surface> pile;
+    for (const auto& t : leaves(300)) pile.push_back(surface_of("leaf_" + std::to_string(pile.size()), {t}));
+    const auto findings = findings_of(loose(pile), options);
+    std::set<std::int64_t> told;
+    for (const Finding& f : findings) {
+        for (const EntityRef& e : f.entities) told.insert(e.id);
+    }
+    EXPECT_EQ(told.size(), 300u) << "each surface";
+    EXPECT_LT(findings.size(), 20000u) << "not each of the 44850 pairs";
+    EXPECT_NE(findings.back().message.find("not looked at"), std::string::npos) << findings.back().message;
+}
 
 TEST(LooseSurfaces, ThatCloseBoundARegion) {
     // Six squares, each an object of its own.
