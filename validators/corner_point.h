@@ -4,7 +4,8 @@
 #include "validators/found_cells.h"
 
 // The checks of corner-point grids, one function per code; the table that joins them is in registry.cpp. Each adds one
-// finding to the list, or none where all is well (C04 and C18 one for each of the two things that they tell apart).
+// finding to the list, or none where all is well (C04 and C18 one for each of the two things that they tell apart, C23 and
+// C24 one for each array, C25 one for faults with multipliers and one for others).
 
 namespace geomend::validators {
 
@@ -33,6 +34,11 @@ void check_single_precision(const GridScope&, std::vector<Finding>&);     // C19
 void check_fault_boxes(const GridScope&, std::vector<Finding>&);          // C20
 void check_isolated(const GridScope&, std::vector<Finding>&);             // C21
 void check_flat_cells(const GridScope&, std::vector<Finding>&);           // C22
+void check_scattered_regions(const GridScope&, std::vector<Finding>&);    // C23
+void check_region_numbers(const GridScope&, std::vector<Finding>&);       // C24
+void check_fault_effects(const GridScope&, std::vector<Finding>&);        // C25
+void check_shared_fault_faces(const GridScope&, std::vector<Finding>&);   // C26
+void check_idle_faults(const GridScope&, std::vector<Finding>&);          // G03
 
 /// Active cells that touch no other, where there is more than one active cell; ascending. What C21 tells of cells.
 std::vector<std::size_t> isolated_cells(const GridScope&);

@@ -5,36 +5,17 @@
 #include <set>
 
 #include "validators/corner_point.h"
+#include "validators/fault_sides.h"
 
-// What fault records say against the throws that are there: C18 and C20.
+// What fault records say against the throws that are there: C18, C20 and G03.
 
 namespace geomend::validators {
 
 namespace {
 
-using Fault = CornerPointGrid::Fault;
-
-constexpr std::size_t axis_of(CellFace face) { return static_cast<std::size_t>(face) / 2; }
-constexpr bool is_plus(CellFace face) { return (static_cast<unsigned>(face) & 1u) != 0; }
-
-bool inside(const CornerPointGrid& grid, const Fault::Box& box) {
-    for (std::size_t a = 0; a < 3; ++a) {
-        if (box.first[a] > box.last[a] || box.last[a] >= grid.dims[a]) return false;
-    }
-    return true;
-}
-
-bool flat(const Fault::Box& box) { return box.first[axis_of(box.face)] == box.last[axis_of(box.face)]; }
-
 // Corners of a cell on its +I or +J side, and those of the next cell that they meet.
 constexpr std::array<std::array<unsigned, 4>, 2> near_side{{{1, 3, 5, 7}, {2, 3, 6, 7}}};
 constexpr std::array<std::array<unsigned, 4>, 2> far_side{{{0, 2, 4, 6}, {0, 1, 4, 5}}};
-
-// The neighbour of a cell along I (axis 0) or J (axis 1), or the number of cells.
-std::size_t neighbour(const CornerPointGrid& grid, const std::array<std::uint32_t, 3>& at, std::size_t axis) {
-    if (at[axis] + 1 >= grid.dims[axis]) return grid.cell_count();
-    return grid.cell(at[0] + (axis == 0 ? 1 : 0), at[1] + (axis == 1 ? 1 : 0), at[2]);
-}
 
 // Largest difference in depth across the +I or +J side of a cell.
 double throw_at(const GridScope& scope, const std::array<std::uint32_t, 3>& at, std::size_t axis) {
@@ -47,69 +28,68 @@ double throw_at(const GridScope& scope, const std::array<std::uint32_t, 3>& at, 
     return most;
 }
 
-// Calls body(cell, axis) for each +I (axis 0) and +J (axis 1) side that a record is for. Sides on the border of the grid
-// and tops and bottoms have no throw and are left out.
-template <class Body>
-void each_stated_side(const CornerPointGrid& grid, const Fault& fault, const Body& body) {
-    for (const Fault::Box& box : fault.boxes) {
-        const std::size_t axis = axis_of(box.face);
-        if (axis == 2 || !inside(grid, box) || !flat(box)) continue;
-        auto first = box.first, last = box.last;
-        if (!is_plus(box.face)) {  // the same side is the + side of the cell before
-            if (first[axis] == 0) continue;
-            --first[axis];
-            --last[axis];
-        }
-        for (std::uint32_t k = first[2]; k <= last[2]; ++k) {
-            for (std::uint32_t j = first[1]; j <= last[1]; ++j) {
-                for (std::uint32_t i = first[0]; i <= last[0]; ++i) {
-                    if (neighbour(grid, {i, j, k}, axis) < grid.cell_count()) body(grid.cell(i, j, k), axis);
-                }
-            }
-        }
-    }
-}
-
-// Per cell bit 1 where its +I side is on a stated fault, bit 2 where its +J side is.
-std::vector<std::uint8_t> stated_sides(const CornerPointGrid& grid) {
-    std::vector<std::uint8_t> stated(grid.cell_count(), 0);
-    for (const Fault& fault : grid.faults)
-        each_stated_side(grid, fault, [&](std::size_t cell, std::size_t axis) { stated[cell] |= static_cast<std::uint8_t>(1u << axis); });
-    return stated;
-}
-
 bool both_judged(const GridScope& scope, std::size_t cell, std::size_t axis) {
     const std::size_t next = neighbour(scope.grid(), scope.grid().ijk(cell), axis);
     return next < scope.grid().cell_count() && scope.judged(cell) && scope.judged(next);
 }
 
-void find_stated_without_throw(const GridScope& scope, const std::vector<std::uint8_t>& stated, std::vector<Finding>& findings) {
+bool without_throw(const GridScope& scope, std::size_t cell, std::size_t axis) {
+    return both_judged(scope, cell, axis) && throw_at(scope, scope.grid().ijk(cell), axis) <= scope.depth_tolerance();
+}
+
+// What a stated fault is like between neighbours of one layer.
+struct FaultThrow {
+    std::uint64_t judged = 0, without = 0;
+    bool is_idle() const { return judged > 0 && judged == without; }
+};
+
+FaultThrow throw_of(const GridScope& scope, const Fault& fault) {
+    FaultThrow all;
+    each_stated_side(scope.grid(), fault, [&](std::size_t cell, std::size_t axis) {
+        if (!both_judged(scope, cell, axis)) return;
+        ++all.judged;
+        all.without += without_throw(scope, cell, axis) ? 1 : 0;
+    });
+    return all;
+}
+
+// Per cell bit 1 where its +I side is on a stated fault, bit 2 where its +J side is. \param idle also faults without any throw
+std::vector<std::uint8_t> stated_sides(const GridScope& scope, bool idle) {
     const auto& grid = scope.grid();
-    const auto without = [&](std::size_t cell, std::size_t axis) {
-        return both_judged(scope, cell, axis) && throw_at(scope, grid.ijk(cell), axis) <= scope.depth_tolerance();
-    };
+    std::vector<std::uint8_t> stated(grid.cell_count(), 0);
+    for (const Fault& fault : grid.faults) {
+        if (!idle && throw_of(scope, fault).is_idle()) continue;
+        each_stated_side(grid, fault, [&](std::size_t cell, std::size_t axis) { stated[cell] |= static_cast<std::uint8_t>(1u << axis); });
+    }
+    return stated;
+}
+
+// A fault that has throw elsewhere: where it has none. Of a fault without any G03 tells.
+void find_stated_without_throw(const GridScope& scope, std::vector<Finding>& findings) {
+    if (scope.grid().faults.empty()) return;
+    const std::vector<std::uint8_t> stated = stated_sides(scope, false);
     std::uint64_t sides = 0;
     FoundCells found;
     for (std::size_t cell = 0; cell < stated.size(); ++cell) {
         unsigned here = 0;
-        for (std::size_t axis = 0; axis < 2; ++axis) here += (stated[cell] >> axis & 1u) != 0 && without(cell, axis) ? 1 : 0;
+        for (std::size_t axis = 0; axis < 2; ++axis) here += (stated[cell] >> axis & 1u) != 0 && without_throw(scope, cell, axis) ? 1 : 0;
         sides += here;
         if (here > 0) found.add(cell, here);
     }
     if (found.count == 0) return;
     Finding f = cells_finding(
         scope, "C18",
-        "faults are stated at " + counted(sides, "side", "sides") + " of cells (+I or +J of those listed) where there is no throw", found);
-    for (const Fault& fault : grid.faults) {
-        bool any = false;
-        each_stated_side(grid, fault, [&](std::size_t cell, std::size_t axis) { any = any || without(cell, axis); });
-        if (any && f.entities.size() <= listed_elements) f.entities.push_back({"fault", fault.name});
+        "faults are stated at " + counted(sides, "side", "sides") + " of cells (+I or +J of those listed) where they have no throw", found);
+    for (const Fault& fault : scope.grid().faults) {
+        const FaultThrow all = throw_of(scope, fault);
+        if (all.without > 0 && !all.is_idle() && f.entities.size() <= listed_elements) f.entities.push_back({"fault", fault.name});
     }
     f.measures = {{"sides", static_cast<double>(sides)}};
     findings.push_back(std::move(f));
 }
 
-void find_throw_without_fault(const GridScope& scope, const std::vector<std::uint8_t>& stated, std::vector<Finding>& findings) {
+void find_throw_without_fault(const GridScope& scope, std::vector<Finding>& findings) {
+    const std::vector<std::uint8_t> stated = stated_sides(scope, true);
     const auto found = find_cells(scope, [&](std::size_t cell, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
         Judgement of;
         unsigned sides = 0;
@@ -137,9 +117,39 @@ void find_throw_without_fault(const GridScope& scope, const std::vector<std::uin
 }  // namespace
 
 void check_fault_throws(const GridScope& scope, std::vector<Finding>& findings) {
-    const std::vector<std::uint8_t> stated = stated_sides(scope.grid());
-    find_stated_without_throw(scope, stated, findings);
-    find_throw_without_fault(scope, stated, findings);
+    find_stated_without_throw(scope, findings);
+    find_throw_without_fault(scope, findings);
+}
+
+void check_idle_faults(const GridScope& scope, std::vector<Finding>& findings) {
+    const auto& grid = scope.grid();
+    std::vector<std::size_t> cells;
+    std::vector<EntityRef> faults;
+    std::uint64_t sides = 0;
+    for (const Fault& fault : grid.faults) {
+        const FaultThrow all = throw_of(scope, fault);
+        if (!all.is_idle()) continue;
+        sides += all.judged;
+        faults.push_back({"fault", fault.name});
+        each_stated_side(grid, fault, [&](std::size_t cell, std::size_t axis) {
+            if (both_judged(scope, cell, axis)) cells.push_back(cell);
+        });
+    }
+    if (faults.empty()) return;
+    std::ranges::sort(cells);
+    cells.erase(std::ranges::unique(cells).begin(), cells.end());
+    FoundCells found;
+    for (const std::size_t cell : cells) found.add(cell, 0);
+    const bool one = faults.size() == 1;
+    Finding f = cells_finding(scope, "G03",
+                              counted(faults.size(), "fault displaces", "faults displace") + " nothing: '" + faults[0].name +
+                                  (one ? "'" : "', ...") + ": at all " + counted(sides, "side", "sides") + " of cells where " +
+                                  (one ? "it is" : "they are") + " stated (+I or +J of those listed) neighbours of one layer meet",
+                              found);
+    f.measures = {{"faults", static_cast<double>(faults.size())}, {"sides", static_cast<double>(sides)}};
+    faults.resize(std::min(faults.size(), listed_elements));
+    f.entities.insert(f.entities.end(), faults.begin(), faults.end());
+    findings.push_back(std::move(f));
 }
 
 void check_fault_boxes(const GridScope& scope, std::vector<Finding>& findings) {

@@ -40,7 +40,10 @@ double step_above(double value, bool single) {
 }
 
 GridScope::GridScope(const CornerPointGrid& grid, const CheckOptions& options)
-    : grid_(grid), monitor_(options.monitor), all_cells_(options.all_cells) {
+    : grid_(grid),
+      monitor_(options.monitor),
+      all_cells_(options.all_cells),
+      asked_regions_(options.grid_model ? options.grid_model->regions : std::string()) {
     if (!has_geometry(grid)) {
         judged_.assign(grid.cell_count(), 0);
         return;

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/finding.h"
 #include "base/monitor.h"
+#include "grid/boundary_model.h"
 #include "grid/cell_geometry.h"
 #include "grid/connections.h"
 #include "model/corner_point.h"
@@ -16,11 +18,12 @@ namespace geomend::validators {
 
 /// What the user says of the checks.
 struct CheckOptions {
-    double tolerance = -1;                ///< length up to which points count as one; negative: by rule
-    double near = -1;                     ///< search length for near misses; negative: by rule
-    bool all_cells = false;               ///< also inactive cells are judged
-    std::vector<std::string> only, skip;  ///< codes; `only` empty: all
-    std::string target;                   ///< of a simulator or mesher that the model is for (readiness.h); empty: none
+    double tolerance = -1;                         ///< length up to which points count as one; negative: by rule
+    double near = -1;                              ///< search length for near misses; negative: by rule
+    bool all_cells = false;                        ///< also inactive cells are judged
+    std::vector<std::string> only, skip;           ///< codes; `only` empty: all
+    std::string target;                            ///< of a simulator or mesher that the model is for (readiness.h); empty: none
+    std::optional<grid::ModelRequest> grid_model;  ///< also the boundary representations of corner-point grids are judged
     const Monitor* monitor = nullptr;
 };
 
@@ -52,11 +55,14 @@ public:
     /// depths are compared with depths only and northings are often a thousand times larger.
     double depth_tolerance() const { return depth_tolerance_; }
     bool all_cells() const { return all_cells_; }
+    /// The attribute whose values the regions of a boundary representation are to be; empty: none was named.
+    const std::string& asked_regions() const { return asked_regions_; }
     bool in_scope(std::size_t cell) const { return all_cells_ || grid_.is_active(cell); }
     bool judged(std::size_t cell) const { return judged_[cell] != 0; }
     std::uint64_t judged_count() const { return judged_count_; }
     /// Most judged cells have a positive volume in (x, y, depth).
     bool right_handed() const { return right_handed_; }
+    const Monitor* monitor() const { return monitor_; }
     bool stopped() const { return monitor_ != nullptr && monitor_->stopped(); }
 
     /// Corners of a cell; of cylindrical grids as radius, angle in degrees and depth, so that a ring does not close on
@@ -75,6 +81,7 @@ private:
     const CornerPointGrid& grid_;
     const Monitor* monitor_;
     bool all_cells_;
+    std::string asked_regions_;
     bool right_handed_ = true;
     Lengths lengths_;
     double depth_tolerance_ = 0;

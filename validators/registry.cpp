@@ -7,6 +7,7 @@
 #include "topology/flat_objects.h"
 #include "validators/cell_checks.h"
 #include "validators/corner_point.h"
+#include "validators/grid_model.h"
 #include "validators/model_checks.h"
 #include "validators/object_checks.h"
 #include "validators/readiness.h"
@@ -95,19 +96,38 @@ constexpr std::array table = {
     Check{"C15", "ACTNUM is above 1 (above 3 in a grid of two porosities)", check_activity, true},
     Check{"C16", "PORV, or volume times PORO, NTG and MULTPV, is below MINPV or MINPVV (1e-6 where it is not stated)", check_pore_volumes},
     Check{"C17", "active cells are not all connected: across faults, past pinched cells and by stated connections", check_parts},
-    Check{"C18", "a stated fault without throw, or throw without a stated fault, beyond the tolerance, between neighbours of one layer",
+    Check{"C18",
+          "a stated fault has no throw at some of its sides, or there is throw without a stated fault, beyond the tolerance, between "
+          "neighbours of one layer",
           check_fault_throws},
     Check{"C19", "rounding to single precision moves a corner by more than the tolerance", check_single_precision},
     Check{"C20", "the cells of a fault record are outside the grid, run backwards or are more than one layer thick", check_fault_boxes,
           true},
     Check{"C21", "an active cell touches no other; a column of them touches no other column", check_isolated},
     Check{"C22", "the longest mean edge is more than 1000 times the shortest", check_flat_cells},
-    of_model("G01",
-             "two regions, layers, fault blocks or objects of surfaces of one model have the same name; info where the file states one "
-             "group of volumes of it",
-             check_names_of_model),
+    Check{"C23",
+          "cells with one number of FIPNUM (or another FIP array), EQLNUM, PVTNUM, FLUXNUM, MULTNUM or the attribute of --option "
+          "regions=NAME fall into parts that neither touch nor are side by side in a layer, within one part of the grid",
+          check_scattered_regions},
+    Check{"C24", "SATNUM, PVTNUM, EQLNUM, ROCKNUM, IMBNUM or a FIP array is below 1 in an active cell", check_region_numbers},
+    Check{"C25", "a stated fault has active cells on both sides at none of its faces; a warning where it has a multiplier other than 1",
+          check_fault_effects},
+    Check{"C26", "a side of a cell is stated in more than one fault", check_shared_fault_faces, true},
+    Check{"C27",
+          "with --option as=brep: triangles of the outside or of faults cross by more than the tolerance, or outer ones that look the "
+          "same way overlap, in columns that share no pillar"},
+    Check{"C28", "with --option as=brep: as C27, in columns that share a pillar, or one column"},
+    of_model(
+        "G01",
+        "two regions, layers, fault blocks or objects of loose surfaces of one model have the same name; info where the file states one "
+        "group of volumes of it",
+        check_names_of_model),
     of_model("G02", "a stated layer or fault block lists no region that exists", check_region_lists),
-    of_model("G03", "at each contact at which a fault passes a horizon, the horizon comes up from both sides", check_fault_displacement),
+    Check{"G03",
+          "at each contact at which a fault passes a horizon, the horizon comes up from both sides; of corner-point grids: a stated fault "
+          "has throw "
+          "beyond the tolerance between no neighbours of one layer",
+          check_idle_faults, false, check_fault_displacement},
     of_model("G04",
              "stratigraphic surfaces lie above each other in a circle: each is roof of a region whose floor is the next; a warning where "
              "normals say that layers are overturned",
@@ -285,6 +305,9 @@ Result<Checked> check(const CornerPointGrid& grid, const CheckOptions& options) 
         if (row.run != nullptr && (result.geometry || row.of_records) && wanted(options, row.code)) row.run(scope, result.findings);
         if (options.monitor != nullptr)
             options.monitor->progress("checking", static_cast<double>(&row - table.data() + 1) / static_cast<double>(table.size()));
+    }
+    if (result.geometry && options.grid_model) {
+        if (auto done = check_grid_model(scope, *options.grid_model, options, result.findings); !done) return std::move(done).why();
     }
     if (scope.stopped()) return stopped();
     if (!result.geometry && wanted(options, "F161")) {

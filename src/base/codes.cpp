@@ -76,6 +76,12 @@ constexpr std::array catalogue = {
     CodeInfo{"C20", error, "a fault record lies outside the grid or is not on one face", "correct FAULTS"},
     CodeInfo{"C21", info, "an active cell or column has no active neighbour", "repair --step drop-isolated"},
     CodeInfo{"C22", info, "a cell is extremely flat or long", ""},
+    CodeInfo{"C23", info, "the cells of a region do not hang together", ""},
+    CodeInfo{"C24", warning, "a region number of an active cell is below 1", "correct the array"},
+    CodeInfo{"C25", info, "a stated fault has no face between active cells", "state its FAULTS records, or remove it"},
+    CodeInfo{"C26", info, "a side of a cell is stated in more than one fault", "keep it in one of them"},
+    CodeInfo{"C27", error, "cells of columns that are no neighbours run into each other", "correct COORD, or make one of both inactive"},
+    CodeInfo{"C28", info, "bent faces of neighbouring cells cross as triangles", ""},
     // Files.
     CodeInfo{"F001", error, "the file cannot be opened or read", "check the path and its permissions"},
     CodeInfo{"F002", error, "the file is empty", "export it again from its source"},
@@ -143,6 +149,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F154", info, "coordinates were given a local origin", ""},
     CodeInfo{"F160", info, "an object holds nothing that a check looks at", ""},
     CodeInfo{"F161", info, "a grid has no geometry: only its records were checked", "give the file that holds COORD and ZCORN"},
+    CodeInfo{"F162", info, "the boundary representation of a grid was not judged, or not wholly", ""},
     // Geology.
     CodeInfo{"G01", warning, "a name is used more than once: for regions, layers, fault blocks or surfaces", "rename one of them"},
     CodeInfo{"G02", warning, "a layer or a fault block has no region", "correct its list"},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "pipeline/grids.h"
 #include "pipeline/scene.h"
 
 namespace geomend::cli {
@@ -32,6 +33,14 @@ Result<validators::CheckOptions> check_options(const CommonOptions& common, cons
     if (!cells.empty() && cells != "all" && cells != "active")
         return failure(FailureKind::usage, "F018", {}, "--option cells=" + std::string(cells) + ": expected all or active");
     o.all_cells = cells == "all";
+    const std::string_view as = option_value(*options, "as");
+    if (!as.empty() && as != "brep" && as != "cells")
+        return failure(FailureKind::usage, "F018", {}, "--option as=" + std::string(as) + ": expected brep or cells");
+    if (as == "brep") {
+        auto request = model_request(*options);
+        if (!request) return std::move(request).why();
+        o.grid_model = std::move(*request);
+    }
     return o;
 }
 

@@ -22,7 +22,7 @@ struct CheckArguments {
 
 void add_check_arguments(CLI::App& command, CheckArguments& arguments);
 
-/// What the checks are told. Failure (usage) for a wrong value of option cells.
+/// What the checks are told. Failure (usage) for a wrong value of options cells, as, horizons.
 Result<validators::CheckOptions> check_options(const CommonOptions& common, const CheckArguments& arguments, const Monitor* monitor);
 
 /// True where a finding is at or above the severity of --fail-on.

@@ -9,6 +9,7 @@
 #include "grid/cell_mesh.h"
 #include "grid/connections.h"
 #include "grid/face_triangles.h"
+#include "grid/triangle_sheets.h"
 
 namespace geomend::grid {
 
@@ -26,8 +27,8 @@ CellFace opposite(CellFace face) { return static_cast<CellFace>(static_cast<unsi
 
 class Maker {
 public:
-    Maker(const CornerPointGrid& grid, const ModelRequest& request)
-        : grid_(grid), request_(request), faces_(conforming_faces(grid)), stated_(grid), outward_(!right_handed(grid)) {}
+    Maker(const CornerPointGrid& grid, const ModelRequest& request, ModelSources* sources)
+        : grid_(grid), request_(request), sources_(sources), faces_(conforming_faces(grid)), stated_(grid), outward_(!right_handed(grid)) {}
 
     Result<Dataset> make() {
         for (const std::uint32_t layer : request_.horizons) {
@@ -50,6 +51,7 @@ public:
             stated.regions.push_back(std::move(region));
         }
         for (const auto& [key, members] : groups_) add_surfaces(key, members, model, stated);
+        if (sources_ != nullptr) sources_->unmatched_columns = faces_.unmatched_columns;
         return model;
     }
 
@@ -57,7 +59,16 @@ private:
     // Feature, region behind, region in front or nobody, and which way open faces look: two that look at each other may
     // be alike, and one surface would hold them twice.
     using Key = std::tuple<Feature, std::uint32_t, std::uint32_t, unsigned>;
-    using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+    struct Triangles {
+        std::vector<std::array<std::uint32_t, 3>> corners;
+        std::vector<std::uint32_t> face;  // of faces_, per triangle
+
+        void add(const Triangles& from, std::size_t t, bool turned) {
+            corners.push_back(from.corners[t]);
+            if (turned) std::swap(corners.back()[1], corners.back()[2]);
+            face.push_back(from.face[t]);
+        }
+    };
     struct Member {
         std::uint32_t face;
         bool turned;  // its normal leaves the region in front
@@ -194,65 +205,94 @@ private:
 
     void add_surfaces(const Key& key, const std::vector<Member>& members, Dataset& model, StatedModel& stated) const {
         const auto& [feature, back, front, way] = key;
-        for (const Triangles& sheet : sheets_of(triangles_of(members))) {
-            Surface surface;
-            surface.info.name = feature.name;
-            surface.info.role = feature.role;
-            surface.info.crs = grid_.info.crs;
-            fill(surface, sheet);
-            StatedModel::Face face;
-            face.number = static_cast<std::int64_t>(stated.faces.size() + 1);
-            face.object = static_cast<std::uint32_t>(model.objects.size());
-            face.interface_name = feature.name;
-            face.role = feature.role;
-            const auto number = static_cast<std::uint32_t>(stated.faces.size());
-            stated.regions[back].sides.push_back({number, false});
-            if (front != nobody) stated.regions[front].sides.push_back({number, true});
-            stated.faces.push_back(std::move(face));
-            model.objects.emplace_back(std::move(surface));
+        for (const Triangles& layer : layers_of(triangles_of(members))) {
+            for (const Triangles& sheet : sheets_of(layer, back == front)) add_surface(key, sheet, model, stated);
         }
     }
 
+    void add_surface(const Key& key, const Triangles& sheet, Dataset& model, StatedModel& stated) const {
+        const auto& [feature, back, front, way] = key;
+        Surface surface;
+        surface.info.name = feature.name;
+        surface.info.role = feature.role;
+        surface.info.crs = grid_.info.crs;
+        fill(surface, sheet);
+        StatedModel::Face face;
+        face.number = static_cast<std::int64_t>(stated.faces.size() + 1);
+        face.object = static_cast<std::uint32_t>(model.objects.size());
+        face.interface_name = feature.name;
+        face.role = feature.role;
+        const auto number = static_cast<std::uint32_t>(stated.faces.size());
+        stated.regions[back].sides.push_back({number, false});
+        if (front != nobody) stated.regions[front].sides.push_back({number, true});
+        stated.faces.push_back(std::move(face));
+        model.objects.emplace_back(std::move(surface));
+        if (sources_ == nullptr) return;
+        sources_->sides.emplace_back();
+        for (const std::uint32_t f : sheet.face) sources_->sides.back().push_back({faces_.faces[f].first, faces_.faces[f].second});
+    }
+
     Triangles triangles_of(const std::vector<Member>& members) const {
-        Triangles triangles, all;
+        Triangles all;
+        std::vector<std::array<std::uint32_t, 3>> triangles;
         for (const Member& m : members) {
             face_triangles(faces_.polygon(m.face), faces_.points, triangles);
             // Normals point to the front: out of the region behind.
             if (outward_ == m.turned) {
                 for (auto& t : triangles) std::swap(t[1], t[2]);
             }
-            all.insert(all.end(), triangles.begin(), triangles.end());
+            all.corners.insert(all.corners.end(), triangles.begin(), triangles.end());
+            all.face.insert(all.face.end(), triangles.size(), m.face);
         }
         return all;
     }
 
     // Where cells are pinched, open faces may have triangles in common: a surface holds each but once.
-    static std::vector<Triangles> sheets_of(const Triangles& all) {
-        std::vector<std::pair<std::array<std::uint32_t, 3>, std::size_t>> sorted(all.size());
-        for (std::size_t t = 0; t < all.size(); ++t) {
-            sorted[t] = {all[t], t};
+    static std::vector<Triangles> layers_of(const Triangles& all) {
+        std::vector<std::pair<std::array<std::uint32_t, 3>, std::size_t>> sorted(all.corners.size());
+        for (std::size_t t = 0; t < sorted.size(); ++t) {
+            sorted[t] = {all.corners[t], t};
             std::ranges::sort(sorted[t].first);
         }
         std::ranges::sort(sorted);
-        std::vector<std::size_t> sheet(all.size(), 0);
+        std::vector<std::size_t> layer(sorted.size(), 0);
         for (std::size_t n = 1; n < sorted.size(); ++n) {
-            if (sorted[n].first == sorted[n - 1].first) sheet[sorted[n].second] = sheet[sorted[n - 1].second] + 1;
+            if (sorted[n].first == sorted[n - 1].first) layer[sorted[n].second] = layer[sorted[n - 1].second] + 1;
         }
-        std::vector<Triangles> sheets;
-        for (std::size_t t = 0; t < all.size(); ++t) {
-            if (sheet[t] >= sheets.size()) sheets.resize(sheet[t] + 1);
-            sheets[sheet[t]].push_back(all[t]);
+        std::vector<Triangles> layers;
+        for (std::size_t t = 0; t < layer.size(); ++t) {
+            if (layer[t] >= layers.size()) layers.resize(layer[t] + 1);
+            layers[layer[t]].add(all, t, false);
         }
+        return layers;
+    }
+
+    // The plane of faces (all between two rows of columns, or two layers) that a triangle is from.
+    std::uint64_t plane_of(std::uint32_t f) const {
+        const GridFaces::Face& face = faces_.faces[f];
+        const auto at = grid_.ijk(face.first);
+        const std::size_t axis = static_cast<std::size_t>(face.side) / 2;
+        return 4 * (std::uint64_t{at[axis]} + (static_cast<unsigned>(face.side) & 1u)) + axis;
+    }
+
+    // Turning a surface changes nothing only where one region is on both of its sides.
+    std::vector<Triangles> sheets_of(const Triangles& layer, bool may_turn) const {
+        std::vector<std::uint64_t> planes;
+        planes.reserve(layer.face.size());
+        for (const std::uint32_t f : layer.face) planes.push_back(plane_of(f));
+        const TriangleSheets parted = triangle_sheets(layer.corners, planes, may_turn);
+        std::vector<Triangles> sheets(parted.count);
+        for (std::size_t t = 0; t < layer.face.size(); ++t) sheets[parted.sheet[t]].add(layer, t, parted.turned[t] != 0);
         return sheets;
     }
 
-    void fill(Surface& surface, const Triangles& triangles) const {
+    void fill(Surface& surface, const Triangles& sheet) const {
         std::vector<std::uint32_t> nodes;
-        for (const auto& t : triangles) nodes.insert(nodes.end(), t.begin(), t.end());
+        for (const auto& t : sheet.corners) nodes.insert(nodes.end(), t.begin(), t.end());
         std::ranges::sort(nodes);
         nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
         for (const std::uint32_t n : nodes) surface.points.push_back(faces_.points[n]);
-        for (const auto& t : triangles) {
+        for (const auto& t : sheet.corners) {
             for (const std::uint32_t n : t)
                 surface.polygons.corners.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(nodes, n) - nodes.begin()));
         }
@@ -260,6 +300,7 @@ private:
 
     const CornerPointGrid& grid_;
     const ModelRequest& request_;
+    ModelSources* sources_;
     GridFaces faces_;
     FaultFaces stated_;
     bool outward_;  // polygons leave their first cell, elevation-up
@@ -270,6 +311,8 @@ private:
 
 }  // namespace
 
-Result<Dataset> boundary_model(const CornerPointGrid& grid, const ModelRequest& request) { return Maker(grid, request).make(); }
+Result<Dataset> boundary_model(const CornerPointGrid& grid, const ModelRequest& request, ModelSources* sources) {
+    return Maker(grid, request, sources).make();
+}
 
 }  // namespace geomend::grid

@@ -112,9 +112,8 @@ Result<std::vector<std::uint32_t>> layers(std::string_view text) {
 }
 
 Result<void> to_boundary_models(Dataset& dataset, const FormatOptions& options) {
-    auto horizons = layers(option_value(options, "horizons"));
-    if (!horizons) return std::move(horizons).why();
-    const grid::ModelRequest request{std::string(option_value(options, "regions")), *horizons};
+    const auto request = model_request(options);
+    if (!request) return request.why();
     std::vector<CornerPointGrid> grids;
     for (Object& object : dataset.objects) {
         if (auto* grid = std::get_if<CornerPointGrid>(&object)) grids.push_back(std::move(*grid));
@@ -122,7 +121,7 @@ Result<void> to_boundary_models(Dataset& dataset, const FormatOptions& options) 
     if (grids.empty()) return {};
     std::erase_if(dataset.objects, [](const Object& o) { return std::holds_alternative<CornerPointGrid>(o); });
     for (const CornerPointGrid& grid : grids) {
-        auto model = grid::boundary_model(grid, request);
+        auto model = grid::boundary_model(grid, *request);
         if (!model) return std::move(model).why();
         lose(dataset.losses, LossClass::substance, grid, "cells", "a boundary representation holds surfaces and regions",
              active_count(grid));
@@ -135,6 +134,12 @@ Result<void> to_boundary_models(Dataset& dataset, const FormatOptions& options) 
 }
 
 }  // namespace
+
+Result<grid::ModelRequest> model_request(const FormatOptions& options) {
+    auto horizons = layers(option_value(options, "horizons"));
+    if (!horizons) return std::move(horizons).why();
+    return grid::ModelRequest{std::string(option_value(options, "regions")), std::move(*horizons)};
+}
 
 Result<void> shape_grids(Dataset& dataset, const Format& target, const FormatOptions& options) {
     if (target.wants == WriterWants::corner_point) return {};

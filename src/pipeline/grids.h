@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "formats/format.h"
+#include "grid/boundary_model.h"
 #include "model/dataset.h"
 
 // What a conversion does to corner-point grids before they are written.
@@ -30,5 +31,8 @@ Result<void> make_grids(Dataset& dataset, const Format& target, const Dataset* l
 /// regions of regions=NAME and horizons below the layers of horizons=N,M,... What the target cannot say of a grid is
 /// added to dataset.losses.
 Result<void> shape_grids(Dataset& dataset, const Format& target, const FormatOptions& options);
+
+/// What options regions=NAME and horizons=N,M,... ask of a boundary representation. Failure (usage): not numbers.
+Result<grid::ModelRequest> model_request(const FormatOptions& options);
 
 }  // namespace geomend

@@ -275,11 +275,26 @@ TEST(Checks, C18ComparesStatedFaultsWithThrows) {
     // The same face as + side of column 2 in layer 1 and as - side of column 3 in layer 2.
     grid.faults = {{"A", {{{1, 0, 0}, {1, 0, 0}, CellFace::i_plus}, {{2, 0, 1}, {2, 0, 1}, CellFace::i_minus}}, {}}};
     EXPECT_EQ(codes_of(grid), Codes{});
-    grid.faults.push_back({"B", {{{0, 0, 0}, {0, 0, 1}, CellFace::i_plus}}, {}});
+    // A further record of the same fault where nothing is displaced.
+    grid.faults[0].boxes.push_back({{0, 0, 0}, {0, 0, 1}, CellFace::i_plus});
     const Finding idle = find(findings_of(grid), "C18", Severity::info);
     EXPECT_EQ(cells_of(idle), (std::vector<Cell>{{1, 1, 1}, {1, 1, 2}}));
     ASSERT_EQ(idle.entities.size(), 2u);
-    EXPECT_EQ(idle.entities[1].name, "B");
+    EXPECT_EQ(idle.entities[1].name, "A");
+}
+
+TEST(Checks, G03NamesStatedFaultsThatDisplaceNothing) {
+    CornerPointGrid grid = brick_grid(4, 1, 2);
+    add_throw(grid, 2, 5);
+    grid.faults = {{"A", {{{1, 0, 0}, {1, 0, 1}, CellFace::i_plus}}, {}}, {"B", {{{1, 0, 0}, {1, 0, 1}, CellFace::i_minus}}, {}}};
+    const auto found = findings_of(grid);
+    EXPECT_EQ(codes_of(found), Codes{"G03 info"}) << "C18 does not tell it again";
+    const Finding f = find(found, "G03", Severity::info);
+    EXPECT_EQ(cells_of(f), (std::vector<Cell>{{1, 1, 1}, {1, 1, 2}}));
+    ASSERT_EQ(f.entities.size(), 2u);
+    EXPECT_EQ(f.entities[1].name, "B");
+    add_throw(grid, 1, 1);
+    EXPECT_EQ(codes_of(grid), Codes{});
 }
 
 TEST(Checks, C19WarnsWhereSinglePrecisionMovesCorners) {

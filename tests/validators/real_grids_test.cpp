@@ -100,6 +100,121 @@ TEST(RealGrids, SoundOnesHaveNoErrors) {
     }
 }
 
+// Counted from the records by a program of its own.
+TEST(RealGrids, SidesOfTwoFaultsAreCounted) {
+    REPORT_OF(reek, "reek3/reek_sim_faults.grdecl");
+    EXPECT_EQ(measure(find(reek->findings, "C26", Severity::info), "sides"), 14);
+    EXPECT_EQ(cells_of(find(reek->findings, "C26", Severity::info)).front(), (Cell{31, 8, 1}));
+}
+
+// The records of Norne on bricks: which faults lie between no active cells, and which sides two faults have, were counted
+// by a program of its own.
+TEST(RealGrids, FaultsOfNorneWithoutEffectAreNamed) {
+    const auto at = [](const char* name) { return test::real_data(std::string("cornerpoint/norne/") + name); };
+    if (!at("FAULT_JUN_05.INC")) GTEST_SKIP() << "no real data";
+    LoadOptions options;
+    options.options = {{"dims", "46,112,22"}};
+    CornerPointGrid grid = brick_grid(46, 112, 22);
+    for (const char* name : {"ACTNUM_0704.prop", "FAULT_JUN_05.INC", "FAULTMULT_AUG-2006.INC"}) {
+        auto part = load(at(name)->string(), options);
+        ASSERT_TRUE(part.ok()) << name;
+        auto& records = std::get<CornerPointGrid>(part->objects[0]);
+        if (!records.activity.empty()) grid.activity = records.activity;
+        for (auto& fault : records.faults) {
+            const auto same = std::ranges::find(grid.faults, fault.name, &CornerPointGrid::Fault::name);
+            if (same == grid.faults.end()) grid.faults.push_back(fault);
+            else if (fault.multiplier) same->multiplier = fault.multiplier;
+        }
+    }
+    CheckOptions only;
+    only.only = {"C25", "C26"};
+    const auto found = findings_of(grid, only);
+    std::set<std::string> multiplied, plain;
+    for (const EntityRef& e : find(found, "C25", Severity::warning).entities) multiplied.insert(e.name);
+    for (const EntityRef& e : find(found, "C25", Severity::info).entities) plain.insert(e.name);
+    EXPECT_EQ(multiplied, (std::set<std::string>{"bricks", "BC", "G_08"}));
+    EXPECT_EQ(plain, (std::set<std::string>{"bricks", "B2", "H_03", "IH", "m_east", "m_east_2", "m_north", "m_northe", "m_west"}));
+    EXPECT_EQ(measure(find(found, "C26", Severity::info), "sides"), 66);
+}
+
+// One column of the lower layers bears the number of the upper ones; found by a program of its own, too.
+TEST(RealGrids, AStrayColumnOfReeksRegionsIsFound) {
+    REPORT_OF(file, "reek/reek_grd_w_props.roffasc");
+    std::uint64_t arrays = 0;
+    for (const Finding& f : file->findings) {
+        if (f.code != "C23") continue;
+        ++arrays;
+        EXPECT_EQ(cells_of(f), (std::vector<Cell>{{12, 31, 11}, {12, 31, 12}, {12, 31, 13}, {12, 31, 14}}));
+    }
+    EXPECT_EQ(arrays, 2u) << "EQLNUM and FIPNUM";
+}
+
+TEST(RealGrids, WithTheirFaultRecordsHaveThrowAtAllOfThem) {
+    const auto grid = test::real_data("cornerpoint/reek3/reek_sim.grdecl"),
+               faults = test::real_data("cornerpoint/reek3/reek_sim_faults.grdecl");
+    if (!grid || !faults) GTEST_SKIP() << "no real data";
+    auto dataset = load(grid->string(), {}), records = load(faults->string(), {});
+    ASSERT_TRUE(dataset.ok() && records.ok());
+    auto& whole = std::get<CornerPointGrid>(dataset->objects[0]);
+    whole.faults = std::get<CornerPointGrid>(records->objects[0]).faults;
+    ASSERT_EQ(whole.faults.size(), 6u);
+    const Codes codes = codes_of(whole);
+    for (const char* code : {"C18 info", "C25 info", "G03 info"}) EXPECT_FALSE(codes.contains(code)) << code;
+}
+
+// As boundary representation sound grids have no more errors or warnings than by themselves, whatever their faults.
+TEST(RealGrids, SoundOnesAreSoundAsBoundaryRepresentation) {
+    CheckOptions as_brep;
+    as_brep.grid_model.emplace();
+    for (const char* name : {"reek/reek_sim_grid.grdecl",
+                             "reek/REEK.EGRID",
+                             "reek3/reek_sim.grdecl",
+                             "spe9/SPE9.GRDECL",
+                             "pygrdecl/20X20X6.GRDECL",
+                             "pygrdecl/Simple20x20x5_Fault.grdecl",
+                             "pygrdecl/Simple10x10x3_Fault.grdecl",
+                             "pygrdecl/CP.GRDECL",
+                             "pygrdecl/40X48x1_3fatults.GRDECL",
+                             "upscaling/27cellsIso.grdecl",
+                             "upscaling/EightCells.grdecl",
+                             "small/banal1.grdecl",
+                             "small/banal3.grdecl",
+                             "small/banal4.grdecl",
+                             "small/banal6.grdecl",
+                             "small/gridqc1.roff",
+                             "small/concave.grdecl",
+                             "small/dual_distorted1.grdecl",
+                             "small/sixcells_described_hdr1.grdecl",
+                             "simpleb8/E100_BO.EGRID",
+                             "simpleb8/IX_BO.EGRID",
+                             "simpleb8/simpleb8.grdecl",
+                             "small/twocell.grdecl",
+                             "opm/CORNERPOINT_ACTNUM.DATA"}) {
+        const auto path = test::real_data(std::string("cornerpoint/") + name);
+        if (!path) GTEST_SKIP() << "no real data";
+        auto plain = validate(path->string(), LoadOptions{}, CheckOptions{}), brep = validate(path->string(), LoadOptions{}, as_brep);
+        ASSERT_TRUE(plain.ok() && brep.ok()) << name;
+        Codes more = codes_of(brep->findings);
+        for (const std::string& code : codes_of(plain->findings)) more.erase(code);
+        more.erase("C28 info");
+        EXPECT_EQ(more, Codes{}) << name;
+    }
+}
+
+TEST(RealGrids, AreToldOfBentFacesWhereTheyHaveThem) {
+    CheckOptions as_brep;
+    as_brep.grid_model.emplace();
+    const auto bent = [&](const char* name) {
+        const auto path = test::real_data(std::string("cornerpoint/") + name);
+        auto file = validate(path->string(), LoadOptions{}, as_brep);
+        return file && codes_of(file->findings).contains("C28 info");
+    };
+    if (!test::real_data("cornerpoint/spe9/SPE9.GRDECL")) GTEST_SKIP() << "no real data";
+    EXPECT_FALSE(bent("spe9/SPE9.GRDECL"));
+    EXPECT_FALSE(bent("pygrdecl/CP.GRDECL"));
+    EXPECT_TRUE(bent("reek/reek_sim_grid.grdecl"));
+}
+
 TEST(RealGrids, Spe9HasNothingToTell) {
     REPORT_OF(file, "spe9/SPE9.GRDECL");
     EXPECT_EQ(codes_of(file->findings), Codes{});
