@@ -49,8 +49,10 @@ Things lists_by_name(std::span<const BrepData::RegionList> lists, const char* ki
     for (const auto& list : lists) all[list.name].push_back({kind, list.name});
     return all;
 }
-/// Objects whose surfaces were put into one interface, because they have one name.
+/// Objects whose surfaces were put into one interface because they have one name. Where a model is stated, it says which
+/// objects make one surface.
 Things surface_objects_by_name(const ModelScope& scope) {
+    if (scope.model().stated) return {};
     std::map<std::string, std::set<std::uint32_t>> objects;
     for (const auto& surface : scope.brep().surfaces) {
         if (surface.source_object >= scope.dataset().objects.size() || !surface.interface_id.valid()) continue;

@@ -117,13 +117,15 @@ constexpr std::array table = {
           "with --option as=brep: triangles of the outside or of faults cross by more than the tolerance, or outer ones that look the "
           "same way overlap, in columns that share no pillar"},
     Check{"C28", "with --option as=brep: as C27, in columns that share a pillar, or one column"},
-    of_model("G01",
-             "two regions, layers, fault blocks or objects of surfaces of one model have the same name; info where the file states one "
-             "group of volumes of it",
-             check_names_of_model),
+    of_model(
+        "G01",
+        "two regions, layers, fault blocks or objects of loose surfaces of one model have the same name; info where the file states one "
+        "group of volumes of it",
+        check_names_of_model),
     of_model("G02", "a stated layer or fault block lists no region that exists", check_region_lists),
     Check{"G03",
-          "at each contact of a fault with a horizon the horizon comes up from both sides; of corner-point grids: a stated fault has throw "
+          "at each contact at which a fault passes a horizon, the horizon comes up from both sides; of corner-point grids: a stated fault "
+          "has throw "
           "beyond the tolerance between no neighbours of one layer",
           check_idle_faults, false, check_fault_displacement},
     of_model("G04",

@@ -13,6 +13,7 @@ struct Fixture {
     Dataset (*fails)();
     Dataset (*passes)();
     const char* target = "";  ///< for S codes: what the model is for
+    bool as_brep = false;     ///< the boundary representation of a grid is judged, too
 };
 
 std::span<const Fixture> model_fixtures();   ///< B, G, Q and M of surfaces

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "pipeline/load.h"
 #include "support/corner_point_grids.h"
@@ -113,6 +115,56 @@ Dataset fault_record(std::uint32_t column) {
     return bricks([&](CornerPointGrid& g) { g.faults = {{"A", {{{column, 0, 0}, {column, 2, 1}, CellFace::i_plus}}, {}}}; });
 }
 
+Dataset region_numbers(const char* name, std::vector<std::int32_t> of_columns) {
+    return bricks([&](CornerPointGrid& g) {
+        Attribute a;
+        a.name = name;
+        a.location = AttributeLocation::cell;
+        std::vector<std::int32_t> numbers;
+        for (std::size_t cell = 0; cell < g.cell_count(); ++cell) numbers.push_back(of_columns[g.ijk(cell)[0]]);
+        a.values = numbers;
+        g.info.attributes.push_back(std::move(a));
+    });
+}
+/// Two faults in a grid with throw at one place; the second one begins at a column.
+Dataset two_fault_records(std::uint32_t second, bool displaced) {
+    return bricks([&](CornerPointGrid& g) {
+        add_throw(g, 2, 5);
+        if (displaced) add_throw(g, 1, 3);
+        g.faults = {{"A", {{{1, 0, 0}, {1, 2, 1}, CellFace::i_plus}}, {}}, {"B", {{{second, 0, 0}, {second, 2, 1}, CellFace::i_plus}}, {}}};
+    });
+}
+/// Columns along a line on the ground, 100 wide, that comes back over itself or stays beside.
+Dataset ribbon(bool crossed) {
+    std::vector<std::array<double, 2>> line{{0, 0}, {300, 0}, {600, 0}, {900, 100}, {1000, 400}, {800, 700}, {500, 700}, {400, 400}};
+    if (crossed) line.push_back({420, -200});
+    CornerPointGrid grid = brick_grid(static_cast<std::uint32_t>(line.size() - 1), 1, 2);
+    for (std::uint32_t i = 0; i < line.size(); ++i) {
+        const auto &a = line[i == 0 ? 0 : i - 1], &b = line[i + 1 < line.size() ? i + 1 : i];
+        const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
+        for (const std::uint32_t j : {0u, 1u}) {
+            const double away = j == 0 ? -50 : 50;
+            for (const std::size_t at : {0u, 3u}) {
+                pillar(grid, i, j)[at] = line[i][0] - away * dy / length;
+                pillar(grid, i, j)[at + 1] = line[i][1] + away * dx / length;
+            }
+        }
+    }
+    return of(grid);
+}
+/// A throw between pillars that lean apart, or stand upright: sides are bent, and tops that meet them are plane.
+Dataset bent_faces(double lean) {
+    CornerPointGrid grid = brick_grid(4, 4, 2);
+    for (std::uint32_t j = 0; j <= 4; ++j) {
+        for (std::uint32_t i = 0; i <= 4; ++i) pillar(grid, i, j)[3] += (j % 2 == 0 ? lean : -lean);
+    }
+    reshape(grid, [](std::uint32_t i, std::uint32_t j, auto, unsigned c, double depth) {
+        const double y = j + ((c >> 1) & 1u);
+        return i >= 2 ? depth + 9 - 5 * y : depth + 3 * y;
+    });
+    return of(grid);
+}
+
 /// As the reader of decks gives it.
 Dataset deck(const char* specgrid) {
     const test::TemporaryFolder folder;
@@ -208,6 +260,24 @@ constexpr Fixture fixtures[] = {
     {"C21", parted_and_lonely, parted_in_two},
     {"C22", [] { return bricks([](CornerPointGrid& g) { move_corners(g, 0, 0, 4, 9.95); }); },
      [] { return bricks([](CornerPointGrid& g) { move_corners(g, 0, 0, 4, 9.5); }); }},
+    {"C23",
+     [] {
+         return region_numbers("FIPNUM", {1, 2, 1, 1});
+     },
+     [] {
+         return region_numbers("FIPNUM", {1, 2, 2, 3});
+     }},
+    {"C24",
+     [] {
+         return region_numbers("SATNUM", {1, 0, 1, 1});
+     },
+     [] {
+         return region_numbers("SATNUM", {1, 2, 1, 1});
+     }},
+    {"C25", [] { return fault_record(3); }, [] { return fault_record(1); }},
+    {"C26", [] { return two_fault_records(1, false); }, [] { return two_fault_records(0, true); }},
+    {"C27", [] { return ribbon(true); }, [] { return ribbon(false); }, "", true},
+    {"C28", [] { return bent_faces(30); }, [] { return bent_faces(0); }, "", true},
     {"S01", a_point, ready_for_flow, "flow"},
     {"S02", [] { return for_flow([](CornerPointGrid& g) { move_corners(g, 0, 4, 8, 4); }); }, ready_for_flow, "flow"},
     {"S03", [] { return for_flow([](CornerPointGrid& g) { g.activity.assign(g.cell_count(), 0); }); }, ready_for_flow, "flow"},

@@ -28,6 +28,7 @@ std::vector<Fixture> all_fixtures() {
 std::vector<Finding> findings_of(const Dataset& data, const Fixture& fixture) {
     validators::CheckOptions options;
     options.target = fixture.target;
+    if (fixture.as_brep) options.grid_model.emplace();
     const auto file = validate("fixture", data, options);
     EXPECT_TRUE(file) << fixture.code;
     return file ? file->findings : std::vector<Finding>{};

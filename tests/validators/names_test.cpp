@@ -72,6 +72,12 @@ TEST(Names, OfTwoObjectsOfLooseSurfacesAreTold) {
     EXPECT_EQ(codes_of(data), Codes{}) << "no name is no name twice";
 }
 
+TEST(Names, OfObjectsThatAModelStatesToBeOneSurfaceMayBeTheSame) {
+    test::ModelMaker m;
+    for (const double x : {0.0, 1.0}) m.add("H1", FeatureRole::horizon, test::quad({x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}));
+    EXPECT_EQ(codes_of(m.data), Codes{});
+}
+
 /// Two cubes, each a volume of its own.
 CellMesh two_volumes() {
     CellMesh mesh;
