@@ -169,6 +169,8 @@ void tell_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfa
 
 void check_near_misses(const ModelScope& scope, std::vector<Finding>& findings) {
     if (scope.lengths().near <= 0 || scope.triangles().empty()) return;
+    // Where very many surfaces lie across each other everything is near everything, and that has been told.
+    if (std::ranges::any_of(findings, [](const Finding& f) { return f.code == "B08" && f.entities.empty(); })) return;
     const auto surfaces = surface_of_triangles(scope);
     tell_borders(scope, surfaces, findings);
     tell_surfaces(scope, surfaces, findings);

@@ -60,8 +60,9 @@ private:
         }
         const Separator& own = own_[i - first_];
         const std::array<Vec3, 3> other = corners(j);
-        if (own.clear_of(other, a_shared, b_shared)) return;
-        if (Separator(other).clear_of(own.corners(), b_shared, a_shared)) return;
+        const bool is_the_same = a_shared == 7;  // a triangle that is there twice: no corner is left to be on one side
+        if (!is_the_same && (own.clear_of(other, a_shared, b_shared) || Separator(other).clear_of(own.corners(), b_shared, a_shared)))
+            return;
         TriangleMeetingPair pair{tree_.number(i), tree_.number(j), {}};
         // The first of the two is the one with the lower number, whatever their order in the tree.
         const bool ascending = pair.a < pair.b;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -151,16 +152,15 @@ private:
         bool touches = false;
     };
 
-    static Group& group_in(std::vector<Group>& groups, std::uint32_t group) {
-        for (Group& g : groups) {
-            if (g.closest.group == group) return g;
+    static Group& group_in(std::map<std::uint32_t, Group>& groups, std::uint32_t group) {
+        const auto [at, added] = groups.try_emplace(group);
+        if (added) {
+            for (Candidate* c : {&at->second.closest, &at->second.smallest, &at->second.rounded}) {
+                c->group = group;
+                c->closest.distance = HUGE_VAL;
+            }
         }
-        Group& added = groups.emplace_back();
-        for (Candidate* c : {&added.closest, &added.smallest, &added.rounded}) {
-            c->group = group;
-            c->closest.distance = HUGE_VAL;
-        }
-        return added;
+        return at->second;
     }
 
     void find_candidates(std::uint32_t e) {
@@ -169,7 +169,7 @@ private:
         Vec3 low{}, high{};
         for (std::size_t k = 0; k < 3; ++k) std::tie(low[k], high[k]) = std::minmax({segment[0][k], segment[1][k]});
         std::vector<std::uint32_t> ring;  // the vertices of the triangles around the edge
-        std::vector<Group> groups;
+        std::map<std::uint32_t, Group> groups;
         soup_.tree().visit_triangles(soup_.tree().box(low, high, near_), [&](std::size_t i) {
             const auto t = static_cast<std::uint32_t>(i);
             const std::uint32_t group = soup_.group(t);
@@ -192,7 +192,7 @@ private:
             if (distance < known.closest.closest.distance) known.closest = here;
             if (distance < known.smallest.closest.distance && is_smallest(e, here)) known.smallest = here;
         });
-        for (Group& g : groups) {
+        for (auto& [group, g] : groups) {
             if (!g.touches && g.rounded.closest.distance < near_ && !meets_beside(e, g.rounded)) {
                 candidates_[e].push_back(g.rounded);
             } else if (g.smallest.closest.distance < near_) {

@@ -35,7 +35,7 @@ public:
 
     const std::array<Vec3, 3>& corners() const { return corner_; }
 
-    /// \param own, its which corners the two share, of this and of the other
+    /// \param own, its which corners the two share, of this and of the other; not all three
     bool clear_of(const std::array<Vec3, 3>& other, Corners own, Corners its) const {
         return clear_of_edge_planes(other, own, its) || clear_of_plane(other, its) || clear_across_corner(other, own, its);
     }

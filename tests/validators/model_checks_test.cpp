@@ -57,6 +57,16 @@ Dataset loose(std::vector<Surface> surfaces) {
 
 std::vector<test::Triangle> square(double x0, double x1, double z) { return test::quad({x0, 0, z}, {x1, 0, z}, {x1, 1, z}, {x0, 1, z}); }
 
+// The very same triangles, joined by their points: no plane is between them, and no corner beside them.
+TEST(LooseSurfaces, ThatAreTheSameTwiceLieOnEachOther) {
+    const auto once = square(0, 1, 0);
+    const auto findings = findings_of(loose({surface_of("one", once), surface_of("two", once)}));
+    const auto told = std::ranges::find(findings, "B20", &Finding::code);
+    ASSERT_NE(told, findings.end());
+    EXPECT_EQ(told->count, 2u);
+    EXPECT_EQ(told->entities.size(), 2u);
+}
+
 /// A strip folded up so that all its triangles lie on each other, in one plane.
 std::vector<test::Triangle> folded_strip(std::size_t count) {
     std::vector<test::Triangle> triangles;
