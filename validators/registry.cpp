@@ -59,7 +59,7 @@ constexpr std::array table = {
     of_model("B14", "two stated regions have the same side of a surface", check_region_overlap),
     of_model("B15", "twice the volume of a region over the area around it is below the search length", check_thin_regions),
     of_model("B16", "neither side of a surface bounds a region, in a model that has regions", check_outside_surfaces),
-    of_model("B17", "two polygons at a line lie in the same half-plane; exact", check_radial_order),
+    of_model("B17", "two polygons at a line lie in the same half-plane, within the tolerance", check_radial_order),
     Check{"B18", "a surface with a finding B01 to B04, B07, B26, B27, M04 or M05 that is an error bounds the region"},
     of_model("B19", "a BORDER record names two points that no triangle of the surface has as an edge", check_stated_borders),
     of_model("B20", "triangles of two surfaces have an area in common; exact", check_intersections),

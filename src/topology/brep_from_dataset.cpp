@@ -659,6 +659,7 @@ void ModelBuilder::make_regions() {
 }
 
 void ModelBuilder::assemble() {
+    a_.tolerance = tolerance_;
     const auto& first = info_of(dataset_.objects[objects_.front()]);
     a_.brep.name = model_ != nullptr && !model_->name.empty() ? model_->name : first.name;
     a_.brep.crs = model_ != nullptr && model_->crs.stated ? model_->crs : first.crs;
@@ -696,7 +697,7 @@ Result<Brep> ModelBuilder::build() {
 Result<JudgedModel> ModelBuilder::build_to_judge() {
     assemble();
     const bool found = !a_.found.region_of_side.empty() || a_.brep.surfaces.empty();
-    if (!found) a_.found = find_regions(a_.brep, a_.graph, a_.cones);
+    if (!found) a_.found = find_regions(a_.brep, a_.graph, a_.cones, tolerance_);
     std::vector<std::uint64_t> first_polygon;
     for (const Face& face : faces_) {
         const auto* surface = std::get_if<Surface>(&dataset_.objects[face.object]);

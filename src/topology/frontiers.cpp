@@ -50,6 +50,15 @@ private:
     Vec3 a_, b_, reference_;
 };
 
+/// Whether two half-planes from a to b, with a point of each, are apart by no more than the tolerance as far as the nearer point goes.
+/// Points next to the axis say nothing.
+bool coincide(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q, double tolerance) {
+    const Vec3 axis = minus(b, a), u = across(minus(p, a), axis), v = across(minus(q, a), axis);
+    const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v);
+    if (uv <= 0 || std::min(uu, vv) <= 100 * tolerance * tolerance) return false;
+    return std::min(uu, vv) * std::max(0.0, 1 - uv * uv / (uu * vv)) <= tolerance * tolerance;
+}
+
 std::uint32_t longest_edge(const BrepData& brep, const LineGraph& graph, std::uint32_t line) {
     std::uint32_t best = graph.line_edges[graph.line_first_edge[line]];
     double longest = -1;
@@ -66,7 +75,7 @@ std::uint32_t longest_edge(const BrepData& brep, const LineGraph& graph, std::ui
 
 /// Lists the sides that face each other around a line. False when two polygons coincide.
 bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const PolygonEdges> all_edges, std::uint32_t line,
-                 std::vector<FoundRegions::Join>& joins) {
+                 double tolerance, std::vector<FoundRegions::Join>& joins) {
     const auto uses = graph.edge_uses(graph.edges[longest_edge(brep, graph, line)]);
     const Vec3& a = brep.vertices[uses[0].low];
     const Vec3& b = brep.vertices[uses[0].high];
@@ -82,6 +91,9 @@ bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const P
     std::stable_sort(leaves.begin(), leaves.end(), [&](const Leaf& x, const Leaf& y) { return around.compare(x.tip, y.tip) < 0; });
     for (std::size_t i = 0; i + 1 < leaves.size(); ++i) {
         if (around.compare(leaves[i].tip, leaves[i + 1].tip) == 0) return false;
+    }
+    for (std::size_t i = 0; tolerance > 0 && leaves.size() > 1 && i < leaves.size(); ++i) {
+        if (coincide(a, b, leaves[i].tip, leaves[(i + 1) % leaves.size()].tip, tolerance)) return false;
     }
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const Leaf& here = leaves[i];
@@ -186,13 +198,13 @@ private:
 
 }  // namespace
 
-FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones) {
+FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones, double tolerance) {
     FoundRegions found;
     DisjointSets sides(2 * brep.surfaces.size()), groups(brep.surfaces.size());
     std::vector<PolygonEdges> all_edges;
     for (const auto& surface : brep.surfaces) all_edges.emplace_back(surface.polygons);
     for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
-        if (!join_around(brep, graph, all_edges, l, found.joins)) found.uncertain_lines.emplace_back(l);
+        if (!join_around(brep, graph, all_edges, l, tolerance, found.joins)) found.uncertain_lines.emplace_back(l);
         std::uint32_t first = no_index;
         for (const EdgeUse& use : graph.edge_uses(graph.edges[graph.line_edges[graph.line_first_edge[l]]])) {
             if (use.surface == no_index) continue;

@@ -27,7 +27,8 @@ struct FoundRegions {
 /// Finds the regions that surfaces bound: around each line the surfaces are put in order (exactly, at its longest
 /// edge) and each side is joined to the one that faces it; sides that hang together make a shell. A shell that encloses
 /// a positive volume bounds a region; any other lies inside the smallest region that contains it, or in the Universe.
-/// Cost: near-linear, plus (number of separate groups of surfaces) x (polygons of the shells whose boxes contain them).
-FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones);
+/// \param tolerance polygons at a line that are no farther apart coincide: their order is not known, and regions end there
+/// Cost: near-linear; n log n where surfaces do not all hang together.
+FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones, double tolerance = 0);
 
 }  // namespace geomend::topology

@@ -19,6 +19,7 @@ struct Assembly {
     LineGraph graph;
     std::vector<double> cones;  ///< see cone_volumes
     FoundRegions found;         ///< where the surfaces were walked along
+    double tolerance = 0;       ///< within which polygons at a line coincide
     std::vector<Finding> findings;
 };
 

@@ -50,7 +50,7 @@ Animal fault_dying_in_a_horizon() {
     };
     b.roles = {{"fault", fault}, {"H1", horizon}};
     // Two layers have 12, 20, 11; the foot of the fault with two corners, and the rest of its border.
-    return {make_block_model(b), {14, 22, 12, 2, 8, 18, 1, 1}, {"B25", "G03"}, {60, 60}};
+    return {make_block_model(b), {14, 22, 12, 2, 8, 18, 1, 1}, {"B25"}, {60, 60}};
 }
 
 Animal fault_ending_on_a_horizon() {
@@ -60,7 +60,7 @@ Animal fault_ending_on_a_horizon() {
     b.region = [](int i, int, int k) { return k < 2 ? 1 : i < 3 ? 2 : 3; };
     b.surface = [](const BlockWall& w) { return box_side_or(w, w.between(2, 3) ? "fault" : "H1"); };
     b.roles = {{"fault", fault}, {"H1", horizon}};
-    return {make_block_model(b), {16, 28, 16, 3, 8, 20}, {"G03"}, {36, 18, 18}};
+    return {make_block_model(b), {16, 28, 16, 3, 8, 20}, {}, {36, 18, 18}};
 }
 
 Animal y_fault() {
@@ -101,7 +101,7 @@ Animal listric_fault() {
     b.region = [](int i, int, int k) { return k < 1 ? 1 : i < 3 ? 2 : 3; };
     b.surface = [](const BlockWall& w) { return box_side_or(w, w.between(2, 3) ? "fault" : "H1"); };
     b.roles = {{"fault", fault}, {"H1", horizon}};
-    return {make_block_model(b), {16, 28, 16, 3, 8, 20}, {"G03"}, {}};
+    return {make_block_model(b), {16, 28, 16, 3, 8, 20}, {}, {}};
 }
 
 Animal reverse_fault() {
@@ -134,7 +134,7 @@ Animal growing_faults() {
     // Surfaces: bottom 3, top 1, H1 3, H2 2, F1 3, F2 1; west and east 3 each, south and north 6 each.
     // Corners: 8 of the box; uprights west at heights 2, 4 and east at 1, 4; 4 at the bottom; on south and north F1 at 1, 2, 4 and
     // F2 at 1. Lines: bottom 10, top 4, uprights 12, horizons at west and east 4; south and north 9 each; F1 3, F2 1.
-    return {make_block_model(b), {28, 52, 31, 6, 10, 29}, {"G03"}, {12, 12, 6, 36, 6, 36}};
+    return {make_block_model(b), {28, 52, 31, 6, 10, 29}, {}, {12, 12, 6, 36, 6, 36}};
 }
 
 }  // namespace
