@@ -34,9 +34,30 @@ double radius(const BrepData& brep, std::span<const std::uint32_t> lines) {
     return std::sqrt(square);
 }
 
-/// Per polygon the first one of the piece that hangs together by edges (also where other surfaces cut through them); degenerate
-/// and repeated polygons: no_index. Empty where all is one piece.
-std::vector<std::uint32_t> pieces_by_edges(const BrepData::Surface& surface, const topology::FaceEdges& face) {
+std::uint64_t edge_key(VertexId a, VertexId b) { return std::uint64_t{std::min(a.value, b.value)} << 32 | std::max(a.value, b.value); }
+
+/// Edges of lines that more than one surface uses; ascending.
+std::vector<std::uint64_t> edges_of_several_surfaces(const ModelScope& scope) {
+    const topology::LineGraph& graph = scope.model().graph;
+    std::vector<std::uint64_t> shared;
+    for (const auto& edge : graph.edges) {
+        const auto uses = graph.edge_uses(edge);
+        std::uint32_t first = no_index;
+        const bool several = std::ranges::any_of(uses, [&](const auto& use) {
+            if (use.surface == no_index) return false;  // a line that the file states
+            if (first == no_index) first = use.surface;
+            return use.surface != first;
+        });
+        if (several) shared.push_back(edge_key(VertexId(uses[0].low), VertexId(uses[0].high)));
+    }
+    std::ranges::sort(shared);
+    return shared;
+}
+
+/// Per polygon the first one of the piece that hangs together by edges, but for those in `cuts` (ascending); degenerate and
+/// repeated polygons: no_index. Empty where all is one piece, even apart at all lines.
+std::vector<std::uint32_t> pieces_by_edges(const BrepData::Surface& surface, const topology::FaceEdges& face,
+                                           const std::vector<std::uint64_t>& cuts) {
     std::vector<std::uint32_t> piece_of;
     if (topology::number_pieces(surface, face, piece_of) < 2) return {};
     DisjointSets pieces(surface.polygons.size());
@@ -48,8 +69,13 @@ std::vector<std::uint32_t> pieces_by_edges(const BrepData::Surface& surface, con
     for (std::uint32_t c = 0; c < surface.neighbours.size(); ++c) {
         const std::uint32_t p = edges.polygon(c);
         if (aside[p] != 0) continue;
-        if (surface.neighbours[c] != no_index) pieces.join(p, surface.neighbours[c]);
-        else pieces.join(p, at_border.emplace(std::minmax(edges.start_node(c), edges.end_node(c)), p).first->second);
+        if (surface.neighbours[c] != no_index) {
+            pieces.join(p, surface.neighbours[c]);
+            continue;
+        }
+        const std::uint32_t from = edges.start_node(c), to = edges.end_node(c);
+        if (!cuts.empty() && std::ranges::binary_search(cuts, edge_key(surface.nodes[from], surface.nodes[to]))) continue;
+        pieces.join(p, at_border.emplace(std::minmax(from, to), p).first->second);
     }
     std::vector<std::uint32_t> roots(surface.polygons.size(), no_index);
     for (std::uint32_t p = 0; p < roots.size(); ++p) {
@@ -58,27 +84,36 @@ std::vector<std::uint32_t> pieces_by_edges(const BrepData::Surface& surface, con
     return roots;
 }
 
+/// The numbers of polygons of the pieces, each by its first polygon.
+std::map<std::uint32_t, std::uint64_t> sizes_of(const std::vector<std::uint32_t>& pieces) {
+    std::map<std::uint32_t, std::uint64_t> polygons_of;
+    for (const std::uint32_t piece : pieces) {
+        if (piece != no_index) ++polygons_of[piece];
+    }
+    return polygons_of;
+}
+
 }  // namespace
 
 void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
     if (!scope.model().stated) return;
+    // Regions that are found by walking along sides are not told apart by a surface whose sides go on across another one.
+    const auto cuts = scope.model().regions_stated ? std::vector<std::uint64_t>{} : edges_of_several_surfaces(scope);
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
-        const auto pieces = pieces_by_edges(surface, scope.model().faces[s]);
-        if (pieces.empty()) return std::nullopt;
-        std::map<std::uint32_t, std::uint64_t> polygons_of;
-        for (const std::uint32_t piece : pieces) {
-            if (piece != no_index) ++polygons_of[piece];
-        }
+        auto polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], {}));
+        const bool is_cut = polygons_of.size() < 2;
+        if (is_cut && !cuts.empty()) polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], cuts));
         if (polygons_of.size() < 2) return std::nullopt;
         std::uint64_t largest = 0, all = 0;
         for (const auto& [piece, count] : polygons_of) {
             largest = std::max(largest, count);
             all += count;
         }
-        Finding finding = finding_of("B04", quoted(surface.name) + " falls into " + std::to_string(polygons_of.size()) +
-                                                " parts that do not hang together; " + std::to_string(all - largest) + " of its " +
-                                                std::to_string(all) + " triangles are not in the largest");
+        Finding finding =
+            finding_of("B04", quoted(surface.name) + " falls into " + std::to_string(polygons_of.size()) +
+                                  (is_cut ? " parts where other surfaces cut through it; " : " parts that do not hang together; ") +
+                                  std::to_string(all - largest) + " of its " + std::to_string(all) + " triangles are not in the largest");
         finding.entities.push_back(surface_ref(scope, s));
         finding.count = polygons_of.size();
         finding.element_kind = "part";

@@ -41,7 +41,10 @@ constexpr std::array table = {
     of_model("B03",
              "more than two triangles of one surface at an edge; or, away from lines, triangles at a vertex that make no single ring",
              check_manifold),
-    of_model("B04", "a surface of a stated model has parts that share no edge", check_pieces),
+    of_model("B04",
+             "a surface of a stated model has parts that share no edge, or, where no regions are stated, only edges at which another "
+             "surface cuts through",
+             check_pieces),
     of_model("B05", "along a line the stated sides of a region do not cancel out", check_region_closed),
     of_model("B06", "regions are stated, but walking along the surfaces finds none", check_model_closed),
     of_model("B07", "a line that only one surface uses, from two sides; a warning for loose surfaces", check_seams),

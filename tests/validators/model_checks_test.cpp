@@ -168,6 +168,21 @@ TEST(LooseSurfaces, AreTakenApartWhereTheyCrossAlongSharedEdges) {
     EXPECT_EQ(codes_of(findings_of(data)), std::set<std::string>{});
 }
 
+TEST(StatedSurfaces, ThatOthersCutThroughHaveToBeStatedInParts) {
+    // Two sheets that cross along x = 1. Without regions nothing else would say that their sides go on across each other.
+    const auto west = square(0, 1, 0), east = square(1, 2, 0);
+    const auto below = test::quad({1, 0, -1}, {1, 1, -1}, {1, 1, 0}, {1, 0, 0}),
+               above = test::quad({1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1});
+    test::ModelMaker whole, parts;
+    whole.add("flat", FeatureRole::horizon, test::joined({west, east}));
+    whole.add("wall", FeatureRole::fault, test::joined({below, above}));
+    const auto findings = findings_of(whole.data);
+    EXPECT_EQ(std::ranges::count(findings, "B04", &Finding::code), 2);
+    parts.add_parts("flat", FeatureRole::horizon, {west, east});
+    parts.add_parts("wall", FeatureRole::fault, {below, above});
+    EXPECT_FALSE(codes_of(findings_of(parts.data)).contains("B04"));
+}
+
 TEST(LooseSurfaces, WhoseTrianglesHaveOwnPointsAreJoinedByPosition) {
     const Dataset data = loose({surface_of("soup", test::box({0, 0, 0}, {1, 1, 1}), true)});
     const auto models = judged(data);
