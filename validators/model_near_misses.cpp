@@ -150,7 +150,8 @@ void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfac
 }
 
 void tell_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfaces, std::vector<Finding>& findings) {
-    for (const ClosePair& close : closest_pairs(scope.tree(), surfaces, scope.lengths().near, scope.monitor())) {
+    bool cut_short = false;
+    for (const ClosePair& close : closest_pairs(scope.tree(), surfaces, scope.lengths().near, scope.monitor(), &cut_short)) {
         if (is_told(findings, close.group_a, close.group_b)) continue;
         const auto& a = scope.brep().surfaces[close.group_a];
         const auto& b = scope.brep().surfaces[close.group_b];
@@ -163,6 +164,12 @@ void tell_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfa
         finding.measures = {{"gap", close.distance}};
         findings.push_back(std::move(finding));
     }
+    if (!cut_short) return;
+    Finding finding = finding_of("B24", "the search length, " + rounded(scope.lengths().near) +
+                                            ", is many times the edges of triangles in places: there not all that is near was looked at; "
+                                            "check again with a smaller --near");
+    finding.count = 1;
+    findings.push_back(std::move(finding));
 }
 
 }  // namespace

@@ -131,6 +131,13 @@ void check_free_ends(const ModelScope& scope, std::vector<Finding>& findings) {
 
 namespace {
 
+/// Whether two regions are volumes of one group: filled by cells, under one name. It is no defect where no surface parts them.
+bool are_of_one_group(const BrepData& brep, std::uint32_t a, std::uint32_t b) {
+    if (std::max(a, b) >= brep.regions.size()) return false;  // the outside
+    const auto &first = brep.regions[a], &second = brep.regions[b];
+    return !first.name.empty() && first.name == second.name && !first.cell_types.empty() && !second.cell_types.empty();
+}
+
 /// Lines with nothing beyond them, around which a region goes from one side of a surface to the other: the borders of holes.
 /// Where faults end there is no hole, unless nothing else is there.
 std::vector<std::uint32_t> hole_lines(const ModelScope& scope, std::uint32_t region) {
@@ -183,7 +190,8 @@ void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
         const auto& surface = brep.surfaces[s];
         const std::uint32_t region = found.region_of_side[2 * s];
         if (surface.polygons.size() == 0 || region != found.region_of_side[2 * s + 1]) continue;
-        const bool lists_differ = stated[s][0] != stated[s][1] && stated[s][0] != no_index && stated[s][1] != no_index;
+        const bool lists_differ = stated[s][0] != stated[s][1] && stated[s][0] != no_index && stated[s][1] != no_index &&
+                                  !are_of_one_group(brep, stated[s][0], stated[s][1]);
         const bool separates =
             is_stratigraphic(surface.role) || surface.role == FeatureRole::boundary || surface.role == FeatureRole::topography;
         const bool closed_is_meant = region != no_index || scope.model().regions_stated || !found.regions.empty();
@@ -208,6 +216,7 @@ void check_stated_regions(const ModelScope& scope, std::vector<Finding>& finding
     const BrepData& brep = scope.brep();
     const auto& found = scope.model().found;
     if (!scope.model().regions_stated || found.region_of_side.empty()) return;
+    const auto stated = stated_sides(scope);
     std::vector<std::vector<std::uint32_t>> found_single;
     for (const auto& sides : found.regions) found_single.push_back(single_sides(sides));
     for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
@@ -225,7 +234,12 @@ void check_stated_regions(const ModelScope& scope, std::vector<Finding>& finding
             "region " + quoted(region.name) + " is stated with " + counted(single.size(), "side", "sides") + " of surfaces, ";
         message += one ? "but walking along them gives " + std::to_string(found_single[*touched.begin()].size())
                        : "but these do not bound one region: they belong to " + std::to_string(touched.size());
+        const auto is_its_own = [&](std::uint32_t side) { return are_of_one_group(brep, r, stated[side / 2][side % 2]); };
+        const bool runs_into_its_own = one && std::ranges::all_of(missing, is_its_own) &&
+                                       std::ranges::all_of(foreign, [&](std::uint32_t side) { return is_its_own(side ^ 1u); });
+        if (runs_into_its_own) message += ": no surface parts it from other volumes of its group";
         Finding finding = finding_of("B13", std::move(message));
+        if (runs_into_its_own) finding.severity = Severity::warning;
         finding.entities.push_back(region_ref(scope, r));
         std::set<std::uint32_t> named;
         for (const auto* list : {&missing, &foreign}) {

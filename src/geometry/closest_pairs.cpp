@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t fours_per_block = 4;    // the triangles whose vertices and edges look about together
 constexpr std::size_t blocks_per_chunk = 64;  // what one thread does at a time
 constexpr std::uint32_t mixed = 0xffffffff;   // four triangles of more than one group
+// Beyond these everything is near everything.
+constexpr std::size_t most_pairs_per_chunk = 300 * 4 * fours_per_block * blocks_per_chunk, most_walks = 1000;
 
 /// A place where the distance between two groups is smallest.
 struct Place {
@@ -35,22 +37,26 @@ public:
     PlaceSearch(const SurfaceDistance& soup, std::span<const std::uint32_t> four_groups, double near, std::vector<Place>& places)
         : soup_(soup), four_groups_(four_groups), near_(near), around_(soup.tree()), places_(places) {}
 
-    void run(std::size_t block) {
+    /// False when there are too many triangles near those of the chunk.
+    bool run(std::size_t block) {
         const auto& fours = soup_.tree().levels().front();
         const std::size_t first = block * fours_per_block, last = std::min(fours.size(), first + fours_per_block);
         std::uint32_t own = four_groups_[first];
         for (std::size_t four = first; four != last; ++four) own = four_groups_[four] == own ? own : mixed;
         around_.collect(soup_.tree().widened(outer_box(fours, first, last), near_),
                         [&](std::size_t four) { return own == mixed || four_groups_[four] != own; });
-        if (around_.empty()) return;
+        if (around_.empty()) return true;
         for (std::size_t i = 4 * first; i < std::min(4 * last, soup_.tree().size()); ++i) {
             const auto t = static_cast<std::uint32_t>(i);
             find_others(t);
+            pairs_ += others_.size();
+            if (pairs_ > most_pairs_per_chunk) return false;
             for (std::size_t k = 0; k < 3 && !others_.empty(); ++k) {
                 look_about(t, soup_.triangle(t)[k]);
                 look_along(t, k);
             }
         }
+        return true;
     }
 
 private:
@@ -59,6 +65,7 @@ private:
     const double near_;
     Neighbourhood around_;
     std::vector<Place>& places_;
+    std::size_t pairs_ = 0;              ///< that were looked at
     std::vector<std::uint32_t> others_;  ///< triangles of other groups near the one at hand
     std::vector<Vec3> ways_;
 
@@ -219,12 +226,15 @@ public:
         const std::vector<std::uint32_t> groups = groups_of_fours(fours);
         const std::size_t blocks = (fours + fours_per_block - 1) / fours_per_block;
         std::vector<std::vector<Place>> parts((blocks + blocks_per_chunk - 1) / blocks_per_chunk);
+        std::vector<std::uint8_t> crowded(parts.size(), 0);
         parallel_for_each_index(parts.size(), [&](std::size_t part) {
             if (monitor != nullptr && monitor->stopped()) return;
             PlaceSearch search(soup_, groups, near_, parts[part]);
             const std::size_t last = std::min(blocks, (part + 1) * blocks_per_chunk);
-            for (std::size_t block = part * blocks_per_chunk; block != last; ++block) search.run(block);
+            for (std::size_t block = part * blocks_per_chunk; block != last && crowded[part] == 0; ++block)
+                crowded[part] = search.run(block) ? 0 : 1;
         });
+        cut_short_ = std::ranges::find(crowded, 1) != crowded.end();
         for (const auto& part : parts) places_.insert(places_.end(), part.begin(), part.end());
         std::ranges::sort(places_, [](const Place& p, const Place& q) {
             if (p.group_a != q.group_a) return p.group_a < q.group_a;
@@ -235,18 +245,22 @@ public:
         return monitor == nullptr || !monitor->stopped();
     }
 
-    std::vector<ClosePair> pairs(const Monitor* monitor) const {
+    bool was_cut_short() const { return cut_short_; }
+
+    std::vector<ClosePair> pairs(const Monitor* monitor) {
         std::vector<std::size_t> first;  // place of each two groups
         for (std::size_t i = 0; i < places_.size(); ++i) {
             if (i == 0 || places_[i].group_a != places_[i - 1].group_a || places_[i].group_b != places_[i - 1].group_b) first.push_back(i);
         }
         first.push_back(places_.size());
         std::vector<std::vector<ClosePair>> found(first.size() - 1);
+        std::vector<std::uint8_t> crowded(found.size(), 0);
         parallel_for_each_index(found.size(), [&](std::size_t i) {
             if (monitor != nullptr && monitor->stopped()) return;
-            const auto miss = closest_miss(std::span(places_).subspan(first[i], first[i + 1] - first[i]));
+            const auto miss = closest_miss(std::span(places_).subspan(first[i], first[i + 1] - first[i]), crowded[i]);
             if (miss != nullptr) found[i].push_back(pair_at(*miss));
         });
+        cut_short_ = cut_short_ || std::ranges::find(crowded, 1) != crowded.end();
         std::vector<ClosePair> list;
         for (const auto& pair : found) list.insert(list.end(), pair.begin(), pair.end());
         return monitor == nullptr || !monitor->stopped() ? list : std::vector<ClosePair>{};
@@ -256,6 +270,7 @@ private:
     const SurfaceDistance& soup_;
     const double near_;
     std::vector<Place> places_;  ///< by groups, then the closest first
+    bool cut_short_ = false;
 
     std::vector<std::uint32_t> groups_of_fours(std::size_t count) const {
         std::vector<std::uint32_t> groups(count);
@@ -274,7 +289,7 @@ private:
     }
 
     /// The closest place from which no short way leads to where the groups meet; null where there is none.
-    const Place* closest_miss(std::span<const Place> places) const {
+    const Place* closest_miss(std::span<const Place> places, std::uint8_t& crowded) const {
         std::vector<const Place*> joined;
         for (const Place& place : places) {
             const auto is_beside = [&](const Place* other) {
@@ -284,6 +299,9 @@ private:
             if (std::ranges::any_of(joined, is_beside)) continue;
             if (!leads_to_meeting(soup_, place.triangle_a, place.triangle_b, place.closest.on_first, near_)) return &place;
             joined.push_back(&place);
+            if (joined.size() < most_walks) continue;
+            crowded = 1;
+            break;
         }
         return nullptr;
     }
@@ -296,12 +314,15 @@ private:
 
 }  // namespace
 
-std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const std::uint32_t> groups, double near, const Monitor* monitor) {
+std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const std::uint32_t> groups, double near, const Monitor* monitor,
+                                     bool* cut_short) {
     if (tree.size() == 0 || !(near > 0)) return {};
     const SurfaceDistance soup(tree, groups);
     PairSearch search(soup, near);
     if (!search.find_places(monitor)) return {};
-    return search.pairs(monitor);
+    std::vector<ClosePair> pairs = search.pairs(monitor);
+    if (cut_short != nullptr) *cut_short = search.was_cut_short();
+    return pairs;
 }
 
 std::vector<ClosePair> closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,

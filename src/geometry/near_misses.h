@@ -64,9 +64,11 @@ struct ClosePair {
 /// and places within `near` of one that is left out. See leads_to_meeting().
 /// Parameters as for near_misses(). Cost: as the number of vertices, times the triangles within `near` of one, and some
 /// milliseconds for each place that is looked at: 20 microseconds for each vertex where `near` is three edges long, 1 where it is
-/// shorter than an edge.
+/// shorter than an edge. Where `near` is so much longer than the edges that everything is near everything, the search is cut short:
+/// it looks at some hundred triangles for each, and at a thousand places for each two groups.
+/// \param cut_short if not null, tells whether it was
 std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const std::uint32_t> groups, double near,
-                                     const Monitor* monitor = nullptr);
+                                     const Monitor* monitor = nullptr, bool* cut_short = nullptr);
 /// The same, with a tree of its own.
 std::vector<ClosePair> closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                      std::span<const std::uint32_t> groups, double near, const Monitor* monitor = nullptr);

@@ -557,5 +557,17 @@ TEST(ClosestPairs, ContactsOfOneSurfaceAreNone) {
     EXPECT_TRUE(search(w, 0.05).misses.empty());
 }
 
+TEST(ClosePairs, AreSoughtNoFurtherWhereEverythingIsNearEverything) {
+    Soup s;
+    for (const double z : {0.0, 0.3})
+        s.add_sheet(80, 80, [&](std::uint32_t i, std::uint32_t j) { return Vec3{1.0 * i, 1.0 * j, z + 0.01 * i}; });
+    const TriangleTree tree(s.vertices, s.triangles);
+    bool cut_short = true;
+    EXPECT_EQ(closest_pairs(tree, s.groups, 2, nullptr, &cut_short).size(), 1u);
+    EXPECT_FALSE(cut_short);
+    closest_pairs(tree, s.groups, 40, nullptr, &cut_short);  // several thousand triangles are as near as that
+    EXPECT_TRUE(cut_short);
+}
+
 }  // namespace
 }  // namespace geomend
