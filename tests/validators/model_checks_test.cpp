@@ -6,6 +6,8 @@
 #include <set>
 
 #include "geometry/intersections.h"
+#include "pipeline/load.h"
+#include "support/real_data.h"
 #include "validators/layered_model.h"
 #include "validators/registry.h"
 
@@ -298,6 +300,28 @@ TEST(HorizonsInBothOrders, AreTold) {
     }
     EXPECT_TRUE(codes_of(findings_of(model.data())).contains("G04"));
     EXPECT_FALSE(codes_of(findings_of(LayeredModel().data())).contains("G04"));
+}
+
+TEST(VolumesOfOneGroup, MayRunTogetherWhereNoSurfacePartsThem) {
+    // The surfaces of this mesh leave a strip open between two volumes, which are both of the group Overburden2.
+    const auto file = test::real_data("gmsh/toy_model.msh");
+    if (!file) GTEST_SKIP() << "no real data";
+    const auto data = load(file->string(), {});
+    ASSERT_TRUE(data);
+    const auto findings = findings_of(*data);
+    EXPECT_TRUE(std::ranges::none_of(findings, [](const Finding& f) { return f.severity == Severity::error; }));
+    std::size_t told = 0;
+    for (const Finding& f : findings) told += f.code == "B13" && f.entities[0].name == "Overburden2" ? 1 : 0;
+    EXPECT_EQ(told, 2u);
+    Dataset apart = *data;
+    auto& mesh = std::get<CellMesh>(apart.objects[0]);
+    for (auto& entity : mesh.entities) {
+        if (entity.dimension != 3) continue;
+        entity.name += "_" + std::to_string(entity.tag);
+        entity.groups.clear();
+    }
+    apart.breps.clear();
+    EXPECT_TRUE(codes_of(findings_of(apart)).contains("B12")) << "volumes of different names have to be parted";
 }
 
 }  // namespace
