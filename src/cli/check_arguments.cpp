@@ -9,8 +9,11 @@
 namespace geomend::cli {
 
 void add_check_arguments(CLI::App& command, CheckArguments& a) {
-    command.add_option("--report", a.report, "Write a report: .json, .html (a page with the model), .sarif, .xml (JUnit) or .txt")
-        ->type_name("FILE");
+    command
+        .add_option("--report", a.reports,
+                    "Write a report: .json, .html (a page with the model), .sarif, .xml (JUnit) or .txt; may be given several times")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
     command.add_option("--debris", a.debris, "Write what each finding marks into a folder, as .vtp and .ts")->type_name("DIR");
     command.add_option("--fail-on", a.fail_on, "Findings from which the exit status is 1 (default error)")
         ->type_name("error|warning|info|never")
@@ -66,8 +69,8 @@ Inspect inspection(const CheckArguments& a, DebrisFolder& debris, std::size_t fi
 }
 
 Result<void> check_targets(const CheckArguments& a, const DebrisFolder& debris) {
-    if (!a.report.empty()) {
-        if (auto form = report_form(a.report); !form) return form;
+    for (const std::string& file : a.reports) {
+        if (auto form = report_form(file); !form) return form;
     }
     return a.debris.empty() ? Result<void>() : debris.open();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace geomend::cli {
 
 /// What the commands that check (validate, repair) take beside the common options.
 struct CheckArguments {
-    std::string report, debris, fail_on = "error";
+    std::vector<std::string> reports;
+    std::string debris, fail_on = "error";
     std::vector<std::string> checks, skip;
     std::size_t max_findings = static_cast<std::size_t>(-1);
 };
@@ -28,8 +30,10 @@ Result<validators::CheckOptions> check_options(const CommonOptions& common, cons
 /// True where a finding is at or above the severity of --fail-on.
 bool fails(const CheckArguments& arguments, std::span<const Finding> findings);
 
-/// Whether the report is a page, which draws the model.
-inline bool draws_page(const CheckArguments& arguments) { return arguments.report.ends_with(".html"); }
+/// Whether a report is a page, which draws the model.
+inline bool draws_page(const CheckArguments& arguments) {
+    return std::ranges::any_of(arguments.reports, [](const std::string& report) { return report.ends_with(".html"); });
+}
 
 /// What is done with the findings of a file before its dataset is gone: with --report FILE.html the model is drawn, with
 /// --debris what they mark is written. Empty where there is nothing to do. `debris` must outlive it. `files` is their number.

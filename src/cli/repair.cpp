@@ -79,8 +79,8 @@ ExitStatus run(const RepairOptions& o) {
     ExitStatus status = !valid ? ExitStatus::invalid_result : fails(o, repaired->file.findings) ? ExitStatus::findings : ExitStatus::done;
     Report all = empty_report(o);
     all.files.push_back(std::move(repaired->file));
-    if (!o.report.empty()) {
-        if (auto written = write_report(all, o.report); !written) status = worse(status, report(written.why()));
+    for (const std::string& file : o.reports) {
+        if (auto written = write_report(all, file); !written) status = worse(status, report(written.why()));
     }
     if (!o.quiet) tell_losses(repaired->losses, o.verbose);
     if (o.json) return worse(status, print(report_json(all)));

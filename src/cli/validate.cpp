@@ -135,8 +135,8 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     auto all =
         many ? judge_many(command, o, files, monitor, baseline, debris, status) : judge_here(o, load, *checks, baseline, debris, status);
     if (!all) return report(all.why());
-    if (!o.report.empty()) {
-        if (auto written = write_report(*all, o.report); !written) status = worse(status, report(written.why()));
+    for (const std::string& file : o.reports) {
+        if (auto written = write_report(*all, file); !written) status = worse(status, report(written.why()));
     }
     if (o.json) return worse(status, print(report_json(*all)));
     if (o.quiet) return status;

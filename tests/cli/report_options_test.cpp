@@ -57,6 +57,16 @@ TEST_F(ReportOptions, WhatTheBaselineHasIsLeftOutAndDoesNotFail) {
     EXPECT_EQ(judged({at("old.grdecl")}, 1)["valid"], false);
 }
 
+TEST_F(ReportOptions, SeveralReportsComeOfOneRun) {
+    const ProgramRun run = run_geomend(
+        {"validate", "--quiet", "--report", at("r.json"), "--report", at("r.html"), at("old.grdecl"), "--report", at("r.sarif")});
+    EXPECT_EQ(run.status, 1) << run.err;
+    EXPECT_EQ(Json::parse(read_file(at("r.json")))["files"].size(), 1u);
+    EXPECT_EQ(Json::parse(read_file(at("r.sarif")))["version"], "2.1.0");
+    EXPECT_NE(read_file(at("r.html")).find("C03"), std::string::npos);
+    EXPECT_EQ(run_geomend({"validate", at("old.grdecl"), "--report", at("a.json"), "--report", at("b.doc")}).status, 2);
+}
+
 TEST_F(ReportOptions, ANewCellOfTheSameGridIsNewAgainstTheBaseline) {
     std::filesystem::copy_file(at("worse.grdecl"), at("old.grdecl"), std::filesystem::copy_options::overwrite_existing);
     const Json file = judged({at("old.grdecl"), "--baseline", at("old.json")}, 1);
