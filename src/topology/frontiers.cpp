@@ -2,6 +2,7 @@
 #include "topology/frontiers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -73,9 +74,51 @@ std::uint32_t longest_edge(const BrepData& brep, const LineGraph& graph, std::ui
     return best;
 }
 
-/// Lists the sides that face each other around a line. False when two polygons coincide.
+/// Which polygons of a surface belong to a part that shares no edge with the one that has most; asked for when needed.
+class LesserParts {
+public:
+    explicit LesserParts(const BrepData& brep) : brep_(brep), of_surface_(brep.surfaces.size()) {}
+
+    bool contains(std::uint32_t surface, std::uint32_t polygon) {
+        if (!of_surface_[surface]) of_surface_[surface] = find(brep_.surfaces[surface]);
+        const auto& lesser = *of_surface_[surface];
+        return !lesser.empty() && lesser[polygon] != 0;
+    }
+
+private:
+    const BrepData& brep_;
+    std::vector<std::optional<std::vector<std::uint8_t>>> of_surface_;  // flags of polygons; empty: all in one
+
+    static std::vector<std::uint8_t> find(const BrepData::Surface& surface) {
+        const std::size_t count = surface.polygons.size();
+        std::vector<std::array<std::uint32_t, 3>> edges;  // two vertices, ascending, and the polygon
+        edges.reserve(surface.polygons.corners.size());
+        for (std::uint32_t p = 0; p < count; ++p) {
+            const auto polygon = surface.polygons[p];
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                const auto ends = std::minmax(surface.nodes[polygon[i]].value, surface.nodes[polygon[(i + 1) % polygon.size()]].value);
+                edges.push_back({ends.first, ends.second, p});
+            }
+        }
+        std::ranges::sort(edges);
+        DisjointSets parts(count);
+        for (std::size_t e = 1; e < edges.size(); ++e) {
+            if (edges[e][0] == edges[e - 1][0] && edges[e][1] == edges[e - 1][1]) parts.join(edges[e][2], edges[e - 1][2]);
+        }
+        std::vector<std::uint32_t> polygons_of(count, 0);
+        for (std::uint32_t p = 0; p < count; ++p) ++polygons_of[parts.root(p)];
+        const auto largest = static_cast<std::uint32_t>(std::ranges::max_element(polygons_of) - polygons_of.begin());
+        if (polygons_of[largest] == count) return {};
+        std::vector<std::uint8_t> lesser(count);
+        for (std::uint32_t p = 0; p < count; ++p) lesser[p] = parts.root(p) == largest ? 0 : 1;
+        return lesser;
+    }
+};
+
+/// Lists the sides that face each other around a line. False when two polygons coincide. Around the free border of a part that
+/// does not hang together with its surface none are listed: a stray triangle would make a leak of the surface.
 bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const PolygonEdges> all_edges, std::uint32_t line,
-                 double tolerance, std::vector<FoundRegions::Join>& joins) {
+                 double tolerance, LesserParts& lesser, std::vector<FoundRegions::Join>& joins) {
     const auto uses = graph.edge_uses(graph.edges[longest_edge(brep, graph, line)]);
     const Vec3& a = brep.vertices[uses[0].low];
     const Vec3& b = brep.vertices[uses[0].high];
@@ -83,7 +126,9 @@ bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const P
     for (const EdgeUse& use : uses) {
         if (use.surface == no_index) continue;
         const auto& surface = brep.surfaces[use.surface];
-        const VertexId tip = far_vertex(brep, surface, all_edges[use.surface].polygon(use.corner), a, b);
+        const std::uint32_t polygon = all_edges[use.surface].polygon(use.corner);
+        if (uses.size() == 1 && lesser.contains(use.surface, polygon)) return true;
+        const VertexId tip = far_vertex(brep, surface, polygon, a, b);
         leaves.push_back({brep.vertices[tip.value], use.surface, use.direction > 0});
     }
     if (leaves.empty()) return true;
@@ -203,8 +248,9 @@ FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::spa
     DisjointSets sides(2 * brep.surfaces.size()), groups(brep.surfaces.size());
     std::vector<PolygonEdges> all_edges;
     for (const auto& surface : brep.surfaces) all_edges.emplace_back(surface.polygons);
+    LesserParts lesser(brep);
     for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
-        if (!join_around(brep, graph, all_edges, l, tolerance, found.joins)) found.uncertain_lines.emplace_back(l);
+        if (!join_around(brep, graph, all_edges, l, tolerance, lesser, found.joins)) found.uncertain_lines.emplace_back(l);
         std::uint32_t first = no_index;
         for (const EdgeUse& use : graph.edge_uses(graph.edges[graph.line_edges[graph.line_first_edge[l]]])) {
             if (use.surface == no_index) continue;

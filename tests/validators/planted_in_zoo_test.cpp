@@ -563,7 +563,7 @@ TEST(SeveralDefects, AreAllFound) {
         expect_found(patient, expected, std::string(species.name) + ", seed " + std::to_string(seed) + ":" + names);
         if (::testing::Test::HasFailure()) return;
     }
-    EXPECT_GT(several, 20u);
+    EXPECT_GT(4 * several, wanted_seeds(150));
 }
 
 }  // namespace
