@@ -500,7 +500,10 @@ std::string text(const std::vector<Finding>& findings) {
 void expect_found(const Dataset& data, const Found& expected, const std::string& where) {
     const auto checked = validators::check_models(data, {});
     ASSERT_TRUE(checked) << where;
+    // Where another defect opens the only region there is none left in which a sheet could lie (B06 tells).
+    const bool no_region = std::ranges::find(checked->findings, "B06", &Finding::code) != checked->findings.end();
     for (const Expected& e : expected) {
+        if (no_region && e.code == "B25") continue;
         const bool found = std::ranges::any_of(checked->findings, [&](const Finding& f) {
             return is_one_of(e.code, f.code) && std::ranges::any_of(f.entities, [&](const EntityRef& entity) {
                        return is_one_of(e.kind, entity.kind) && (e.name.empty() || entity.name == e.name);
