@@ -5,6 +5,7 @@
 add_library(geomend_settings INTERFACE)
 target_compile_features(geomend_settings INTERFACE cxx_std_20)
 target_compile_options(geomend_settings INTERFACE
+  -ffp-contract=off  # the same digits with and without fused multiply-add
   -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wno-float-conversion
   -Wcast-qual -Wformat=2 -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference
   $<$<NOT:$<BOOL:${GEOMEND_UNITY}>>:-Wshadow>  # sources in one unit shadow each other's helpers
