@@ -11,8 +11,9 @@ target_compile_options(geomend_settings INTERFACE
   $<$<NOT:$<BOOL:${GEOMEND_UNITY}>>:-Wshadow>  # sources in one unit shadow each other's helpers
   $<$<BOOL:${GEOMEND_WERROR}>:-Werror>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference>
-  # GCC 12 sees overlapping copies in plain string concatenation when it optimises fully (its bug 105651).
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-Wno-restrict>)
+  # GCC 12 sees overlapping copies in plain string concatenation (its bug 105651), and wrong frees in plain vectors, when it
+  # optimises.
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-Wno-restrict;-Wno-free-nonheap-object>)
 if(GEOMEND_SANITIZE)
   target_compile_options(geomend_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(geomend_settings INTERFACE -fsanitize=address,undefined)
