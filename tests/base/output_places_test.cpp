@@ -213,14 +213,20 @@ TEST(OutputPlaces, AReadOnlyFolderIsRefused) {
     constexpr uid_t nobody = 65534;
     const TemporaryFolder folder;
     const bool root = ::geteuid() == 0;  // root may write everywhere
-    if (root) ASSERT_EQ(::chown(folder.path().c_str(), nobody, nobody), 0);
-    if (root) ASSERT_EQ(::seteuid(nobody), 0);
+    if (root) {
+        ASSERT_EQ(::chown(folder.path().c_str(), nobody, nobody), 0);
+    }
+    if (root) {
+        ASSERT_EQ(::seteuid(nobody), 0);
+    }
     fs::create_directory(folder / "closed");
     ::chmod((folder / "closed").c_str(), 0500);
     write_file(folder / "kept", "old");
     ::chmod((folder / "kept").c_str(), 0400);
     const bool into_closed = write_output(folder / "closed/a", "x").ok(), over_kept = write_output(folder / "kept", "x").ok();
-    if (root) ASSERT_EQ(::seteuid(0), 0);
+    if (root) {
+        ASSERT_EQ(::seteuid(0), 0);
+    }
     EXPECT_FALSE(into_closed);
     EXPECT_FALSE(over_kept) << "a file that may not be written is not replaced either";
     EXPECT_EQ(read_file(folder / "kept"), "old");
