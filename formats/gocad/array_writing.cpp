@@ -94,9 +94,8 @@ Result<void> ArrayWriting::prepare(bool needs_files) {
         }
     }
     if (to_.files.is_stream() && (needs_files || !attributes.empty() || flags != nullptr || region_flags != nullptr)) {
-        return failure(
-            FailureKind::cannot_hold, "F021", {to_.files.main_path().string()},
-            "'" + info_.name + "' needs companion files for its values, which have no place beside a stream: give a file");
+        return failure(FailureKind::cannot_hold, "F021", {to_.files.main_path().string()},
+                       "'" + info_.name + "' needs companion files for its values, which have no place beside a stream: give a file");
     }
     return {};
 }

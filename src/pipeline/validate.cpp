@@ -5,6 +5,7 @@
 #include <map>
 #include <new>
 
+#include "pipeline/command_options.h"
 #include "validators/readiness.h"
 
 namespace geomend {
@@ -96,7 +97,9 @@ Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_o
                               const Inspect& inspect) {
     if (auto known = validators::known_codes(options); !known) return std::move(known).why();
     std::vector<std::string> companions;
-    auto dataset = load(path, load_options, &companions);
+    LoadOptions reading = load_options;
+    if (reading.command.empty()) reading.command = validate_option_rows();
+    auto dataset = load(path, reading, &companions);
     if (!dataset) return std::move(dataset).why();
     try {
         std::vector<Brep> judged;
