@@ -10,6 +10,7 @@
 #include "grid/cell_geometry.h"
 #include "grid/pillar_nodes.h"
 #include "grid/pinched_cell.h"
+#include "model/attribute_operations.h"
 
 namespace geomend::grid {
 
@@ -32,21 +33,6 @@ void list_collapsed(const CornerPointGrid& grid, std::span<const std::uint8_t> p
     for (std::size_t c = 0; c < present.size(); ++c) {
         if (present[c] == 0 && grid.is_active(c)) cells.collapsed.push_back(static_cast<std::uint32_t>(c));
     }
-}
-
-Attribute picked(const Attribute& from, std::span<const std::uint32_t> rows) {
-    Attribute to = from;
-    std::visit(
-        [&](auto& values) {
-            auto all = std::move(values);
-            values.clear();
-            values.reserve(rows.size() * from.components);
-            for (const std::uint32_t row : rows) {
-                for (std::uint32_t c = 0; c < from.components; ++c) values.push_back(all[std::size_t{row} * from.components + c]);
-            }
-        },
-        to.values);
-    return to;
 }
 
 // Faces of each cell, in the order in which they were made.
@@ -167,7 +153,7 @@ std::vector<Attribute> cell_attributes(const CornerPointGrid& grid, std::span<co
     add("GlobalIndex", std::move(global));
     add("ActiveIndex", std::move(active));
     for (const Attribute& a : grid.info.attributes) {
-        if (a.location == AttributeLocation::cell) all.push_back(picked(a, source));
+        if (a.location == AttributeLocation::cell) all.push_back(taken(a, source));
         else if (a.location == AttributeLocation::object) all.push_back(a);
     }
     return all;
