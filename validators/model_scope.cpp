@@ -175,6 +175,4 @@ void mark_line(const ModelScope& scope, std::uint32_t line, Finding& finding) {
     finding.polylines.push_back(std::move(course));
 }
 
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
-
 }  // namespace geomend::validators

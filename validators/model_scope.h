@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/wording.h"
 #include "geometry/triangle_tree.h"
 #include "topology/brep_from_dataset.h"
 #include "validators/grid_scope.h"
@@ -78,7 +79,5 @@ EntityRef line_ref(const ModelScope& scope, std::uint32_t line);
 EntityRef region_ref(const ModelScope& scope, std::uint32_t region);
 /// Adds the course of a line to a finding; at most 100 of them.
 void mark_line(const ModelScope& scope, std::uint32_t line, Finding& finding);
-/// "'H1b'"
-std::string quoted(std::string_view name);
 
 }  // namespace geomend::validators
