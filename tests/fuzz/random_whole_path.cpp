@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Runs random changes of seeds through the whole path: random_whole_path FOUND FIRST COUNT SEEDS...
-// Input number i of FIRST .. FIRST+COUNT-1 is made from i and the seeds alone. They run in a child process; one that it dies of, or
-// that takes longer than it may, is left in the folder FOUND as I.pack beside what was said, I.log, and a new child goes on behind
-// it. random_whole_path --one FILE runs one input in this process; --make I SEEDS... prints input number I.
+// Input number i of FIRST .. FIRST+COUNT-1 is made from i and the seeds alone; the lowest numbers are the seeds themselves. They run in a
+// child process; one that it dies of, or that takes longer than it may, is left in the folder FOUND as I.pack beside what was said, I.log,
+// and a new child goes on behind it. random_whole_path --one FILE runs one input in this process; --make I SEEDS... prints input number I.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -69,7 +69,9 @@ std::vector<std::string> seeds_in(const std::vector<std::string>& folders) {
     return seeds;
 }
 
+// The first numbers are the seeds as they are.
 std::string input_number(std::uint64_t i, const std::vector<std::string>& seeds) {
+    if (i < seeds.size()) return seeds[i];
     FuzzRandom random(i);
     const std::string& seed = seeds[random.below(seeds.size())];
     return mutated(seed, seeds, random);

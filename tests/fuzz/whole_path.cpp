@@ -303,13 +303,22 @@ std::string plan_text(const Pack& pack) {
            (plan.strict ? " strict" : "");
 }
 
+// A deck may ask for millions of cells in a few bytes; that is no fault, but takes its time.
+static void bound_cells(Plan& plan, const std::string& path) {
+    const auto input = Input::open(path);
+    if (!input) return;
+    const auto format = format_for_reading(*input);
+    if (format && (*format)->family == "grdecl") plan.options.emplace_back("max-values", "100000");
+}
+
 void run_whole_path(std::string_view bytes) {
     static const ThreadBudget one(1);
     const Pack pack = unpack(bytes);
-    const Plan plan = plan_of(pack);
+    Plan plan = plan_of(pack);
     const Place place;
     place.put(pack);
     const std::string path = place.in(pack.files.front().name);
+    bound_cells(plan, path);
     LoadOptions options;
     options.from = plan.from;
     options.options = plan.options;
