@@ -101,9 +101,8 @@ Result<bool> IndexedPropertyList::take(std::string_view keyword, TextCursor& cur
     Attribute& a = p.attribute;
 
     if (keyword == "PROPERTY") {
-        bool quoted = false;
-        a.name = cursor.quoted_token(&quoted);
-        if (a.name.empty() && !quoted) return unreadable("F012", here(cursor, file), "PROPERTY: expected a name");
+        a.name = cursor.quoted_token();
+        if (a.name.empty()) return unreadable("F012", here(cursor, file), "PROPERTY: expected a name");
     } else if (keyword == "PROPERTY_CLASS") a.property_class = cursor.quoted_token();
     else if (keyword == "PROPERTY_KIND") a.kind = cursor.quoted_token();
     else if (keyword == "PROPERTY_CLASS_HEADER") return read_class_header(cursor, a, file);

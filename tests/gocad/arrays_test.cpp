@@ -191,14 +191,6 @@ TEST(GocadVoxet, AllTypesComeBackAsTheyWere) {
     expect_same_attributes(a.info, b.info);
 }
 
-TEST(GocadVoxet, APropertyWithoutANameComesBack) {
-    Raster raster = raster_of_all_types();
-    raster.info.attributes.front().name.clear();
-    const Dataset back = there_and_back(of(raster), "gocad-vo");
-    ASSERT_EQ(back.objects.size(), 1u);
-    expect_same_attributes(raster.info, first<Raster>(back).info);
-}
-
 TEST(GocadVoxet, TextHoldsAllTypesAndDoublesToo) {
     Raster raster = raster_of_all_types();
     raster.info.attributes.push_back(attribute("d", std::vector<double>{0.1, 1e300, -1.0 / 3, 0}));
