@@ -152,7 +152,7 @@ void add_grid_losses(const CornerPointGrid& grid, const GridKept& kept, const Ou
     add_annotation_losses(grid, kept, why, losses);
 }
 
-void write_geometry(ArrayWriter& writer, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses) {
+Result<void> write_geometry(ArrayWriter& writer, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses) {
     const bool turned = grid.info.crs.z_positive == ZPositive::elevation;
     Rounding rounding = writer.rounded("COORD", grid.pillars.size(), [&](std::uint64_t first, std::span<double> block) {
         std::copy_n(grid.pillars.data() + first, block.size(), block.data());
@@ -166,7 +166,11 @@ void write_geometry(ArrayWriter& writer, const CornerPointGrid& grid, std::strin
         if (!turned) return;
         for (double& z : block) z = 0.0 - z;
     }));
+    if (!std::isfinite(rounding.largest))
+        return failure(FailureKind::cannot_hold, "F021", {grid.info.name},
+                       "coordinates are beyond single precision, which " + std::string(title) + " files store");
     add_rounding_loss(rounding, grid, title, losses);
+    return {};
 }
 
 void write_map(ArrayWriter& writer, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses) {
