@@ -33,7 +33,8 @@ std::span<const Check> all_checks();
 /// Findings of one grid, and the lengths that it was judged by.
 struct Checked {
     std::vector<Finding> findings;
-    Lengths lengths;
+    Lengths lengths;                 ///< of several clusters the largest ones
+    topology::LocalLengths local;    ///< of surfaces and cell meshes; else empty
     bool geometry = true;  ///< false: there is none, only records were checked (F161 tells)
 };
 
