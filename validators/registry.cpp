@@ -261,7 +261,7 @@ Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options
     result.local = lengths_of(dataset, options);
     result.lengths = result.local.largest;
     report_outlying(dataset, result.local, result.findings);
-    auto models = topology::models_to_judge(dataset, result.lengths.tolerance);
+    auto models = topology::models_to_judge(dataset, topology::model_sources(dataset, result.local));
     if (!models) return std::move(models).why();
     for (auto& model : *models) {
         std::vector<Finding> findings;

@@ -121,7 +121,7 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     const LoadOptions load{o.from, std::move(*options), &monitor};
     if (o.is_worker()) return work(o, load, *checks);
 
-    DebrisFolder debris(o.debris, o.max_findings);
+    DebrisFolder debris(o.debris, o.max_findings, &monitor);
     if (auto targets = check_targets(o, debris); !targets) return report(targets.why());
     Baseline baseline;
     if (!o.baseline.empty()) {
@@ -136,7 +136,7 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
         many ? judge_many(command, o, files, monitor, baseline, debris, status) : judge_here(o, load, *checks, baseline, debris, status);
     if (!all) return report(all.why());
     for (const std::string& file : o.reports) {
-        if (auto written = write_report(*all, file); !written) status = worse(status, report(written.why()));
+        if (auto written = write_report(*all, file, &monitor); !written) status = worse(status, report(written.why()));
     }
     if (o.json) return worse(status, print(report_json(*all)));
     if (o.quiet) return status;

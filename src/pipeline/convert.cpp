@@ -118,7 +118,7 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Cha
     std::ranges::stable_sort(report.losses, {}, &Loss::loss_class);
     if (!request.lossy && loses_substance(report.losses)) return cannot_hold(request.output, **format, report.losses);
     if (monitor != nullptr && monitor->stopped()) return stopped();
-    if (auto committed = output.commit(); !committed) return std::move(committed).why();
+    if (auto committed = output.commit(monitor); !committed) return std::move(committed).why();
     return report;
 }
 

@@ -257,6 +257,25 @@ LocalLengths Survey::lengths(const LengthRules& rules) const {
 
 }  // namespace
 
+std::vector<ModelSource> model_sources(const Dataset& dataset, const LocalLengths& lengths) {
+    auto sources = model_sources(dataset);
+    for (ModelSource& source : sources) {
+        std::map<std::pair<double, std::uint32_t>, WeldGroup> groups;
+        const bool same = std::ranges::all_of(lengths.clusters, [&](const Lengths& l) { return l.tolerance == lengths.largest.tolerance; });
+        for (const WeldGroup& group : source.groups) {
+            for (const std::uint32_t o : group.objects) {
+                const bool apart = !same && o < lengths.cluster_of.size() && lengths.cluster_of[o] != no_index;
+                WeldGroup& to = groups[{lengths.of(o).tolerance, apart ? lengths.cluster_of[o] : no_index}];
+                to.tolerance = lengths.of(o).tolerance;
+                to.objects.push_back(o);
+            }
+        }
+        source.groups.clear();
+        for (auto& [key, group] : groups) source.groups.push_back(std::move(group));
+    }
+    return sources;
+}
+
 LocalLengths local_lengths(const Dataset& dataset, const LengthRules& rules) { return Survey(dataset).lengths(rules); }
 
 }  // namespace geomend::topology

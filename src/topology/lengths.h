@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/dataset.h"
+#include "topology/brep_from_dataset.h"
 
 namespace geomend::topology {
 
@@ -54,5 +55,8 @@ struct LocalLengths {
 /// Outlying points take no part: see find_outlying_points().
 /// \pre all coordinates that elements use are finite and below 1e20. Cost: near-linear, about 0.15 s per million triangles.
 LocalLengths local_lengths(const Dataset& dataset, const LengthRules& rules);
+
+/// The models of a Dataset as model_sources() has them, their objects in groups by clusters, each with the cluster's tolerance.
+std::vector<ModelSource> model_sources(const Dataset& dataset, const LocalLengths& lengths);
 
 }  // namespace geomend::topology
