@@ -51,7 +51,10 @@ template <class Bad>
 void judge_polygons(const ModelScope& scope, std::vector<Finding>& findings, std::string_view code, std::string_view one,
                     std::string_view many, const Bad& bad) {
     judge_polygons(
-        scope, findings, code, [&](std::uint32_t) { return PolygonWords{std::string(one), std::string(many)}; },
+        scope, findings, code,
+        [&](std::uint32_t) {
+            return PolygonWords{std::string(one), std::string(many)};
+        },
         [&](std::uint32_t s, std::uint32_t p) { return bad(scope.brep().surfaces[s], p); });
 }
 

@@ -20,9 +20,9 @@ struct Neighbours {
     Lengths lengths;
     std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> surfaces;               ///< per triangle
-    std::vector<std::array<std::uint32_t, 2>> edges;   ///< of free borders
-    std::vector<std::uint32_t> edge_surfaces;          ///< the surface that each belongs to
+    std::vector<std::uint32_t> surfaces;                 ///< per triangle
+    std::vector<std::array<std::uint32_t, 2>> edges;     ///< of free borders
+    std::vector<std::uint32_t> edge_surfaces;            ///< the surface that each belongs to
     std::vector<std::array<std::uint32_t, 2>> in_model;  ///< per edge its vertices in the model
     std::vector<std::uint32_t> triangle_in_model;
 };
@@ -143,9 +143,9 @@ Finding touch_finding(const ModelScope& scope, std::uint32_t border, std::uint32
         const auto& v = scope.brep().vertices;
         one_point = one_point && !runs_along(scope, {v[edge[0]], v[edge[1]]}, other);
         for (std::uint32_t t = scope.first_triangle(border); t < scope.first_triangle(border + 1) && !lies_on; ++t) {
-            const auto has = [&](std::uint32_t v) { return std::ranges::find(scope.triangles()[t], v) != scope.triangles()[t].end(); };
-            lies_on =
-                has(edge[0]) && has(edge[1]) && lie_on_each_other(triangle_at(scope, t), triangle_at(scope, some.triangle_in_model[miss.triangle]), tolerance);
+            const auto has = [&](std::uint32_t end) { return std::ranges::find(scope.triangles()[t], end) != scope.triangles()[t].end(); };
+            lies_on = has(edge[0]) && has(edge[1]) &&
+                      lie_on_each_other(triangle_at(scope, t), triangle_at(scope, some.triangle_in_model[miss.triangle]), tolerance);
         }
     }
     const std::string a = quoted(scope.brep().surfaces[border].name), b = quoted(scope.brep().surfaces[other].name);
@@ -161,8 +161,7 @@ Finding touch_finding(const ModelScope& scope, std::uint32_t border, std::uint32
 
 void tell_borders(const ModelScope& scope, const Neighbours& some, const TriangleTree& tree, std::vector<Finding>& findings) {
     const double tolerance = some.lengths.tolerance;
-    const auto misses =
-        near_misses(tree, some.surfaces, some.edges, some.edge_surfaces, some.lengths.near, scope.monitor(), tolerance);
+    const auto misses = near_misses(tree, some.surfaces, some.edges, some.edge_surfaces, some.lengths.near, scope.monitor(), tolerance);
     struct Pair {
         double smallest = 0, largest = 0;
         Finding finding;

@@ -49,7 +49,8 @@ void check_short_edges(const ModelScope& scope, std::vector<Finding>& findings) 
         const auto polygon = surface.polygons[p];
         const double limit = scope.lengths(s).near * scope.lengths(s).near;
         for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const Vec3 d = minus(scope.vertex_of_node(surface, polygon[i]), scope.vertex_of_node(surface, polygon[(i + 1) % polygon.size()]));
+            const Vec3 d =
+                minus(scope.vertex_of_node(surface, polygon[i]), scope.vertex_of_node(surface, polygon[(i + 1) % polygon.size()]));
             if (dot(d, d) < limit && dot(d, d) > 0) return true;
         }
         return false;

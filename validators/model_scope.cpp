@@ -79,10 +79,10 @@ Finding outlying_finding(const Object& object, std::span<const topology::Outlyin
     const bool alone = outlying.size() == 1;
     const bool usual = std::ranges::any_of(outlying, &topology::OutlyingPoint::usual);
     std::string message = (alone ? "point " + std::to_string(number) : std::to_string(outlying.size()) + " points") + " of " +
-                          quoted(info_of(object).name) + (alone ? " lies" : " lie") + " far off: " +
-                          (alone ? "" : "point " + std::to_string(number) + ", the first, is ") + (alone ? "it is " : "") + "at (" + number_text(p[0]) +
-                          ", " + number_text(p[1]) + ", " + number_text(stated_height(object, p[2])) + "), " + rounded(first.times) +
-                          " times as far from the others as these are from each other";
+                          quoted(info_of(object).name) + (alone ? " lies" : " lie") +
+                          " far off: " + (alone ? "" : "point " + std::to_string(number) + ", the first, is ") + (alone ? "it is " : "") +
+                          "at (" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(stated_height(object, p[2])) + "), " +
+                          rounded(first.times) + " times as far from the others as these are from each other";
     if (usual) message += "; the height looks like no-data";
     Finding finding = finding_of("M15", std::move(message));
     finding.entities.push_back({kind_name(object), info_of(object).name});

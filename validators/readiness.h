@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "model/dataset.h"
+#include "topology/lengths.h"
 
 namespace geomend::validators {
 
@@ -60,7 +61,7 @@ Finding target_finding(std::string_view code, std::string message);
 void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& findings);             // S03 S04 S05 S09 S12
 void check_cells_for(const Target& target, const CellMesh& mesh, std::vector<Finding>& findings);  // S07 S08 S10
 Result<void> check_regions(const Dataset& dataset, const Target& target, const topology::LocalLengths& lengths,
-                           std::vector<Finding>& findings);  // S03
-void check_names(const Dataset& dataset, const Target& target, std::vector<Finding>& findings);                              // S06
+                           std::vector<Finding>& findings);                                      // S03
+void check_names(const Dataset& dataset, const Target& target, std::vector<Finding>& findings);  // S06
 
 }  // namespace geomend::validators

@@ -158,7 +158,8 @@ constexpr std::array table = {
     of_object("M13", "edges of one line that share no point come within the tolerance, or two edges lie side by side", check_line_meetings),
     of_object("M14", "as M13, of edges of different lines of an object", check_line_meetings),
     Check{"M15",
-          "a point lies ten diameters of its cluster or more from it, linked to the rest by edges as long only; or its height is -999, -9999, "
+          "a point lies ten diameters of its cluster or more from it, linked to the rest by edges as long only; or its height is -999, "
+          "-9999, "
           "1e10 or the like, as far from other heights of its object as these from each other"},
     Check{"M20",
           "the volume of a cell is zero, or of the sign that fewer cells have; of structured grids cells without volume are a warning",

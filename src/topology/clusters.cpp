@@ -71,7 +71,8 @@ PartExtent extent_of(const Dataset& dataset, const UsedPoints& used, std::span<c
 /// Tells whether two parts come close to each other.
 class Closeness {
 public:
-    Closeness(const UsedPoints& used, const HangingParts& parts, std::span<const PartExtent> extents, std::span<const std::uint8_t> left_out)
+    Closeness(const UsedPoints& used, const HangingParts& parts, std::span<const PartExtent> extents,
+              std::span<const std::uint8_t> left_out)
         : used_(used), parts_(parts), extents_(extents), left_out_(left_out) {}
 
     bool are_close(std::uint32_t a, std::uint32_t b) {

@@ -16,8 +16,8 @@ namespace geomend::topology {
 
 namespace {
 
-constexpr double far_off = 10;         // diameters
-constexpr double sheet = 1.0 / 250;    // of the diameter: thinner clusters have no thickness
+constexpr double far_off = 10;       // diameters
+constexpr double sheet = 1.0 / 250;  // of the diameter: thinner clusters have no thickness
 constexpr double near_thickness = 1.0 / 200;
 
 /// What is known of one cluster.

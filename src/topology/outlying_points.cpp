@@ -28,8 +28,8 @@ void each_edge(const std::array<std::uint32_t, 3>& t, const Visit& visit) {
 
 /// The usual ones of one object.
 void mark_usual(const UsedPoints& used, std::uint32_t object, std::vector<Outlying>& marks) {
-    const auto triangles = std::span(used.triangles)
-                               .subspan(used.first_triangle[object], used.first_triangle[object + 1] - used.first_triangle[object]);
+    const auto triangles =
+        std::span(used.triangles).subspan(used.first_triangle[object], used.first_triangle[object + 1] - used.first_triangle[object]);
     std::vector<std::uint32_t> vertices, suspects;
     for (const auto& t : triangles) {
         for (const std::uint32_t v : t) {
@@ -160,8 +160,9 @@ private:
             const Vec3 centre = plus(origin, times(1.0 / part.vertices, part.sum)), d = minus(used_.positions[vertices[i]], centre);
             part.radius = std::max(part.radius, std::sqrt(dot(d, d)));
         }
-        const auto core = std::ranges::max_element(
-            parts, [](const auto& a, const auto& b) { return std::pair(a.second.radius, a.second.vertices) < std::pair(b.second.radius, b.second.vertices); });
+        const auto core = std::ranges::max_element(parts, [](const auto& a, const auto& b) {
+            return std::pair(a.second.radius, a.second.vertices) < std::pair(b.second.radius, b.second.vertices);
+        });
         const auto others = vertices.size() - core->second.vertices;
         const double times = shortest_long / (2 * core->second.radius);
         const std::size_t share = times >= 100 ? 4 : 20;

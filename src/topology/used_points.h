@@ -47,7 +47,9 @@ struct HangingParts {
     std::vector<std::uint32_t> triangles, first;  ///< those of part p: triangles[first[p]] to before triangles[first[p + 1]], ascending
 
     std::size_t size() const { return first.size() - 1; }
-    std::span<const std::uint32_t> operator[](std::size_t p) const { return std::span(triangles).subspan(first[p], first[p + 1] - first[p]); }
+    std::span<const std::uint32_t> operator[](std::size_t p) const {
+        return std::span(triangles).subspan(first[p], first[p + 1] - first[p]);
+    }
 };
 
 /// Cost: linear.
