@@ -34,7 +34,7 @@ std::string against(const Dataset& data, const char* target) {
 std::vector<topology::JudgedModel> judged(const Dataset& data) {
     const auto checked = validators::check_models(data, {});
     EXPECT_TRUE(checked);
-    auto models = topology::models_to_judge(data, checked->lengths.tolerance);
+    auto models = topology::models_to_judge(data, topology::model_sources(data, checked->local));
     EXPECT_TRUE(models);
     return models ? std::move(*models) : std::vector<topology::JudgedModel>{};
 }
