@@ -12,7 +12,6 @@
 #include "grid/cell_geometry.h"
 #include "grid/pillar_nodes.h"
 #include "grid/pinched_cell.h"
-#include "model/attribute_operations.h"
 
 namespace geomend::grid {
 

@@ -65,6 +65,7 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         std::ranges::move(checked.findings, std::back_inserter(file.findings));
     };
     const validators::CheckOptions run = with_causes(options);
+    topology::LocalLengths lengths;
     bool all_judged = !dataset.objects.empty() && std::ranges::all_of(dataset.objects, has_checks) && !lacks_a_part(dataset) &&
                       validators::judges_anything(options);
     for (const Object& object : dataset.objects) {
@@ -79,10 +80,11 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         auto checked = validators::check_models(dataset, run, judged);
         if (!checked) return std::move(checked).why();
         take(*checked);
+        lengths = std::move(checked->local);
     }
     if (validators::wanted(options, "F160")) tell_unchecked(dataset, file.findings);
     if (const validators::Target* target = validators::find_target(options.target)) {
-        auto ready = validators::readiness(dataset, *target, file.tolerance, file.findings);
+        auto ready = validators::readiness(dataset, *target, lengths, file.findings);
         if (!ready) return std::move(ready).why();
         std::ranges::copy_if(*ready, std::back_inserter(file.findings),
                              [&](const Finding& f) { return validators::wanted(options, f.code); });
