@@ -6,6 +6,7 @@
 
 #include "base/output.h"
 #include "formats/registry.h"
+#include "pipeline/deck_parts.h"
 #include "pipeline/grid_origin.h"
 #include "pipeline/grids.h"
 #include "pipeline/merge.h"
@@ -40,18 +41,35 @@ Result<void> refuse_unterminated(const Dataset& dataset, const ConvertRequest& r
     return why;
 }
 
+// A file of properties or faults that does not state the numbers of cells has those of the grid that was read.
+Result<Dataset> load_beside(const Dataset& all, const std::string& input, const LoadOptions& options) {
+    Result<Dataset> read = load(input, options);
+    const bool unknown = read ? has_guessed_dims(*read) : read.why().error.code == "F024";
+    const std::string dims = unknown && option_value(options.options, "dims").empty() ? dims_option_of(all) : std::string();
+    if (dims.empty()) return read;
+    LoadOptions with_dims = options;
+    with_dims.options.emplace_back("dims", dims);
+    return load(input, with_dims);
+}
+
 Result<Dataset> load_all(const ConvertRequest& request) {
     const bool ignore_crs = option_value(request.load.options, "crs") == "ignore";
-    Result<Dataset> all = load(request.inputs.front(), request.load);
+    std::vector<std::string> inputs = request.inputs;
+    Result<Dataset> all = load(inputs.front(), request.load);
+    if (!all && all.why().error.code == "F024" && inputs.size() > 1) {  // properties: the grid's file may come after them
+        std::ranges::rotate(inputs, inputs.begin() + 1);
+        Result<Dataset> next = load(inputs.front(), request.load);
+        if (!next || dims_option_of(*next).empty()) return all;
+        all = std::move(next);
+    }
     if (!all) return all;
     if (auto ended = refuse_unterminated(*all, request); !ended) return std::move(ended).why();
-    for (std::size_t i = 1; i < request.inputs.size(); ++i) {
-        Result<Dataset> more = load(request.inputs[i], request.load);
+    for (std::size_t i = 1; i < inputs.size(); ++i) {
+        Result<Dataset> more = load_beside(*all, inputs[i], request.load);
         if (!more) return more;
         if (auto ended = refuse_unterminated(*more, request); !ended) return std::move(ended).why();
         if (!ignore_crs) {
-            if (auto agreed = check_agreement(*all, request.inputs.front(), *more, request.inputs[i]); !agreed)
-                return std::move(agreed).why();
+            if (auto agreed = check_agreement(*all, inputs.front(), *more, inputs[i]); !agreed) return std::move(agreed).why();
         }
         merge(*all, std::move(*more));
     }
@@ -102,8 +120,10 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Cha
         if (auto changed = change(*dataset); !changed) return std::move(changed).why();
     }
     if (auto made = make_like(*dataset, **format, request); !made) return std::move(made).why();
-    if (auto done = apply_grid_options(*dataset, request.load.options); !done) return std::move(done).why();
+    if (auto done = apply_grid_options(*dataset, **format, request.load.options); !done) return std::move(done).why();
+    if ((*format)->name == "init" || (*format)->name == "finit") complete_pore_volumes(*dataset);
     if (auto moved = move_grid_origins(*dataset, **format, request.load.options); !moved) return std::move(moved).why();
+    list_text_losses(*dataset, **format);
     if (auto shaped = shape_grids(*dataset, **format, request.load.options); !shaped) return std::move(shaped).why();
     shape_for(*dataset, **format);
 
