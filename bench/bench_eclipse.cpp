@@ -126,9 +126,9 @@ void write_whole(benchmark::State& state) {
     state.SetBytesProcessed(state.iterations() * file_size());
 }
 
-BENCHMARK(plain_copy)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(read_whole)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(write_whole)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(plain_copy)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(read_whole)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(write_whole)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace
 

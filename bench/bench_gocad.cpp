@@ -120,12 +120,12 @@ void write_model(benchmark::State& state) {
     }
 }
 
-BENCHMARK_CAPTURE(bare_from_chars, model, model)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(read, model, model)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(bare_from_chars, solid, solid)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(read, solid, solid)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(bare_to_chars)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(write_model)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(bare_from_chars, model, model)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK_CAPTURE(read, model, model)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK_CAPTURE(bare_from_chars, solid, solid)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK_CAPTURE(read, solid, solid)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(bare_to_chars)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(write_model)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace
 

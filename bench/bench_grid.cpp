@@ -66,7 +66,7 @@ void volumes(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(grid::cell_volumes(grid));
     tell(state);
 }
-BENCHMARK(volumes)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(volumes)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 void connections(benchmark::State& state) {
     const CornerPointGrid& grid = faulted();
@@ -76,7 +76,7 @@ void connections(benchmark::State& state) {
     }
     tell(state);
 }
-BENCHMARK(connections)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(connections)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 void transmissibilities(benchmark::State& state) {
     const CornerPointGrid& grid = faulted();
@@ -84,14 +84,14 @@ void transmissibilities(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(grid::transmissibilities(grid, found));
     tell(state);
 }
-BENCHMARK(transmissibilities)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(transmissibilities)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 void faces(benchmark::State& state) {
     const CornerPointGrid& grid = faulted();
     for (auto _ : state) benchmark::DoNotOptimize(grid::conforming_faces(grid));
     tell(state);
 }
-BENCHMARK(faces)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(faces)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 void faces_with_crossings(benchmark::State& state) {
     const CornerPointGrid grid = make_grid(true);
@@ -102,14 +102,14 @@ void faces_with_crossings(benchmark::State& state) {
     }
     tell(state);
 }
-BENCHMARK(faces_with_crossings)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(faces_with_crossings)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 void polyhedra(benchmark::State& state) {
     const CornerPointGrid& grid = faulted();
     for (auto _ : state) benchmark::DoNotOptimize(grid::conforming_cells(grid));
     tell(state);
 }
-BENCHMARK(polyhedra)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(polyhedra)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace
 

@@ -6,11 +6,9 @@
 #include <span>
 
 #include "base/vec3.h"
+#include "model/triangle_soup.h"
 
 namespace geomend {
-
-/// Three vertex numbers.
-using Triangle = std::array<std::uint32_t, 3>;
 
 /// How two triangles meet, apart from the vertices and edges that they share by number. What both have in common is
 /// convex: nothing, a point, a segment or a flat polygon; the kinds tell these apart.

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
+#include "base/big_array.h"
 #include "base/parallel.h"
-#include "geometry/cell_volume.h"
-#include "grid/cell_geometry.h"
+#include "grid/half_cells.h"
 #include "grid/map_axes.h"
 #include "grid/multipliers.h"
 
@@ -16,13 +17,9 @@ namespace {
 
 constexpr double millidarcy = 9.869232667160130e-16;  // m2
 
-// Corners of each face of a cell, in CellFace order, round the face.
-constexpr std::array<std::array<unsigned, 4>, 6> face_corners{
-    {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}}};
-
 CellFace opposite(CellFace face) { return static_cast<CellFace>(static_cast<unsigned>(face) ^ 1u); }
 
-Vec3 vector_area(std::span<const Vec3> polygon) {
+Vec3 vector_area_of(std::span<const Vec3> polygon) {
     Vec3 sum{};
     for (std::size_t c = 1; c + 1 < polygon.size(); ++c) {
         const Vec3 n = cross(minus(polygon[c], polygon[0]), minus(polygon[c + 1], polygon[0]));
@@ -31,35 +28,39 @@ Vec3 vector_area(std::span<const Vec3> polygon) {
     return sum;
 }
 
+// One of the two cells of a connection.
+struct Half {
+    std::size_t cell;
+    const HalfCells& shape;
+};
+
 struct Worker {
     const CornerPointGrid& grid;
-    std::span<const std::uint8_t> present;
-    std::array<std::vector<double>, 3> permeability;
+    std::vector<double> permeability_x, permeability_y, permeability_z;  // y and z empty: as x
     std::vector<double> net_to_gross;
     Multipliers multipliers;
     double factor;
 
-    double half(const Corners& corners, CellFace face, const Vec3& area, std::size_t cell) const {
-        Vec3 d{};
-        for (const unsigned c : face_corners[static_cast<std::size_t>(face)]) {
-            for (std::size_t a = 0; a < 3; ++a) d[a] += corners[c][a] / 4;
-        }
-        d = minus(d, centre(corners));
-        const double squared = dot(d, d);
+    double permeability(std::size_t direction, std::size_t cell) const {
+        const auto& own = direction == 0 ? permeability_x : direction == 1 ? permeability_y : permeability_z;
+        return (own.empty() ? permeability_x : own)[cell];
+    }
+
+    double half(const Half& one, CellFace face, const Vec3& area) const {
+        const auto f = static_cast<std::size_t>(face);
+        const double squared = one.shape.arm_square[f];
         if (squared == 0) return 0;
-        double value = permeability[static_cast<std::size_t>(face) / 2][cell] * std::abs(dot(area, d)) / squared;
-        if (face < CellFace::k_minus && !net_to_gross.empty()) value *= net_to_gross[cell];
+        double value = permeability(f / 2, one.cell) * std::abs(dot(area, one.shape.arm[f])) / squared;
+        if (face < CellFace::k_minus && !net_to_gross.empty()) value *= net_to_gross[one.cell];
         return value;
     }
 
-    double connection(std::size_t first, std::size_t second, CellFace face, const Vec3& area, bool neighbours) const {
-        const auto a = grid.ijk(first), b = grid.ijk(second);
-        const double one = half(cell_corners(grid, a[0], a[1], a[2]), face, area, first);
-        const double two = half(cell_corners(grid, b[0], b[1], b[2]), opposite(face), area, second);
+    double connection(const Half& first, const Half& second, CellFace face, const Vec3& area, bool neighbours) const {
+        const double one = half(first, face, area), two = half(second, opposite(face), area);
         if (one <= 0 || two <= 0) return 0;
-        const double own = face == CellFace::k_plus ? downwards(first, second) : multipliers.of_face(first, face);
-        return factor / (1 / one + 1 / two) * own * multipliers.of_face(second, opposite(face)) *
-               multipliers.between(first, second, face, neighbours);
+        const double own = face == CellFace::k_plus ? downwards(first.cell, second.cell) : multipliers.of_face(first.cell, face);
+        return factor / (1 / one + 1 / two) * own * multipliers.of_face(second.cell, opposite(face)) *
+               multipliers.between(first.cell, second.cell, face, neighbours);
     }
 
     // MULTZ of the upper cell, or with ALL the least down to the lower one.
@@ -73,44 +74,83 @@ struct Worker {
     }
 
     // Down to the next cell that is there, with the area of the upper one.
+    double vertical(const Half& upper, const Half& lower) const {
+        const Corners& p = upper.shape.corners;
+        const bool neighbours = lower.cell == upper.cell + std::size_t{grid.dims[0]} * grid.dims[1];
+        return connection(upper, lower, CellFace::k_plus, vector_area(p[4], p[5], p[7], p[6]), neighbours);
+    }
     double vertical(std::size_t upper, std::size_t lower) const {
-        return connection(upper, lower, CellFace::k_plus, bottom_area(upper), lower == upper + std::size_t{grid.dims[0]} * grid.dims[1]);
+        const HalfCells above = shape_of(upper), below = shape_of(lower);
+        return vertical({upper, above}, {lower, below});
     }
 
-    Vec3 side_area(const ColumnPair& pair, const Side& one, const Side& two, std::uint32_t k) const {
+    HalfCells shape_of(std::size_t cell) const {
+        const auto [i, j, k] = grid.ijk(cell);
+        return half_cells(grid, i, j, k);
+    }
+
+    // Where the sides of two cells agree, what they share is the side of the first.
+    double lateral(const Half& first, const Half& second, CellFace face, bool neighbours) const {
+        const std::array<unsigned, 4> f = face == CellFace::i_plus ? std::array{1u, 3u, 7u, 5u} : std::array{2u, 3u, 7u, 6u};
+        const std::array<unsigned, 4> b = face == CellFace::i_plus ? std::array{0u, 2u, 6u, 4u} : std::array{0u, 1u, 5u, 4u};
+        const Corners &p = first.shape.corners, &q = second.shape.corners;
+        const Side one{p[f[0]][2], p[f[1]][2], p[f[3]][2], p[f[2]][2]}, two{q[b[0]][2], q[b[1]][2], q[b[3]][2], q[b[2]][2]};
+        const bool whole = one == two && one.upright();
+        const Vec3 area = whole ? vector_area(p[f[0]], p[f[1]], p[f[2]], p[f[3]]) : shared_area(first.cell, face, one, two);
+        return connection(first, second, face, area, neighbours);
+    }
+    double lateral(const NonNeighbour& pair) const {
+        const HalfCells first = shape_of(pair.first), second = shape_of(pair.second);
+        return lateral({pair.first, first}, {pair.second, second}, pair.face, false);
+    }
+
+    // Of the part that two sides share; `first` is the cell of the first one, `face` its i_plus or j_plus.
+    Vec3 shared_area(std::size_t first, CellFace face, const Side& one, const Side& two) const {
+        const auto [i, j, k] = grid.ijk(first);
+        const std::size_t lines = std::size_t{grid.dims[0]} + 1, far = i + 1 + lines * (std::size_t{j} + 1);
+        const std::size_t near = face == CellFace::i_plus ? far - lines : far - 1;
         const double* set = grid.pillars.data() + 6 * pillar_count(grid.dims) * (grid.reservoirs.empty() ? 0 : pillar_set(grid, k));
         const auto at = [&](int pillar, double depth) {
-            return pillar_point(set + 6 * (pillar == 0 ? pair.pillar_a : pair.pillar_b), depth, grid.cylindrical);
+            return pillar_point(set + 6 * (pillar == 0 ? near : far), depth, grid.cylindrical);
         };
         const Overlap shared = overlap(one, two);
         std::array<Vec3, 6> points;
         for (std::uint32_t c = 0; c < shared.count; ++c) points[c] = position(shared.corners[c], at);
-        return vector_area({points.data(), shared.count});
-    }
-
-    Vec3 bottom_area(std::size_t cell) const {
-        const auto [i, j, k] = grid.ijk(cell);
-        const Corners p = cell_corners(grid, i, j, k);
-        return vector_area(std::array{p[4], p[5], p[7], p[6]});
+        return vector_area_of({points.data(), shared.count});
     }
 };
 
-void side_values(const Worker& worker, std::uint32_t j, PairSides& sides, Transmissibilities& to, std::vector<double>& along_i,
-                 std::vector<double>& along_j) {
+// The values of the connections of one layer of a tile with neighbours in +I, +J and the next layer.
+void layer_values(const Worker& worker, const Connections& connections, const Tile& tile, std::uint32_t k, const TileLayer& own,
+                  const TileLayer& next, Transmissibilities& to) {
     const CornerPointGrid& grid = worker.grid;
-    const std::size_t layer = std::size_t{grid.dims[0]} * grid.dims[1];
-    each_pair_of_row(grid, j, [&](const ColumnPair& pair) {
-        load(grid, worker.present, pair, sides);
-        const std::size_t first = grid.cell(pair.i, pair.j, 0), second = first + (pair.along_i ? 1 : grid.dims[0]);
-        const CellFace face = pair.along_i ? CellFace::i_plus : CellFace::j_plus;
-        each_contact(sides, [&](std::uint32_t k, std::uint32_t m) {
-            if (!grid.reservoirs.empty() && pillar_set(grid, k) != pillar_set(grid, m)) return;
-            const Vec3 area = worker.side_area(pair, sides.first[k], sides.second[m], k);
-            const double value = worker.connection(first + k * layer, second + m * layer, face, area, k == m);
-            if (k == m) (pair.along_i ? to.x : to.y)[first + k * layer] = value;
-            else (pair.along_i ? along_i : along_j).push_back(value);
-        });
-    });
+    const std::size_t row = grid.dims[0], layer = row * grid.dims[1];
+    for (std::uint32_t j = tile.first_j; j < tile.end_j; ++j) {
+        std::size_t cell = grid.cell(tile.first_i, j, k);
+        for (std::uint32_t i = tile.first_i; i < tile.end_i; ++i, ++cell) {
+            const std::uint8_t neighbours = connections.neighbours[cell];
+            const Half here{cell, own.at(i, j)};
+            if ((neighbours & Connections::east) != 0)
+                to.x[cell] = worker.lateral(here, {cell + 1, own.at(i + 1, j)}, CellFace::i_plus, true);
+            if ((neighbours & Connections::south) != 0)
+                to.y[cell] = worker.lateral(here, {cell + row, own.at(i, j + 1)}, CellFace::j_plus, true);
+            if ((neighbours & Connections::below) == 0) continue;
+            if (connections.present[cell + layer] != 0) to.z[cell] = worker.vertical(here, {cell + layer, next.at(i, j)});
+            // Layers between that are no cells block the flow, unless PINCH bridges them.
+            else if (grid.pinch) to.z[cell] = worker.vertical(cell, next_below(grid, connections.present, cell));
+        }
+    }
+}
+
+void tile_values(const Worker& worker, const Connections& connections, const Tile& tile, std::array<TileLayer, 2>& layers,
+                 Transmissibilities& to) {
+    const std::uint32_t count = worker.grid.dims[2];
+    layers[0].fill(worker.grid, connections.present, tile, 0);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        TileLayer &own = layers[k % 2], &next = layers[(k + 1) % 2];
+        if (k + 1 < count) next.fill(worker.grid, connections.present, tile, k + 1);
+        layer_values(worker, connections, tile, k, own, next, to);
+    }
 }
 
 // A deck may state its grid in another unit than its own; without a deck the unit of the grid tells the system.
@@ -135,44 +175,44 @@ std::vector<double> cell_values(const CornerPointGrid& grid, std::string_view na
     const Attribute* a = find_attribute(grid.info.attributes, std::string(name), AttributeLocation::cell);
     std::vector<double> values;
     if (a == nullptr || value_count(*a) != grid.cell_count()) return values;
-    values.resize(grid.cell_count());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const double v = value_as_double(*a, i);
-        values[i] = std::isnan(v) || is_no_data(*a, v) ? fallback : v;
-    }
+    make_big(values, grid.cell_count());
+    const auto take = [&](const auto& from) {
+        if constexpr (std::is_arithmetic_v<typename std::decay_t<decltype(from)>::value_type>) {
+            parallel_blocks(values.size(), std::size_t{1} << 16, [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                    const auto v = static_cast<double>(from[i]);
+                    values[i] = std::isnan(v) || is_no_data(*a, v) ? fallback : v;
+                }
+            });
+        } else {
+            std::ranges::fill(values, fallback);
+        }
+    };
+    std::visit(take, a->values);
     return values;
 }
 
 Result<Transmissibilities> transmissibilities(const CornerPointGrid& grid, const Connections& connections) {
-    std::array permeability{cell_values(grid, "PERMX", 0.0), cell_values(grid, "PERMY", 0.0), cell_values(grid, "PERMZ", 0.0)};
-    if (permeability[0].empty())
-        return unreadable("F007", {}, "grid '" + grid.info.name + "' has no attribute PERMX: transmissibilities need permeabilities");
-    for (std::size_t d = 1; d < 3; ++d) {
-        if (permeability[d].empty()) permeability[d] = permeability[0];
-    }
-    const Worker worker{grid,           connections.present, std::move(permeability), cell_values(grid, "NTG", 1.0), Multipliers(grid),
+    const Worker worker{grid,
+                        cell_values(grid, "PERMX", 0.0),
+                        cell_values(grid, "PERMY", 0.0),
+                        cell_values(grid, "PERMZ", 0.0),
+                        cell_values(grid, "NTG", 1.0),
+                        Multipliers(grid),
                         factor_of(grid)};
+    if (worker.permeability_x.empty())
+        return unreadable("F007", {}, "grid '" + grid.info.name + "' has no attribute PERMX: transmissibilities need permeabilities");
     Transmissibilities result;
-    for (auto* values : {&result.x, &result.y, &result.z}) values->assign(grid.cell_count(), 0.0);
-    std::vector<std::vector<double>> along_i(grid.dims[1]), along_j(grid.dims[1]);
-    parallel_blocks(grid.dims[1], 1, [&](std::size_t first, std::size_t last) {
-        PairSides sides;
-        for (std::size_t j = first; j < last; ++j)
-            side_values(worker, static_cast<std::uint32_t>(j), sides, result, along_i[j], along_j[j]);
-    });
-    parallel_blocks(grid.cell_count(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t cell = first; cell < last; ++cell) {
-            if ((connections.neighbours[cell] & Connections::below) == 0) continue;
-            const std::size_t below = next_below(grid, connections.present, cell);
-            // Layers between that are no cells block the flow, unless PINCH bridges them.
-            if (below != cell + std::size_t{grid.dims[0]} * grid.dims[1] && !grid.pinch) continue;
-            result.z[cell] = worker.vertical(cell, below);
-        }
+    for (auto* values : {&result.x, &result.y, &result.z}) make_big(*values, grid.cell_count());
+    parallel_blocks(Tile::count(grid), 1, [&](std::size_t first, std::size_t last) {
+        std::array<TileLayer, 2> layers;
+        for (std::size_t tile = first; tile < last; ++tile) tile_values(worker, connections, Tile(grid, tile), layers, result);
     });
     for (const auto& [upper, lower] : connections.bridges) result.z[upper] = worker.vertical(upper, lower);
-    for (const auto* parts : {&along_i, &along_j}) {
-        for (const auto& part : *parts) result.others.insert(result.others.end(), part.begin(), part.end());
-    }
+    result.others.resize(connections.others.size());
+    parallel_blocks(result.others.size(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t n = first; n < last; ++n) result.others[n] = worker.lateral(connections.others[n]);
+    });
     return result;
 }
 
