@@ -13,7 +13,7 @@ namespace geomend {
 namespace topology {
 struct Complexity;
 }
-Json complexity_json(const topology::Complexity& complexity);
+Json complexity_json(const complexity::Complexity& complexity);
 Json losses_json(std::span<const Loss> losses);
 
 }  // namespace geomend
