@@ -10,7 +10,7 @@
 
 namespace geomend {
 
-namespace topology {
+namespace complexity {
 struct Complexity;
 }
 Json complexity_json(const complexity::Complexity& complexity);
