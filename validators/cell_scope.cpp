@@ -144,6 +144,11 @@ void CellScope::group_faces() {
     group_first_.push_back(static_cast<std::uint32_t>(grouped_.size()));
 }
 
+std::string in_mesh(const CellScope& scope) {
+    const std::string& name = scope.mesh().info.name;
+    return name.empty() ? "" : " of " + quoted(name);
+}
+
 Finding cells_of_mesh_finding(const CellScope& scope, std::string_view code, std::string message, std::span<const std::uint32_t> cells) {
     const CellMesh& mesh = scope.mesh();
     Finding finding = finding_of(code, std::move(message));
