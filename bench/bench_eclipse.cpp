@@ -31,7 +31,7 @@ std::uint32_t layers() {
 CornerPointGrid faulted() {
     CornerPointGrid grid;
     grid.dims = {250, 200, layers()};
-    grid.single_precision = true;
+    grid.info.precision = CoordinatePrecision::single_precision;
     grid.info.name = "bench";
     grid.info.crs.z_positive = ZPositive::depth;
     for (std::uint32_t j = 0; j <= grid.dims[1]; ++j) {

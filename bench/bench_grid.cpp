@@ -105,9 +105,16 @@ void faces_with_crossings(benchmark::State& state) {
 BENCHMARK(faces_with_crossings)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 void polyhedra(benchmark::State& state) {
-    const CornerPointGrid& grid = faulted();
-    for (auto _ : state) benchmark::DoNotOptimize(grid::conforming_cells(grid));
-    tell(state);
+    for (auto _ : state) {
+        state.PauseTiming();
+        CornerPointGrid grid = make_grid(false);
+        state.ResumeTiming();
+        const grid::Cells cells = grid::take_conforming_cells(grid);
+        state.counters["cells"] = double(cells.mesh.cell_count());
+    }
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    state.counters["peak_MB_so_far"] = double(usage.ru_maxrss) / 1024;
 }
 BENCHMARK(polyhedra)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 

@@ -85,6 +85,24 @@ void insides(benchmark::State& state) {
     tell(state, soup.triangles.size(), found);
 }
 
+/// The pairs that meet, one by one: their features alone, and with positions made of them.
+template <class How>
+void pairs_alone(benchmark::State& state, const How& how) {
+    const Soup& soup = model(state.range(0));
+    const auto pairs = intersections(soup.vertices, soup.triangles);
+    for (auto _ : state) {
+        for (const auto& p : pairs) benchmark::DoNotOptimize(how(soup, soup.triangles[p.a], soup.triangles[p.b]));
+    }
+    state.counters["ns_per_pair"] =
+        benchmark::Counter(double(pairs.size()) / 1e9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+void contacts(benchmark::State& state) {
+    pairs_alone(state, [](const Soup& soup, const Triangle& a, const Triangle& b) { return contact(soup.vertices, a, b); });
+}
+void meetings(benchmark::State& state) {
+    pairs_alone(state, [](const Soup& soup, const Triangle& a, const Triangle& b) { return meeting(soup.vertices, a, b); });
+}
+
 #ifdef GEOMEND_WITH_CGAL
 void say_near(const Soup& soup) {
     const Borders free = free_borders(soup);
@@ -166,6 +184,8 @@ void sizes(benchmark::internal::Benchmark* b) {
 BENCHMARK(ours)->Apply(sizes);
 BENCHMARK(borders)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Args({0, 0})->Args({0, 1});
 BENCHMARK(insides)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Args({0, 0})->Args({0, 1});
+BENCHMARK(contacts)->Unit(benchmark::kMillisecond)->Arg(100000);
+BENCHMARK(meetings)->Unit(benchmark::kMillisecond)->Arg(100000);
 BENCHMARK(tree_only)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Arg(0)->Arg(1000000);
 #ifdef GEOMEND_WITH_CGAL
 BENCHMARK(cgal)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Arg(0)->Arg(10000)->Arg(100000)->Arg(1000000);

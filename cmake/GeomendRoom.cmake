@@ -38,7 +38,8 @@ function(geomend_room name)
   target_include_directories(geomend_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/geomend>)
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>           # "geomend/pipeline/load.h", for users
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/geomend>)  # "pipeline/load.h", as headers include each other
   target_link_libraries(geomend_${name} PUBLIC ${ROOM_USES} PRIVATE ${ROOM_PRIVATE_USES} $<BUILD_INTERFACE:geomend_settings>)
   target_compile_features(geomend_${name} PUBLIC cxx_std_20)
   set_target_properties(geomend_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)

@@ -11,22 +11,11 @@
 #include "base/monitor.h"
 #include "base/output.h"
 #include "base/result.h"
+#include "formats/option_row.h"
 #include "model/dataset.h"
 #include "model/keeps.h"
 
 namespace geomend {
-
-/// KEY=VALUE options of one format, as given with --option.
-using FormatOptions = std::vector<std::pair<std::string, std::string>>;
-
-/// The last value given for a key, or an empty view.
-inline std::string_view option_value(const FormatOptions& options, std::string_view key) {
-    std::string_view value;
-    for (const auto& [k, v] : options) {
-        if (k == key) value = v;
-    }
-    return value;
-}
 
 struct ReadOptions {
     FormatOptions options;
@@ -71,8 +60,14 @@ struct Format {
     Writer write = nullptr;  ///< nullptr: cannot be written
     WriterWants wants = WriterWants::objects;
     Keeps keeps;
-    std::string_view lossy_note;  ///< what does not go in, by class; one line
-    std::string_view tried_on;    ///< "real files", "real files and clients", or "fixtures only: no real file was found"
+    std::string_view lossy_note;              ///< what does not go in, by class; one line
+    std::string_view tried_on;                ///< "real files", "real files and clients", or "fixtures only: no real file was found"
+    std::span<const OptionRow> options = {};  ///< all that its reader and its writer look at
+    bool deck_companions = false;             ///< names further files with geometry or properties in keywords (GDFILE, IMPORT)
+    bool map_axes = false;                    ///< can say where the origin of its coordinates lies on the map
+    bool flat_meshes = false;                 ///< holds cells of every dimension in one mesh; elsewhere a mesh of cells is a volume
+    bool statements = false;                  ///< carries beside a mesh all that a StatedModel says, and bounds surfaces by lines
+    bool elevations = false;                  ///< its files store elevations, whatever sign the model came with
 };
 
 }  // namespace geomend

@@ -77,7 +77,7 @@ void check_map_axes(const GridScope& scope, std::vector<Finding>& findings) {
 
 void check_single_precision(const GridScope& scope, std::vector<Finding>& findings) {
     const auto& grid = scope.grid();
-    if (grid.single_precision) return;  // what is read from single precision has lost nothing more
+    if (grid.info.precision == CoordinatePrecision::single_precision) return;  // what is read from single precision has lost nothing more
     const std::size_t lines = std::size_t{grid.dims[0]} + 1;
     const auto found = find_cells(scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
         const double* set = grid.pillars.data() + 6 * pillar_count(grid.dims) * (grid.reservoirs.empty() ? 0 : pillar_set(grid, k));

@@ -12,16 +12,6 @@ std::string cell_text(const CornerPointGrid& grid, std::size_t cell) {
     return "(" + std::to_string(i + 1) + "," + std::to_string(j + 1) + "," + std::to_string(k + 1) + ")";
 }
 
-std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
-    return std::to_string(count) + ' ' + std::string(count == 1 ? one : many);
-}
-
-std::string rounded(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
-
 Finding grid_finding(const GridScope& scope, std::string_view code, std::string message) {
     Finding f;
     f.code = code;

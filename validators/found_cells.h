@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/wording.h"
 #include "validators/grid_scope.h"
 
 namespace geomend::validators {
@@ -76,10 +77,6 @@ FoundCells find_cells(const GridScope& scope, const Judge& judge) {
 
 /// "(3,4,1)", counting from 1.
 std::string cell_text(const CornerPointGrid& grid, std::size_t cell);
-/// "1 cell", "3 cells".
-std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
-/// Four digits, for messages; reports have all digits in `measures`.
-std::string rounded(double value);
 
 /// A finding of the catalogue's severity about a grid.
 Finding grid_finding(const GridScope& scope, std::string_view code, std::string message);

@@ -331,8 +331,10 @@ Result<void> check_grid_model(const GridScope& scope, const grid::ModelRequest& 
     // Points are shared as they are: layers thinner than the tolerance stay layers.
     auto models = topology::models_to_judge(*dataset, 0);
     if (!models) return std::move(models).why();
+    topology::LocalLengths lengths;
+    lengths.largest = scope.lengths();
     for (const topology::JudgedModel& judged : *models) {
-        const ModelScope model(*dataset, judged, scope.lengths(), options);
+        const ModelScope model(*dataset, judged, lengths, options);
         judge(scope, GridModel(scope, model, sources), sources, options, findings);
         if (scope.stopped()) return {};
     }

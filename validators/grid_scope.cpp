@@ -19,8 +19,10 @@ bool sound(double v) { return std::abs(v) < huge; }
 // What each block of cells adds; blocks are joined in their order, so that threads make no difference.
 struct Sums {
     std::uint64_t cells = 0;
-    Vec3 sum{};
-    double largest = 0, largest_depth = 0;
+    double volume = 0;                      // of either sign
+    Vec3 sum{};                             // of corners
+    Vec3 weighted{};                        // of corners, by the volumes of their cells
+    double largest = 0, largest_depth = 0;  // as stored
     std::int64_t votes = 0;
 };
 
@@ -77,36 +79,44 @@ void GridScope::choose_cells() {
 
 void GridScope::measure(const CheckOptions& options) {
     std::vector<Sums> parts((judged_.size() + block - 1) / block);
+    const Vec3& around = grid_.info.stored_around;
     each_block(judged_.size(), [&](std::size_t b, std::size_t first, std::size_t last) {
         Sums& part = parts[b];
         for (std::size_t cell = first; cell < last; ++cell) {
             if (judged_[cell] == 0) continue;
             const auto [i, j, k] = grid_.ijk(cell);
             ++part.cells;
+            const double v = grid::cell_volume(corners(i, j, k));
+            part.volume += std::abs(v);
+            part.votes += v > 0 ? 1 : v < 0 ? -1 : 0;
             for (const Vec3& p : cell_corners(grid_, i, j, k)) {
                 for (std::size_t d = 0; d < 3; ++d) {
                     part.sum[d] += p[d];
-                    part.largest = std::max(part.largest, std::abs(p[d]));
+                    part.weighted[d] += std::abs(v) * p[d];
+                    part.largest = std::max(part.largest, std::abs(p[d] - around[d]));
                 }
-                part.largest_depth = std::max(part.largest_depth, std::abs(p[2]));
+                part.largest_depth = std::max(part.largest_depth, std::abs(p[2] - around[2]));
             }
-            const double v = grid::cell_volume(corners(i, j, k));
-            part.votes += v > 0 ? 1 : v < 0 ? -1 : 0;
         }
     });
     Sums all;
     for (const Sums& part : parts) {
         all.cells += part.cells;
         all.votes += part.votes;
-        for (std::size_t d = 0; d < 3; ++d) all.sum[d] += part.sum[d];
+        all.volume += part.volume;
+        for (std::size_t d = 0; d < 3; ++d) {
+            all.sum[d] += part.sum[d];
+            all.weighted[d] += part.weighted[d];
+        }
         all.largest = std::max(all.largest, part.largest);
         all.largest_depth = std::max(all.largest_depth, part.largest_depth);
     }
     judged_count_ = all.cells;
     right_handed_ = all.votes >= 0;
     if (all.cells > 0) {
-        const double points = 8.0 * static_cast<double>(all.cells);
-        const Vec3 centroid{all.sum[0] / points, all.sum[1] / points, all.sum[2] / points};
+        const Vec3& sum = all.volume > 0 ? all.weighted : all.sum;
+        const double corners = 8 * (all.volume > 0 ? all.volume : static_cast<double>(all.cells));
+        const Vec3 centroid{sum[0] / corners, sum[1] / corners, sum[2] / corners};
         std::vector<double> farthest(parts.size(), 0.0);
         each_block(judged_.size(), [&](std::size_t b, std::size_t first, std::size_t last) {
             for (std::size_t cell = first; cell < last; ++cell) {
@@ -120,7 +130,8 @@ void GridScope::measure(const CheckOptions& options) {
         });
         lengths_.diameter = 2 * std::sqrt(*std::ranges::max_element(farthest));
     }
-    const auto rule = [&](double largest) { return std::max(1e-7 * lengths_.diameter, 4 * step_above(largest, grid_.single_precision)); };
+    const bool single = grid_.info.precision == CoordinatePrecision::single_precision;
+    const auto rule = [&](double largest) { return std::max(1e-7 * lengths_.diameter, 4 * step_above(largest, single)); };
     lengths_.tolerance = options.tolerance >= 0 ? options.tolerance : rule(all.largest);
     depth_tolerance_ = options.tolerance >= 0 ? options.tolerance : rule(all.largest_depth);
     lengths_.near = options.near >= 0 ? options.near : 1e-3 * lengths_.diameter;

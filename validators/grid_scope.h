@@ -13,6 +13,7 @@
 #include "grid/cell_geometry.h"
 #include "grid/connections.h"
 #include "model/corner_point.h"
+#include "topology/lengths.h"
 
 namespace geomend::validators {
 
@@ -27,12 +28,7 @@ struct CheckOptions {
     const Monitor* monitor = nullptr;
 };
 
-/// The lengths by which a model is judged; they are named in every report.
-struct Lengths {
-    double diameter = 0;   ///< twice the largest distance of a judged corner from the centroid of all of them
-    double tolerance = 0;  ///< max(1e-7 diameter, 4 steps of the largest coordinate as the file stores it), or as given
-    double near = 0;       ///< 1e-3 diameter, or as given
-};
+using topology::Lengths;
 
 /// Distance from a number to the next larger one of the precision that a file stores. \param single float32, else float64
 double step_above(double value, bool single);

@@ -87,7 +87,7 @@ std::array<Vec3, 3> corners_of(const ModelScope& scope, std::uint32_t triangle) 
 Meeting judged_kind(const ModelScope& scope, const TriangleMeetingPair& pair) {
     if (pair.how.kind == Meeting::none || pair.how.kind == Meeting::overlap) return pair.how.kind;
     const auto a = corners_of(scope, pair.a), b = corners_of(scope, pair.b);
-    const double tolerance = scope.lengths().tolerance;
+    const double tolerance = scope.tolerance(scope.surface_of(pair.a), scope.surface_of(pair.b));
     if (lie_on_each_other(a, b, tolerance)) return Meeting::overlap;
     if (pair.how.kind == Meeting::crossing && std::min(depth(a, b), depth(b, a)) > tolerance) return Meeting::crossing;
     const Vec3 way = minus(pair.how.segment[1], pair.how.segment[0]);  // none for a point
@@ -97,7 +97,7 @@ Meeting judged_kind(const ModelScope& scope, const TriangleMeetingPair& pair) {
 /// Where exact predicates see a point, rounding may have taken the rest of an edge off a triangle that it lies on.
 enum class Edge { none, inside, border };
 Edge edge_on_it(const ModelScope& scope, const LineEdges& lines, std::uint32_t a, std::uint32_t b) {
-    const double tolerance = scope.lengths().tolerance;
+    const double tolerance = scope.tolerance(scope.surface_of(a), scope.surface_of(b));
     constexpr double clearly = 100;  // tolerances: else it only leans
     const auto& t = scope.triangles()[a];
     const auto& other = scope.triangles()[b];

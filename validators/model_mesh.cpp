@@ -72,14 +72,17 @@ void check_degenerate(const ModelScope& scope, std::vector<Finding>& findings) {
 }
 
 void check_flat_triangles(const ModelScope& scope, std::vector<Finding>& findings) {
-    const double tolerance = scope.lengths().tolerance;
-    judge_polygons(scope, findings, "M03", "is flatter than " + rounded(tolerance), "are flatter than " + rounded(tolerance),
-                   [&](const BrepData::Surface& surface, std::uint32_t p) {
-                       const auto polygon = surface.polygons[p];
-                       if (polygon.size() != 3 || uses_vertex_twice(surface, p)) return false;
-                       return smallest_height(scope.vertex_of_node(surface, polygon[0]), scope.vertex_of_node(surface, polygon[1]),
-                                              scope.vertex_of_node(surface, polygon[2])) <= tolerance;
-                   });
+    const auto words = [&](std::uint32_t s) {
+        const std::string than = "flatter than " + rounded(scope.lengths(s).tolerance);
+        return PolygonWords{"is " + than, "are " + than};
+    };
+    judge_polygons(scope, findings, "M03", words, [&](std::uint32_t s, std::uint32_t p) {
+        const auto& surface = scope.brep().surfaces[s];
+        const auto polygon = surface.polygons[p];
+        if (polygon.size() != 3 || uses_vertex_twice(surface, p)) return false;
+        return smallest_height(scope.vertex_of_node(surface, polygon[0]), scope.vertex_of_node(surface, polygon[1]),
+                               scope.vertex_of_node(surface, polygon[2])) <= scope.lengths(s).tolerance;
+    });
 }
 
 void check_repeats(const ModelScope& scope, std::vector<Finding>& findings) {

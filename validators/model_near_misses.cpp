@@ -14,32 +14,87 @@ namespace geomend::validators {
 
 namespace {
 
-/// Edges of free borders with the surface that each belongs to.
-struct FreeBorders {
-    std::vector<std::array<std::uint32_t, 2>> edges;
-    std::vector<std::uint32_t> surfaces;
+/// Surfaces that are judged by the same lengths, with vertices of their own: what lies in other clusters is farther off than any
+/// search goes.
+struct Neighbours {
+    Lengths lengths;
+    std::vector<Vec3> vertices;
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> surfaces;                 ///< per triangle
+    std::vector<std::array<std::uint32_t, 2>> edges;     ///< of free borders
+    std::vector<std::uint32_t> edge_surfaces;            ///< the surface that each belongs to
+    std::vector<std::array<std::uint32_t, 2>> in_model;  ///< per edge its vertices in the model
+    std::vector<std::uint32_t> triangle_in_model;
 };
 
-FreeBorders free_borders(const ModelScope& scope) {
-    FreeBorders free;
+/// Numbers from 0 for those of a larger range that are asked for.
+class Renumbering {
+public:
+    explicit Renumbering(std::size_t range) : number_(range, no_index) {}
+    std::uint32_t of(std::uint32_t i) {
+        if (number_[i] == no_index) {
+            number_[i] = static_cast<std::uint32_t>(known_.size());
+            known_.push_back(i);
+        }
+        return number_[i];
+    }
+    std::span<const std::uint32_t> known() const { return known_; }
+    void forget() {
+        for (const std::uint32_t i : known_) number_[i] = no_index;
+        known_.clear();
+    }
+
+private:
+    std::vector<std::uint32_t> number_, known_;
+};
+
+/// The surfaces of a model by the clusters that they are judged in.
+std::vector<Neighbours> neighbours_of(const ModelScope& scope) {
+    const auto surfaces = static_cast<std::uint32_t>(scope.brep().surfaces.size());
+    std::map<std::array<double, 2>, std::uint32_t> known;
+    std::vector<Neighbours> all;
+    std::vector<std::vector<std::uint32_t>> members;
+    std::vector<std::uint32_t> place(surfaces);
+    for (std::uint32_t s = 0; s < surfaces; ++s) {
+        const Lengths& l = scope.lengths(s);
+        const auto [at, is_new] = known.try_emplace({l.tolerance, l.near}, static_cast<std::uint32_t>(all.size()));
+        if (is_new) {
+            all.emplace_back().lengths = l;
+            members.emplace_back();
+        }
+        place[s] = at->second;
+        members[at->second].push_back(s);
+    }
+    std::vector<std::vector<std::array<std::uint32_t, 3>>> edges(all.size());  // low, high, surface
     const auto& graph = scope.model().graph;
     for (const auto& edge : graph.edges) {
         if (edge.line == no_index || scope.free_lines()[edge.line] == 0) continue;
         for (const auto& use : graph.edge_uses(edge)) {
-            if (use.surface == no_index) continue;
-            free.edges.push_back({use.low, use.high});
-            free.surfaces.push_back(use.surface);
+            if (use.surface != no_index) edges[place[use.surface]].push_back({use.low, use.high, use.surface});
         }
     }
-    return free;
-}
-
-std::vector<std::uint32_t> surface_of_triangles(const ModelScope& scope) {
-    std::vector<std::uint32_t> surfaces(scope.triangles().size());
-    for (std::uint32_t s = 0; s < scope.brep().surfaces.size(); ++s) {
-        for (std::uint32_t t = scope.first_triangle(s); t < scope.first_triangle(s + 1); ++t) surfaces[t] = s;
+    Renumbering vertex(scope.brep().vertices.size());
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        Neighbours& some = all[n];
+        for (const std::uint32_t s : members[n]) {
+            for (std::uint32_t t = scope.first_triangle(s); t < scope.first_triangle(s + 1); ++t) {
+                const auto& [a, b, c] = scope.triangles()[t];
+                const std::uint32_t u = vertex.of(a), v = vertex.of(b), w = vertex.of(c);
+                some.triangles.push_back({u, v, w});
+                some.surfaces.push_back(s);
+                some.triangle_in_model.push_back(t);
+            }
+        }
+        for (const auto& [low, high, surface] : edges[n]) {
+            const std::uint32_t u = vertex.of(low), v = vertex.of(high);
+            some.edges.push_back({u, v});
+            some.edge_surfaces.push_back(surface);
+            some.in_model.push_back({low, high});
+        }
+        for (const std::uint32_t v : vertex.known()) some.vertices.push_back(scope.brep().vertices[v]);
+        vertex.forget();
     }
-    return surfaces;
+    return all;
 }
 
 /// Whether a finding about the two surfaces is there already that says how they meet.
@@ -61,7 +116,7 @@ std::array<Vec3, 3> triangle_at(const ModelScope& scope, std::uint32_t triangle)
 /// Whether a good part of an edge, not only a point of it, is within the tolerance of a surface.
 bool runs_along(const ModelScope& scope, const std::array<Vec3, 2>& edge, std::uint32_t surface) {
     constexpr double clearly = 100;  // tolerances: else it only leans
-    const double tolerance = scope.lengths().tolerance;
+    const double tolerance = scope.lengths(surface).tolerance;
     Vec3 low{}, high{};
     for (std::size_t k = 0; k < 3; ++k) {
         low[k] = std::min(edge[0][k], edge[1][k]);
@@ -78,19 +133,19 @@ bool runs_along(const ModelScope& scope, const std::array<Vec3, 2>& edge, std::u
 
 /// A surface that ends on another one within the tolerance, and how it does that.
 Finding touch_finding(const ModelScope& scope, std::uint32_t border, std::uint32_t other, std::span<const NearMiss> misses,
-                      const FreeBorders& free) {
-    const double tolerance = scope.lengths().tolerance;
+                      const Neighbours& some) {
+    const double tolerance = some.lengths.tolerance;
     bool one_point = true, lies_on = false;
     for (const NearMiss& miss : misses.first(std::min(misses.size(), listed_elements))) {
         const Vec3 d = minus(miss.on_edge, misses[0].on_edge);
         one_point = one_point && dot(d, d) <= 4 * tolerance * tolerance;
-        const auto& edge = free.edges[miss.border_edge];
+        const auto& edge = some.in_model[miss.border_edge];
         const auto& v = scope.brep().vertices;
         one_point = one_point && !runs_along(scope, {v[edge[0]], v[edge[1]]}, other);
         for (std::uint32_t t = scope.first_triangle(border); t < scope.first_triangle(border + 1) && !lies_on; ++t) {
-            const auto has = [&](std::uint32_t v) { return std::ranges::find(scope.triangles()[t], v) != scope.triangles()[t].end(); };
-            lies_on =
-                has(edge[0]) && has(edge[1]) && lie_on_each_other(triangle_at(scope, t), triangle_at(scope, miss.triangle), tolerance);
+            const auto has = [&](std::uint32_t end) { return std::ranges::find(scope.triangles()[t], end) != scope.triangles()[t].end(); };
+            lies_on = has(edge[0]) && has(edge[1]) &&
+                      lie_on_each_other(triangle_at(scope, t), triangle_at(scope, some.triangle_in_model[miss.triangle]), tolerance);
         }
     }
     const std::string a = quoted(scope.brep().surfaces[border].name), b = quoted(scope.brep().surfaces[other].name);
@@ -104,10 +159,9 @@ Finding touch_finding(const ModelScope& scope, std::uint32_t border, std::uint32
     return touch;
 }
 
-void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfaces, std::vector<Finding>& findings) {
-    const FreeBorders free = free_borders(scope);
-    const double tolerance = scope.lengths().tolerance;
-    const auto misses = near_misses(scope.tree(), surfaces, free.edges, free.surfaces, scope.lengths().near, scope.monitor(), tolerance);
+void tell_borders(const ModelScope& scope, const Neighbours& some, const TriangleTree& tree, std::vector<Finding>& findings) {
+    const double tolerance = some.lengths.tolerance;
+    const auto misses = near_misses(tree, some.surfaces, some.edges, some.edge_surfaces, some.lengths.near, scope.monitor(), tolerance);
     struct Pair {
         double smallest = 0, largest = 0;
         Finding finding;
@@ -115,7 +169,7 @@ void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfac
     };
     std::map<std::pair<std::uint32_t, std::uint32_t>, Pair> pairs;
     for (const NearMiss& miss : misses) {
-        const std::uint32_t border = free.surfaces[miss.border_edge], other = surfaces[miss.triangle];
+        const std::uint32_t border = some.edge_surfaces[miss.border_edge], other = some.surfaces[miss.triangle];
         Pair& pair = pairs[{border, other}];
         if (miss.distance <= tolerance) {
             pair.touches.push_back(miss);
@@ -132,7 +186,7 @@ void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfac
     for (auto& [surface, pair] : pairs) {
         const auto& [border, other] = surface;
         if (!pair.touches.empty() && !is_told(findings, border, other))
-            findings.push_back(touch_finding(scope, border, other, pair.touches, free));
+            findings.push_back(touch_finding(scope, border, other, pair.touches, some));
         if (pair.finding.count == 0) continue;
         const std::string where = border == other ? "itself" : quoted(scope.brep().surfaces[other].name);
         Finding finding = finding_of("B23", "the border of " + quoted(scope.brep().surfaces[border].name) + " nearly meets " + where +
@@ -149,9 +203,9 @@ void tell_borders(const ModelScope& scope, std::span<const std::uint32_t> surfac
     }
 }
 
-void tell_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfaces, std::vector<Finding>& findings) {
+void tell_surfaces(const ModelScope& scope, const Neighbours& some, const TriangleTree& tree, std::vector<Finding>& findings) {
     bool cut_short = false;
-    for (const ClosePair& close : closest_pairs(scope.tree(), surfaces, scope.lengths().near, scope.monitor(), &cut_short)) {
+    for (const ClosePair& close : closest_pairs(tree, some.surfaces, some.lengths.near, scope.monitor(), &cut_short)) {
         if (is_told(findings, close.group_a, close.group_b)) continue;
         const auto& a = scope.brep().surfaces[close.group_a];
         const auto& b = scope.brep().surfaces[close.group_b];
@@ -165,7 +219,7 @@ void tell_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfa
         findings.push_back(std::move(finding));
     }
     if (!cut_short) return;
-    Finding finding = finding_of("B24", "the search length, " + rounded(scope.lengths().near) +
+    Finding finding = finding_of("B24", "the search length, " + rounded(some.lengths.near) +
                                             ", is many times the edges of triangles in places: there not all that is near was looked at; "
                                             "check again with a smaller --near");
     finding.count = 1;
@@ -175,12 +229,14 @@ void tell_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfa
 }  // namespace
 
 void check_near_misses(const ModelScope& scope, std::vector<Finding>& findings) {
-    if (scope.lengths().near <= 0 || scope.triangles().empty()) return;
     // Where very many surfaces lie across each other everything is near everything, and that has been told.
     if (std::ranges::any_of(findings, [](const Finding& f) { return f.code == "B08" && f.entities.empty(); })) return;
-    const auto surfaces = surface_of_triangles(scope);
-    tell_borders(scope, surfaces, findings);
-    tell_surfaces(scope, surfaces, findings);
+    for (const Neighbours& some : neighbours_of(scope)) {
+        if (some.lengths.near <= 0 || some.triangles.empty() || scope.stopped()) continue;
+        const TriangleTree tree(some.vertices, some.triangles);
+        tell_borders(scope, some, tree, findings);
+        tell_surfaces(scope, some, tree, findings);
+    }
 }
 
 }  // namespace geomend::validators

@@ -40,17 +40,21 @@ void check_triangle_angles(const ModelScope& scope, std::vector<Finding>& findin
 }
 
 void check_short_edges(const ModelScope& scope, std::vector<Finding>& findings) {
-    const double limit = scope.lengths().near * scope.lengths().near;
-    judge_polygons(scope, findings, "Q02", "has an edge shorter than " + rounded(scope.lengths().near),
-                   "have an edge shorter than " + rounded(scope.lengths().near), [&](const BrepData::Surface& surface, std::uint32_t p) {
-                       const auto polygon = surface.polygons[p];
-                       for (std::size_t i = 0; i < polygon.size(); ++i) {
-                           const Vec3 d = minus(scope.vertex_of_node(surface, polygon[i]),
-                                                scope.vertex_of_node(surface, polygon[(i + 1) % polygon.size()]));
-                           if (dot(d, d) < limit && dot(d, d) > 0) return true;
-                       }
-                       return false;
-                   });
+    const auto words = [&](std::uint32_t s) {
+        const std::string than = "an edge shorter than " + rounded(scope.lengths(s).near);
+        return PolygonWords{"has " + than, "have " + than};
+    };
+    judge_polygons(scope, findings, "Q02", words, [&](std::uint32_t s, std::uint32_t p) {
+        const auto& surface = scope.brep().surfaces[s];
+        const auto polygon = surface.polygons[p];
+        const double limit = scope.lengths(s).near * scope.lengths(s).near;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const Vec3 d =
+                minus(scope.vertex_of_node(surface, polygon[i]), scope.vertex_of_node(surface, polygon[(i + 1) % polygon.size()]));
+            if (dot(d, d) < limit && dot(d, d) > 0) return true;
+        }
+        return false;
+    });
 }
 
 void check_folds(const ModelScope& scope, std::vector<Finding>& findings) {

@@ -312,12 +312,16 @@ void check_thin_regions(const ModelScope& scope, std::vector<Finding>& findings)
         const auto& region = brep.regions[r];
         if (!region.volume_known) continue;
         double around = 0;
-        for (const auto& side : region.sides) around += area[side.surface.value];
+        double near = 0;
+        for (const auto& side : region.sides) {
+            around += area[side.surface.value];
+            near = std::max(near, scope.lengths(side.surface.value).near);
+        }
         const double thickness = around > 0 ? 2 * region.volume / around : 0;
-        if (around == 0 || thickness >= scope.lengths().near) continue;
+        if (around == 0 || thickness >= near) continue;
         Finding finding =
             finding_of("B15", "region " + quoted(region.name) + " is " + rounded(thickness) + " thick on average (twice its volume " +
-                                  rounded(region.volume) + " over the area around it), less than " + rounded(scope.lengths().near));
+                                  rounded(region.volume) + " over the area around it), less than " + rounded(near));
         finding.entities.push_back(region_ref(scope, r));
         finding.count = 1;
         finding.measures = {{"thickness", thickness}, {"volume", region.volume}};

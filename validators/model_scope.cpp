@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/codes.h"
+#include "base/number_text.h"
 #include "geometry/cell_volume.h"
 #include "validators/found_cells.h"
 
@@ -12,18 +13,15 @@ namespace geomend::validators {
 
 namespace {
 
-/// Calls with each point that an element uses, once for each object that it is in, with the precision of the file and with
-/// the object.
+/// Calls with each point that an element uses, once for each object that it is in, and with the object.
 template <class Visit>
 void each_used_point(const Dataset& dataset, const Visit& visit) {
     std::vector<std::uint8_t> used;
     const auto visit_used = [&](const Object& object, const std::vector<Vec3>& points, const std::vector<std::uint32_t>& corners) {
-        const bool single = std::ranges::any_of(info_of(object).annotations,
-                                                [](const Annotation& a) { return a.key == "vtk.points_type" && a.value == "Float32"; });
         used.assign(points.size(), 0);
         for (const std::uint32_t c : corners) used[c] = 1;
         for (std::size_t i = 0; i < points.size(); ++i) {
-            if (used[i] != 0) visit(points[i], single, object);
+            if (used[i] != 0) visit(points[i], object);
         }
     };
     for (const Object& object : dataset.objects) {
@@ -34,38 +32,14 @@ void each_used_point(const Dataset& dataset, const Visit& visit) {
 
 }  // namespace
 
-Lengths lengths_of(const Dataset& dataset, const CheckOptions& options) {
-    Vec3 sum{};
-    Vec3 origin{};
-    double step = 0;
-    std::uint64_t count = 0;
-    each_used_point(dataset, [&](const Vec3& p, bool single, const Object&) {
-        if (count++ == 0) origin = p;
-        for (std::size_t k = 0; k < 3; ++k) {
-            sum[k] += p[k] - origin[k];
-            step = std::max(step, step_above(std::abs(p[k]), single));
-        }
-    });
-    Lengths lengths;
-    if (count > 0) {
-        Vec3 middle = origin;
-        for (std::size_t k = 0; k < 3; ++k) middle[k] += sum[k] / static_cast<double>(count);
-        double farthest = 0;
-        each_used_point(dataset, [&](const Vec3& p, bool, const Object&) {
-            const Vec3 d = minus(p, middle);
-            farthest = std::max(farthest, dot(d, d));
-        });
-        lengths.diameter = 2 * std::sqrt(farthest);
-    }
-    lengths.tolerance = options.tolerance >= 0 ? options.tolerance : std::max(1e-7 * lengths.diameter, 4 * step);
-    lengths.near = options.near >= 0 ? options.near : 1e-3 * lengths.diameter;
-    return lengths;
+topology::LocalLengths lengths_of(const Dataset& dataset, const CheckOptions& options) {
+    return topology::local_lengths(dataset, {options.tolerance, options.near});
 }
 
 std::vector<Finding> huge_coordinates(const Dataset& dataset) {
     constexpr double huge = 1e20;
     Finding finding = finding_of("M09", {});
-    each_used_point(dataset, [&](const Vec3& p, bool, const Object& object) {
+    each_used_point(dataset, [&](const Vec3& p, const Object& object) {
         if (std::ranges::all_of(p, [](double x) { return std::abs(x) < huge; })) return;
         const EntityRef entity{kind_name(object), info_of(object).name};
         const auto& known = finding.entities;
@@ -82,9 +56,64 @@ std::vector<Finding> huge_coordinates(const Dataset& dataset) {
     return {finding};
 }
 
-ModelScope::ModelScope(const Dataset& dataset, const topology::JudgedModel& model, const Lengths& lengths, const CheckOptions& options)
-    : dataset_(dataset), model_(model), lengths_(lengths), monitor_(options.monitor) {
+namespace {
+
+const Labels& point_labels(const Object& object) {
+    const auto* mesh = std::get_if<CellMesh>(&object);
+    return mesh != nullptr ? mesh->point_labels : std::get<Surface>(object).labels;
+}
+
+const std::vector<Vec3>& points_of(const Object& object) {
+    const auto* mesh = std::get_if<CellMesh>(&object);
+    return mesh != nullptr ? mesh->points : std::get<Surface>(object).points;
+}
+
+/// A height in the file's own sense.
+double stated_height(const Object& object, double z) { return info_of(object).crs.z_positive == ZPositive::depth ? 0.0 - z : z; }
+
+/// \pre all of one object, at least one
+Finding outlying_finding(const Object& object, std::span<const topology::OutlyingPoint> outlying) {
+    const auto& first = outlying[0];
+    const Vec3& p = points_of(object)[first.point];
+    const std::int64_t number = point_labels(object)[first.point];
+    const bool alone = outlying.size() == 1;
+    const bool usual = std::ranges::any_of(outlying, &topology::OutlyingPoint::usual);
+    std::string message = (alone ? "point " + std::to_string(number) : std::to_string(outlying.size()) + " points") + " of " +
+                          quoted(info_of(object).name) + (alone ? " lies" : " lie") +
+                          " far off: " + (alone ? "" : "point " + std::to_string(number) + ", the first, is ") + (alone ? "it is " : "") +
+                          "at (" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(stated_height(object, p[2])) + "), " +
+                          rounded(first.times) + " times as far from the others as these are from each other";
+    if (usual) message += "; the height looks like no-data";
+    Finding finding = finding_of("M15", std::move(message));
+    finding.entities.push_back({kind_name(object), info_of(object).name});
+    finding.element_kind = "point";
+    finding.count = outlying.size();
+    for (const auto& one : outlying.first(std::min(outlying.size(), listed_elements))) {
+        finding.elements.push_back(point_labels(object)[one.point]);
+        finding.index.push_back(one.point);
+        finding.points.push_back(points_of(object)[one.point]);
+    }
+    finding.measures = {{"times", first.times}, {"height", stated_height(object, p[2])}};
+    return finding;
+}
+
+}  // namespace
+
+void report_outlying(const Dataset& dataset, const topology::LocalLengths& lengths, std::vector<Finding>& findings) {
+    const std::span all(lengths.outlying);
+    for (std::size_t i = 0; i < all.size();) {
+        std::size_t end = i;
+        while (end < all.size() && all[end].object == all[i].object) ++end;
+        findings.push_back(outlying_finding(dataset.objects[all[i].object], all.subspan(i, end - i)));
+        i = end;
+    }
+}
+
+ModelScope::ModelScope(const Dataset& dataset, const topology::JudgedModel& model, const topology::LocalLengths& lengths,
+                       const CheckOptions& options)
+    : dataset_(dataset), model_(model), monitor_(options.monitor) {
     const BrepData& b = brep();
+    for (const auto& surface : b.surfaces) lengths_.push_back(lengths.of(surface.source_object));
     const bool plain = std::ranges::all_of(b.surfaces, [](const auto& s) { return s.polygons.all_triangles(); });
     for (const auto& surface : b.surfaces) {
         first_triangle_.push_back(static_cast<std::uint32_t>(triangles_.size()));
@@ -174,7 +203,5 @@ void mark_line(const ModelScope& scope, std::uint32_t line, Finding& finding) {
     for (const VertexId v : scope.brep().lines[line].vertices) course.push_back(scope.brep().vertices[v.value]);
     finding.polylines.push_back(std::move(course));
 }
-
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 }  // namespace geomend::validators

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -9,29 +10,36 @@
 #include <string_view>
 #include <vector>
 
+#include "base/wording.h"
 #include "geometry/triangle_tree.h"
 #include "topology/brep_from_dataset.h"
 #include "validators/grid_scope.h"
 
 namespace geomend::validators {
 
-/// The lengths by which the surfaces and cells of a Dataset are judged: D is twice the largest distance of a point that a
-/// triangle or a cell uses from the centroid of all of them. Cost: linear.
-Lengths lengths_of(const Dataset& dataset, const CheckOptions& options);
+/// The lengths by which the surfaces and cells of a Dataset are judged, as local_lengths() has them.
+topology::LocalLengths lengths_of(const Dataset& dataset, const CheckOptions& options);
 
 /// M09 where points that elements use have coordinates of 1e20 or more: such models are judged no further, since distances
 /// and boxes would overflow. Cost: linear.
 std::vector<Finding> huge_coordinates(const Dataset& dataset);
 
+/// M15 for each object with points that lie far off and take no part in its lengths. Cost: as the number of such points.
+void report_outlying(const Dataset& dataset, const topology::LocalLengths& lengths, std::vector<Finding>& findings);
+
 /// A boundary representation with what all its checks need.
 class ModelScope {
 public:
-    ModelScope(const Dataset& dataset, const topology::JudgedModel& model, const Lengths& lengths, const CheckOptions& options);
+    ModelScope(const Dataset& dataset, const topology::JudgedModel& model, const topology::LocalLengths& lengths,
+               const CheckOptions& options);
 
     const BrepData& brep() const { return *model_.brep; }
     const topology::JudgedModel& model() const { return model_; }
     const Dataset& dataset() const { return dataset_; }
-    const Lengths& lengths() const { return lengths_; }
+    /// By which a surface is judged: those of the cluster of its object.
+    const Lengths& lengths(std::uint32_t surface) const { return lengths_[surface]; }
+    /// The larger tolerance of two surfaces.
+    double tolerance(std::uint32_t a, std::uint32_t b) const { return std::max(lengths_[a].tolerance, lengths_[b].tolerance); }
     const Monitor* monitor() const { return monitor_; }
     bool stopped() const { return monitor_ != nullptr && monitor_->stopped(); }
 
@@ -54,7 +62,7 @@ public:
 private:
     const Dataset& dataset_;
     const topology::JudgedModel& model_;
-    Lengths lengths_;
+    std::vector<Lengths> lengths_;  // per surface
     const Monitor* monitor_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
     std::vector<std::uint32_t> first_triangle_;  // per surface, and the end
@@ -78,7 +86,5 @@ EntityRef line_ref(const ModelScope& scope, std::uint32_t line);
 EntityRef region_ref(const ModelScope& scope, std::uint32_t region);
 /// Adds the course of a line to a finding; at most 100 of them.
 void mark_line(const ModelScope& scope, std::uint32_t line, Finding& finding);
-/// "'H1b'"
-std::string quoted(std::string_view name);
 
 }  // namespace geomend::validators

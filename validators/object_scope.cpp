@@ -36,18 +36,15 @@ const Labels* labels_of(const Object& object) {
     return nullptr;
 }
 
-bool is_single(const ObjectInfo& info) {
-    return std::ranges::any_of(info.annotations, [](const Annotation& a) { return a.key == "vtk.points_type" && a.value == "Float32"; });
-}
-
-Lengths lengths_of(std::span<const Vec3> points, bool single, const CheckOptions& options) {
+Lengths lengths_of(std::span<const Vec3> points, const ObjectInfo& info, const CheckOptions& options) {
     Lengths lengths;
+    const bool single = info.precision == CoordinatePrecision::single_precision;
     double step = 0;
     if (!points.empty()) {
         Vec3 sum{};
         for (const Vec3& p : points) {
             sum = plus(sum, minus(p, points[0]));
-            for (const double x : p) step = std::max(step, step_above(std::abs(x), single));
+            for (std::size_t k = 0; k < 3; ++k) step = std::max(step, step_above(std::abs(p[k] - info.stored_around[k]), single));
         }
         const Vec3 middle = plus(points[0], times(1.0 / static_cast<double>(points.size()), sum));
         double farthest = 0;
@@ -73,7 +70,7 @@ ObjectScope::ObjectScope(const Object& object, const CheckOptions& options) : ob
         own_points_ = outer_samples(*raster);
         points_ = own_points_;
     }
-    if (std::ranges::all_of(points_, is_sound)) lengths_ = lengths_of(points_, is_single(info()), options);
+    if (std::ranges::all_of(points_, is_sound)) lengths_ = lengths_of(points_, info(), options);
 }
 
 bool is_judged_alone(const Object& object) {

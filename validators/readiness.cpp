@@ -147,7 +147,8 @@ Finding target_finding(std::string_view code, std::string message) {
     return f;
 }
 
-Result<std::vector<Finding>> readiness(const Dataset& dataset, const Target& target, double tolerance, std::span<const Finding> found) {
+Result<std::vector<Finding>> readiness(const Dataset& dataset, const Target& target, const topology::LocalLengths& lengths,
+                                       std::span<const Finding> found) {
     std::vector<Finding> findings;
     if (std::ranges::none_of(dataset.objects, [&](const Object& o) { return takes(target, o); })) {
         findings.push_back(target_finding(
@@ -161,7 +162,7 @@ Result<std::vector<Finding>> readiness(const Dataset& dataset, const Target& tar
         if (target.input == TargetInput::cells) check_cells_for(target, std::get<CellMesh>(object), findings);
     }
     if (target.input == TargetInput::surfaces) {
-        if (auto done = check_regions(dataset, target, tolerance, findings); !done) return std::move(done).why();
+        if (auto done = check_regions(dataset, target, lengths, findings); !done) return std::move(done).why();
     }
     if (target.names.longest > 0) check_names(dataset, target, findings);
     return findings;

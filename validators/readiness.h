@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "model/dataset.h"
+#include "topology/lengths.h"
 
 namespace geomend::validators {
 
@@ -50,15 +51,17 @@ const Target* find_target(std::string_view name);
 /// What keeps a Dataset from being used by a target: findings S01 and on. It reads what the other checks found, and looks at
 /// what only matters to simulators: kinds of cells, properties, names, tags. Never changes anything.
 /// \param found findings of the other checks of the same Dataset
-/// \param tolerance at which the other checks welded
+/// \param lengths by which the other checks judged surfaces and cells
 /// Failure (internal) as of topology::models_to_judge. Cost: linear; for targets that take surfaces near-linear.
-Result<std::vector<Finding>> readiness(const Dataset& dataset, const Target& target, double tolerance, std::span<const Finding> found);
+Result<std::vector<Finding>> readiness(const Dataset& dataset, const Target& target, const topology::LocalLengths& lengths,
+                                       std::span<const Finding> found);
 
 // The parts of it.
 Finding target_finding(std::string_view code, std::string message);
 void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& findings);             // S03 S04 S05 S09 S12
 void check_cells_for(const Target& target, const CellMesh& mesh, std::vector<Finding>& findings);  // S07 S08 S10
-Result<void> check_regions(const Dataset& dataset, const Target& target, double tolerance, std::vector<Finding>& findings);  // S03
-void check_names(const Dataset& dataset, const Target& target, std::vector<Finding>& findings);                              // S06
+Result<void> check_regions(const Dataset& dataset, const Target& target, const topology::LocalLengths& lengths,
+                           std::vector<Finding>& findings);                                      // S03
+void check_names(const Dataset& dataset, const Target& target, std::vector<Finding>& findings);  // S06
 
 }  // namespace geomend::validators

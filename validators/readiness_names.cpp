@@ -92,8 +92,9 @@ void check_names(const Dataset& dataset, const Target& target, std::vector<Findi
     }
 }
 
-Result<void> check_regions(const Dataset& dataset, const Target& target, double tolerance, std::vector<Finding>& findings) {
-    auto models = topology::models_to_judge(dataset, tolerance);
+Result<void> check_regions(const Dataset& dataset, const Target& target, const topology::LocalLengths& lengths,
+                           std::vector<Finding>& findings) {
+    auto models = topology::models_to_judge(dataset, topology::model_sources(dataset, lengths));
     if (!models) return std::move(models).why();
     std::size_t closed = 0;
     for (const auto& model : *models) {

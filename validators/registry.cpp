@@ -157,6 +157,10 @@ constexpr std::array table = {
     of_object("M12", "two edges of one line have the same ends", check_edge_repeats),
     of_object("M13", "edges of one line that share no point come within the tolerance, or two edges lie side by side", check_line_meetings),
     of_object("M14", "as M13, of edges of different lines of an object", check_line_meetings),
+    Check{"M15",
+          "a point lies ten diameters of its cluster or more from it, linked to the rest by edges as long only; or its height is -999, "
+          "-9999, "
+          "1e10 or the like, as far from other heights of its object as these from each other"},
     Check{"M20",
           "the volume of a cell is zero, or of the sign that fewer cells have; of structured grids cells without volume are a warning",
           nullptr, false, nullptr, check_cell_volumes, check_lattice_cells},
@@ -263,16 +267,18 @@ Result<void> check_flat_parts(const CellMesh& mesh, const CheckOptions& options,
 
 Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged) {
     Checked result;
-    result.lengths = lengths_of(dataset, options);
     if (auto huge = huge_coordinates(dataset); !huge.empty()) {
         result.findings = std::move(huge);
         return result;
     }
-    auto models = topology::models_to_judge(dataset, result.lengths.tolerance);
+    result.local = lengths_of(dataset, options);
+    result.lengths = result.local.largest;
+    report_outlying(dataset, result.local, result.findings);
+    auto models = topology::models_to_judge(dataset, topology::model_sources(dataset, result.local));
     if (!models) return std::move(models).why();
     for (auto& model : *models) {
         std::vector<Finding> findings;
-        const ModelScope scope(dataset, model, result.lengths, options);
+        const ModelScope scope(dataset, model, result.local, options);
         run_all(scope, options, &Check::model, findings);
         std::erase_if(findings, [&](const Finding& f) { return skipped(options, f.code); });
         if (wanted(options, "B18")) spread_errors(scope, findings);
@@ -281,14 +287,14 @@ Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options
         if (scope.stopped()) return stopped();
         if (judged != nullptr) judged->push_back(std::move(model.brep));
     }
-    for (const Object& object : dataset.objects) {
-        const auto* mesh = std::get_if<CellMesh>(&object);
+    for (std::uint32_t o = 0; o < dataset.objects.size(); ++o) {
+        const auto* mesh = std::get_if<CellMesh>(&dataset.objects[o]);
         if (mesh == nullptr) continue;
         if (has_points_and_lines_only(*mesh)) {
             if (auto done = check_flat_parts(*mesh, options, result.findings); !done) return std::move(done).why();
             continue;
         }
-        const CellScope scope(*mesh, result.lengths, options);
+        const CellScope scope(*mesh, result.local.of(o), options);
         run_all(scope, options, &Check::cells, result.findings);
         if (scope.stopped()) return stopped();
     }

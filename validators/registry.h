@@ -33,8 +33,9 @@ std::span<const Check> all_checks();
 /// Findings of one grid, and the lengths that it was judged by.
 struct Checked {
     std::vector<Finding> findings;
-    Lengths lengths;
-    bool geometry = true;  ///< false: there is none, only records were checked (F161 tells)
+    Lengths lengths;               ///< of several clusters the largest ones
+    topology::LocalLengths local;  ///< of surfaces and cell meshes; else empty
+    bool geometry = true;          ///< false: there is none, only records were checked (F161 tells)
 };
 
 /// Runs all wanted checks of the surfaces and cells of a Dataset: of each model that it states, of all other surfaces

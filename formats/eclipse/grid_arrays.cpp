@@ -110,7 +110,8 @@ Result<bool> take_grid_array(const ArrayFile& file, const Array& array, GridPart
         if (!values) return values.why();
         (depths ? parts.grid.depths : parts.grid.pillars) = std::move(*values);
         (depths ? parts.depths : parts.pillars) = &array;
-        parts.grid.single_precision = array.type == ArrayType::real;
+        parts.grid.info.precision =
+            array.type == ArrayType::real ? CoordinatePrecision::single_precision : CoordinatePrecision::double_precision;
         return true;
     }
     if (array.name == "ACTNUM") return done(take_activity(file, array, parts));

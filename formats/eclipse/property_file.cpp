@@ -217,7 +217,7 @@ Result<PropertyGrids::Place> PropertyGrids::grid_of(const PropertyPart& part) {
     grid.info.name = part.grid.empty() ? stem_of(file_.input) : part.grid;
     if (!part.grid.empty()) grid.host = CornerPointGrid::Host{};
     grid.unit_system = unit_system_name((*head)->unit);
-    grid.single_precision = true;
+    grid.info.precision = CoordinatePrecision::single_precision;
     grid.info.crs.z_positive = ZPositive::depth;
     grid.info.crs.z_positive_stated = true;
     if (auto done = make_grid(part, **head, grid); !done) return done.why();

@@ -147,7 +147,7 @@ private:
         }
         if (coarse_)
             add_loss(data_.losses, {LossClass::identity, grid.info.name, "coarsening groups", "they are not read from GRID files"});
-        grid.single_precision = true;
+        grid.info.precision = CoordinatePrecision::single_precision;
         CoordinateSystem& crs = grid.info.crs;
         crs.z_positive = ZPositive::depth;
         crs.z_positive_stated = true;

@@ -35,7 +35,7 @@ Result<std::vector<Loss>> write_bgrdecl(const Dataset& dataset, OutputSet& out, 
     spec.push_back(static_cast<std::int32_t>(std::max<std::size_t>(1, grid.reservoirs.size())));
     if (grid.cylindrical) spec.push_back(1);
     writer.integers("SPECGRID", spec);
-    write_geometry(writer, grid, title, losses);
+    if (auto done = write_geometry(writer, grid, title, losses); !done) return done.why();
     const bool dual = grid.porosity != CornerPointGrid::Porosity::single;
     if (!grid.activity.empty()) writer.integers_of_bytes("ACTNUM", dual ? plain_activity(grid) : grid.activity);
     CellOrder order;

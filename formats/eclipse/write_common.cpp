@@ -14,13 +14,6 @@ namespace {
 
 using Porosity = CornerPointGrid::Porosity;
 
-std::string stem_of(const OutputSet& out) {
-    if (out.is_standard_output()) return {};
-    std::filesystem::path path = out.main_path().filename();
-    if (path.extension() == ".gz") path = path.stem();
-    return path.stem().string();
-}
-
 /// Half the precision of floats, about, is where rounding is more than a matter of identity.
 constexpr double largest_harmless_shift = 1e-6;
 
@@ -123,7 +116,7 @@ void add_grid_losses(const CornerPointGrid& grid, const GridKept& kept, const Ou
         add_loss(losses, {c, grid.info.name, std::move(what), why, count});
     };
     const ObjectInfo& info = grid.info;
-    if (!kept.name && !info.name.empty() && info.name != stem_of(out)) lost(LossClass::identity, "name");
+    if (!kept.name && !info.name.empty() && info.name != out.stem()) lost(LossClass::identity, "name");
     if (info.role != FeatureRole::unknown || !info.role_text.empty()) lost(LossClass::identity, "role");
     if (!info.feature.empty()) lost(LossClass::identity, "geological feature");
     if (!info.groups.empty()) lost(LossClass::identity, "groups");
@@ -159,7 +152,7 @@ void add_grid_losses(const CornerPointGrid& grid, const GridKept& kept, const Ou
     add_annotation_losses(grid, kept, why, losses);
 }
 
-void write_geometry(ArrayWriter& writer, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses) {
+Result<void> write_geometry(ArrayWriter& writer, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses) {
     const bool turned = grid.info.crs.z_positive == ZPositive::elevation;
     Rounding rounding = writer.rounded("COORD", grid.pillars.size(), [&](std::uint64_t first, std::span<double> block) {
         std::copy_n(grid.pillars.data() + first, block.size(), block.data());
@@ -173,7 +166,11 @@ void write_geometry(ArrayWriter& writer, const CornerPointGrid& grid, std::strin
         if (!turned) return;
         for (double& z : block) z = 0.0 - z;
     }));
+    if (!std::isfinite(rounding.largest))
+        return failure(FailureKind::cannot_hold, "F021", {grid.info.name},
+                       "coordinates are beyond single precision, which " + std::string(title) + " files store");
     add_rounding_loss(rounding, grid, title, losses);
+    return {};
 }
 
 void write_map(ArrayWriter& writer, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses) {

@@ -40,8 +40,9 @@ struct GridKept {
 /// Lists what of one grid does not go in.
 void add_grid_losses(const CornerPointGrid& grid, const GridKept& kept, const OutputSet& out, std::vector<Loss>& losses);
 
-/// COORD and ZCORN; elevations where the file that the grid is from had them.
-void write_geometry(ArrayWriter& writer, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses);
+/// COORD and ZCORN; elevations where the file that the grid is from had them. Failure (cannot_hold) where a coordinate is beyond
+/// single precision.
+Result<void> write_geometry(ArrayWriter& writer, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses);
 
 /// MAPUNITS, MAPAXES, GRIDUNIT, GDORIENT, where they are stated.
 void write_map(ArrayWriter& writer, const CornerPointGrid& grid, std::string_view title, std::vector<Loss>& losses);

@@ -86,7 +86,7 @@ private:
             if (a.key == array_key && name != "FILEHEAD" && name != "GRIDHEAD" && !write_kept(writer_, a.value))
                 add_loss(losses_, {LossClass::identity, grid.info.name, "array '" + std::string(name) + "'", "its kept text is damaged"});
         }
-        write_geometry(writer_, grid, title, losses_);
+        if (auto done = write_geometry(writer_, grid, title, losses_); !done) return done;
         if (!grid.activity.empty()) writer_.integers_of_bytes("ACTNUM", grid.activity);
         const Attribute* coarse = find_attribute(grid.info.attributes, "CORSNUM", AttributeLocation::cell);
         if (coarse != nullptr && std::holds_alternative<std::vector<std::int32_t>>(coarse->values))

@@ -25,6 +25,13 @@ constexpr Keeps keeps() {
     return k;
 }
 
+constexpr std::array options{
+    OptionRow{"version", OptionUse::writing, OptionValue::words, "4.1|2.2", "version of the mesh file"},
+    OptionRow{"binary", OptionUse::writing, OptionValue::words, "yes|no|true|false|1|0", "binary, or text (the default)"},
+    OptionRow{"order", OptionUse::writing, OptionValue::words, "1|2",
+              "1 (the default) makes elements of second order linear, 2 keeps them"},
+};
+
 }  // namespace
 
 std::span<const Format> formats() {
@@ -43,6 +50,10 @@ std::span<const Format> formats() {
                  "substance: polygons of more than 4 corners, polyhedra, text properties, markers and logs of wells, second-order "
                  "elements unless order=2; identity: lattices become cells",
              .tried_on = "real files and clients",
+             .options = options,
+             .flat_meshes = true,
+             .statements = true,
+             .elevations = true,
          },
          {
              .name = "geo",
@@ -54,6 +65,10 @@ std::span<const Format> formats() {
              .keeps = keeps(),
              .lossy_note = "as msh, which stands beside it",
              .tried_on = "clients",
+             .options = options,
+             .flat_meshes = true,
+             .statements = true,
+             .elevations = true,
          }}};
     return rows;
 }

@@ -4,19 +4,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/wording.h"
+
 namespace geomend::gmsh {
-
-namespace {
-
-std::string quoted(std::string_view word) {
-    constexpr std::size_t longest = 40;
-    std::string text = "'";
-    for (const char c : word.substr(0, longest)) text += c >= ' ' && c < '\x7f' ? c : '?';
-    if (word.size() > longest) text += "...";
-    return text + "'";
-}
-
-}  // namespace
 
 Location Scanner::location(const char* where) const {
     const char* begin = input_->bytes().data();
@@ -62,9 +52,9 @@ std::int64_t Scanner::slow_integer(const char* what) {
         return value;
     }
     if (status == NumberStatus::out_of_range) {
-        fail("F005", std::string("expected ") + what + ", found " + quoted(word) + ", which is too large for an integer");
+        fail("F005", std::string("expected ") + what + ", found " + quoted_start(word) + ", which is too large for an integer");
     } else {
-        fail("F005", std::string("expected ") + what + " (an integer), found " + quoted(word));
+        fail("F005", std::string("expected ") + what + " (an integer), found " + quoted_start(word));
     }
     return 0;
 }
@@ -87,7 +77,7 @@ double Scanner::text_real(const char* what) {
         at_ += word.size();
         return value;
     }
-    fail("F005", std::string("expected ") + what + " (a number), found " + quoted(word));
+    fail("F005", std::string("expected ") + what + " (a number), found " + quoted_start(word));
     return 0;
 }
 
@@ -137,7 +127,7 @@ void Scanner::expect_end() {
     if (failed_ || at_end()) return;
     if (encoding_.binary)
         fail("F008", std::to_string(left()) + " bytes are left after the last record: the section holds more than its counts say");
-    else fail("F008", "found " + quoted(next_word()) + " after the last record: the section holds more than its counts say");
+    else fail("F008", "found " + quoted_start(next_word()) + " after the last record: the section holds more than its counts say");
 }
 
 }  // namespace geomend::gmsh

@@ -11,12 +11,6 @@ namespace geomend::gmsh {
 namespace {
 
 /// NAME.msh for NAME.geo, without the folder.
-std::string mesh_name(const std::filesystem::path& script) {
-    std::filesystem::path name = script.filename();
-    if (name.extension() == ".gz") name = name.stem();
-    return name.stem().string() + ".msh";
-}
-
 std::string listed(const std::vector<std::int64_t>& tags) {
     std::string text;
     for (const std::int64_t tag : tags) text += (text.empty() ? "" : ", ") + std::to_string(tag);
@@ -50,11 +44,11 @@ void write_groups(const HollowVolumes& hollow, OutputFile& out) {
 }  // namespace
 
 Result<std::vector<Loss>> write_geo(const Dataset& dataset, OutputSet& outputs, const WriteOptions& options) {
-    if (outputs.is_standard_output()) {
-        return failure(FailureKind::usage, "F018", {"-"},
-                       "a Gmsh script goes with a mesh file beside it: name an output file, or write msh to standard output");
+    if (outputs.is_stream()) {
+        return failure(FailureKind::usage, "F018", {outputs.main_path().string()},
+                       "a Gmsh script goes with a mesh file beside it: name an output file, or write msh");
     }
-    const std::string mesh = mesh_name(outputs.main_path());
+    const std::string mesh = outputs.stem() + ".msh";
     HollowVolumes hollow;
     auto losses = write_mesh_file(dataset, outputs.companion(mesh), outputs.main_path().parent_path() / mesh, options, &hollow);
     if (!losses) return losses;

@@ -115,7 +115,7 @@ void tell_boundaries(const WritePlan& plan, const CellMesh& mesh, bool v41, std:
             {LossClass::identity, mesh.info.name, "entities without elements", "MSH 2.2 has entities only as tags of elements", empty});
 }
 
-// Takes the volumes without elements out of a plan.
+// Takes the volumes without elements out of a plan. One that has no boundary, either, cannot be filled and stays.
 std::vector<CellMesh::Entity> take_hollow_volumes(WritePlan& plan) {
     std::vector<std::uint8_t> keep(plan.entities.size(), 0);
     for (const std::uint32_t e : plan.cell_entity) keep[e] = 1;
@@ -123,7 +123,7 @@ std::vector<CellMesh::Entity> take_hollow_volumes(WritePlan& plan) {
     std::vector<std::uint32_t> place(plan.entities.size(), no_index);
     std::uint32_t kept = 0;
     for (std::size_t e = 0; e < plan.entities.size(); ++e) {
-        if (plan.entities[e].dimension == 3 && keep[e] == 0) {
+        if (plan.entities[e].dimension == 3 && keep[e] == 0 && !plan.entities[e].boundary.empty()) {
             hollow.push_back(std::move(plan.entities[e]));
             continue;
         }

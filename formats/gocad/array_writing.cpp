@@ -93,10 +93,9 @@ Result<void> ArrayWriting::prepare(bool needs_files) {
             add_loss(to_.losses, {LossClass::substance, info_.name, "digits of '" + a->name + "'", "the binary type does not hold them"});
         }
     }
-    if (to_.files.is_standard_output() && (needs_files || !attributes.empty() || flags != nullptr || region_flags != nullptr)) {
-        return failure(
-            FailureKind::cannot_hold, "F021", {"standard output"},
-            "'" + info_.name + "' needs companion files for its values, which have no place beside standard output: give a file");
+    if (to_.files.is_stream() && (needs_files || !attributes.empty() || flags != nullptr || region_flags != nullptr)) {
+        return failure(FailureKind::cannot_hold, "F021", {to_.files.main_path().string()},
+                       "'" + info_.name + "' needs companion files for its values, which have no place beside a stream: give a file");
     }
     return {};
 }

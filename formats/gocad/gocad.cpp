@@ -19,6 +19,12 @@ constexpr std::array<std::string_view, 1> ml{".ml"}, ts{".ts"}, pl{".pl"}, vs{".
     wl{".wl"}, gp{".gp"};
 constexpr std::array<std::string_view, 2> gs{".gs", ".grs"};
 
+constexpr std::array options{
+    OptionRow{"triangulate", OptionUse::writing, OptionValue::words, "yes|no",
+              "polygons of more than three corners are written as triangles"},
+    OptionRow{"data", OptionUse::writing, OptionValue::words, "ascii|binary", "how grids write their values into the files beside them"},
+};
+
 Format row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions, std::string_view tried_on,
            Writer write = write_objects, WriterWants wants = WriterWants::objects) {
     Format format;
@@ -42,6 +48,7 @@ Format row(std::string_view name, std::string_view title, std::span<const std::s
         "regions of a model (but in .ml, .so, .lso), sets and values of cells in a Voxet, vectors in a grid; "
         "identity: types of numbers in text, lines and corners of solids; style: annotations of other formats";
     format.tried_on = tried_on;
+    format.options = options;
     return format;
 }
 

@@ -21,6 +21,15 @@ std::string_view without_quotes(std::string_view text) {
     return trimmed(text);
 }
 
+// Nodes and elements of some Gocad object. One that has none of their kind does not keep such a record as it stands: written to
+// an object of another type, it would be read as a part of it.
+bool is_geometry(std::string_view keyword) {
+    constexpr std::string_view words[] = {"VRTX",    "PVRTX",  "ATOM",    "PATOM",       "SHAREDVRTX",   "SHAREDPVRTX", "CVRTX", "CPVRTX",
+                                          "CATOM",   "CPATOM", "TRGL",    "SEG",         "TETRA",        "TFACE",       "ILINE", "SUBVSET",
+                                          "TVOLUME", "MODEL",  "SURFACE", "KEYVERTICES", "MODEL_REGION", "BSTONE",      "BORDER"};
+    return std::ranges::any_of(words, [&](std::string_view word) { return same_word(keyword, word); });
+}
+
 /// The value of a header line if its key is `name`.
 std::optional<std::string_view> name_of(std::string_view entry) {
     const std::size_t colon = entry.find(':');
@@ -134,7 +143,10 @@ bool ObjectHead::take_known(std::string_view keyword, TextCursor& line) {
 
 void ObjectHead::keep(std::string_view keyword, TextCursor& line) {
     std::string record = whole_record(keyword, line);
-    if (++kept_records_ <= most_records) {
+    if (is_geometry(keyword)) {
+        add_loss(scanner_.losses,
+                 {LossClass::identity, info.name, "record '" + std::string(keyword) + "'", "this object has none of its kind"});
+    } else if (++kept_records_ <= most_records) {
         annotate(geometry_begun ? "gocad.record_after" : "gocad.record", std::move(record));
     } else {
         add_loss(scanner_.losses, {LossClass::identity, info.name, "unknown records", "more than 10000 in one object"});

@@ -7,6 +7,7 @@
 
 #include "base/disjoint_sets.h"
 #include "formats/gocad/region_indicators.h"
+#include "model/attribute_operations.h"
 
 namespace geomend::gocad {
 
@@ -29,7 +30,7 @@ public:
         label_nodes();
         split_.info = mesh_.info;
         for (Attribute& a : split_.info.attributes) {
-            if (a.location == AttributeLocation::point) spread_values(a);
+            if (a.location == AttributeLocation::point) a.values = taken(a.values, source_, a.components);
         }
         for (NamedSet& set : split_.info.sets) {
             if (set.location == AttributeLocation::point) spread_set(set);
@@ -135,20 +136,6 @@ private:
         for (std::size_t i = 0; i < source_.size(); ++i) {
             split_.point_labels.ids.push_back(split_.alias[i] == no_index ? ids[source_[i]] : next++);
         }
-    }
-
-    void spread_values(Attribute& a) const {
-        std::visit(
-            [&](auto& values) {
-                std::decay_t<decltype(values)> spread;
-                spread.reserve(source_.size() * a.components);
-                for (const std::uint32_t node : source_) {
-                    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(std::size_t{node} * a.components);
-                    spread.insert(spread.end(), begin, begin + a.components);
-                }
-                values = std::move(spread);
-            },
-            a.values);
     }
 
     void spread_set(NamedSet& set) const {

@@ -65,11 +65,22 @@ constexpr std::string_view note =
     "names of codes, coordinate system, in includes the other sections of a deck";
 constexpr std::string_view tried = "real files";
 
+constexpr std::array options{
+    OptionRow{"dims", OptionUse::reading, OptionValue::whole_numbers, "NX,NY,NZ",
+              "numbers of cells, for property files that do not state them"},
+    OptionRow{"includes", OptionUse::reading, OptionValue::words, "all|skip",
+              "whether a missing include is an error (the default) or passed over"},
+    OptionRow{"max-values", OptionUse::reading, OptionValue::whole_number, "N", "most values that repeat counts may stand for"},
+    OptionRow{"content", OptionUse::writing, OptionValue::words, "all|properties",
+              "the grid with all that it holds, or its properties only"},
+    OptionRow{"properties", OptionUse::writing, OptionValue::words, "beside|inside", "where properties go that a simulator does not know"},
+};
+
 constexpr std::array rows = {
     Format{"grdecl", "grdecl", "GRDECL, grid section of a deck", include_extensions, sniff_include, read_deck, write_include,
-           WriterWants::corner_point, grid_keeps(), note, tried},
+           WriterWants::corner_point, grid_keeps(), note, tried, options, true, true},
     Format{"data", "grdecl", "whole simulator deck", deck_extensions, sniff_deck, read_deck, write_whole_deck, WriterWants::corner_point,
-           grid_keeps(), note, tried},
+           grid_keeps(), note, tried, options, true, true},
 };
 
 }  // namespace

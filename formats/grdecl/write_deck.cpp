@@ -75,18 +75,12 @@ std::string_view porosity_word(const CornerPointGrid& grid) {
     return grid.porosity == CornerPointGrid::Porosity::dual_porosity ? "DUALPORO" : "DUALPERM";
 }
 
-std::string stem_of(const OutputSet& files) {
-    std::filesystem::path path = files.main_path().filename();
-    if (path.extension() == ".gz") path = path.stem();
-    return path.stem().string();
-}
-
 /// What an include cannot say in keywords, for our own reader.
 void write_remark(const CornerPointGrid& grid, DeckOutput& to, bool keywords_too) {
     std::string words;
     if (keywords_too && !grid.unit_system.empty()) words += " " + grid.unit_system;
     if (keywords_too && !porosity_word(grid).empty()) words += " " + std::string(porosity_word(grid));
-    if (!grid.info.name.empty() && grid.info.name != stem_of(to.files) && grid.info.name.find_first_of("\r\n") == std::string::npos)
+    if (!grid.info.name.empty() && grid.info.name != to.files.stem() && grid.info.name.find_first_of("\r\n") == std::string::npos)
         words += " NAME " + grid.info.name;
     if (!words.empty()) to.main << "--geomend" << words << "\n\n";
 }

@@ -108,11 +108,7 @@ std::uint64_t not_finite(const Attribute& a) {
 
 }  // namespace
 
-std::string companion_name(const OutputSet& files) {
-    std::filesystem::path path = files.main_path().filename();
-    if (path.extension() == ".gz") path = path.stem();
-    return path.stem().string() + ".properties.grdecl";
-}
+std::string companion_name(const OutputSet& files) { return files.stem() + ".properties.grdecl"; }
 
 OutputFile* DeckOutput::companion(const CornerPointGrid& grid, const std::string& what) {
     if (all_inside) return &main;
@@ -125,9 +121,9 @@ OutputFile* DeckOutput::companion(const CornerPointGrid& grid, const std::string
         return further;
     };
     if (further != nullptr) return at_grid();
-    if (files.is_standard_output()) {
+    if (files.is_stream()) {
         losses.push_back({LossClass::substance, grid.info.name, what,
-                          "it belongs into a file beside the main one, and standard output has none: --option properties=inside", 1});
+                          "it belongs into a file beside the main one, and a stream has none: --option properties=inside", 1});
         return nullptr;
     }
     further_name = companion_name(files);

@@ -57,25 +57,33 @@ constexpr Keeps lines_keeps(Keeping names) {
     return keeps;
 }
 
+constexpr OptionRow z_row{"z", OptionUse::both, OptionValue::words, "elevation|depth", "the sign of z, in reading and in writing"};
+constexpr std::array line_options{z_row};
+constexpr std::array grid_options{
+    z_row, OptionRow{"height", OptionUse::writing, OptionValue::text, "NAME", "the attribute that is written as the height"}};
+constexpr std::array irap_points_options{
+    z_row, OptionRow{"attributes", OptionUse::writing, OptionValue::words, "none|rms", "whether attributes follow in the way of RMS"}};
+
 constexpr std::array rows = {
     Format{"irap-grid", "horizon", "IRAP classic grid, ASCII", irap_grid_extensions, sniff_irap_grid, read_irap_grid, write_irap_grid,
-           WriterWants::objects, grid_keeps(Keeping::no, Keeping::partly, Keeping::yes), grid_note, tried},
+           WriterWants::objects, grid_keeps(Keeping::no, Keeping::partly, Keeping::yes), grid_note, tried, grid_options},
     Format{"irap-grid-binary", "horizon", "IRAP classic grid, binary (single precision)", irap_binary_extensions, sniff_irap_grid_binary,
            read_irap_grid_binary, write_irap_grid_binary, WriterWants::objects, grid_keeps(Keeping::no, Keeping::partly, Keeping::no),
-           grid_note, tried},
+           grid_note, tried, grid_options},
     Format{"zmap", "horizon", "ZMAP+ grid", zmap_extensions, sniff_zmap, read_zmap, write_zmap, WriterWants::objects,
-           grid_keeps(Keeping::yes, Keeping::yes, Keeping::partly), grid_note, tried},
+           grid_keeps(Keeping::yes, Keeping::yes, Keeping::partly), grid_note, tried, grid_options},
     Format{"cps3", "horizon", "CPS-3 grid", cps3_extensions, sniff_cps3_grid, read_cps3_grid, write_cps3_grid, WriterWants::objects,
-           grid_keeps(Keeping::yes, Keeping::yes, Keeping::yes), grid_note, tried},
+           grid_keeps(Keeping::yes, Keeping::yes, Keeping::yes), grid_note, tried, grid_options},
     Format{"cps3-lines", "horizon", "CPS-3 lines", cps3_lines_extensions, sniff_cps3_lines, read_cps3_lines, write_cps3_lines,
-           WriterWants::objects, lines_keeps(Keeping::partly), plain_note, tried},
+           WriterWants::objects, lines_keeps(Keeping::partly), plain_note, tried, line_options},
     Format{"irap-points", "horizon", "IRAP/RMS points (attributes with --option attributes=rms)", points_extensions, sniff_irap_points,
-           read_irap_points, write_irap_points, WriterWants::objects, points_keeps(Keeping::partly, Keeping::no), plain_note, tried},
+           read_irap_points, write_irap_points, WriterWants::objects, points_keeps(Keeping::partly, Keeping::no), plain_note, tried,
+           irap_points_options},
     Format{"petrel-points", "horizon", "Petrel points with attributes", petrel_extensions, sniff_petrel_points, read_petrel_points,
            write_petrel_points, WriterWants::objects, points_keeps(Keeping::yes, Keeping::partly),
-           "substance: second and further objects; identity: name, role, units of attributes, sign of z", tried},
+           "substance: second and further objects; identity: name, role, units of attributes, sign of z", tried, line_options},
     Format{"irap-polygons", "horizon", "IRAP/RMS polygons", polygons_extensions, sniff_irap_polygons, read_irap_polygons,
-           write_irap_polygons, WriterWants::objects, lines_keeps(Keeping::no), plain_note, tried},
+           write_irap_polygons, WriterWants::objects, lines_keeps(Keeping::no), plain_note, tried, line_options},
 };
 
 }  // namespace

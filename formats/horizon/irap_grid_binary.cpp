@@ -154,6 +154,7 @@ Result<Dataset> read_irap_grid_binary(const Input& input, const ReadOptions& opt
     }
     Raster raster = make_horizon(stated->frame, std::move(heights), missing, sign->value_or(ZPositive::elevation), sign->has_value());
     raster.info.name = name_of(input);
+    raster.info.precision = CoordinatePrecision::single_precision;
     Dataset dataset = dataset_of("IRAP classic grid binary", std::move(raster));
     if (!stated->warning.empty()) dataset.findings.push_back(irap_warning(stated->warning, at(input, 4)));
     return dataset;

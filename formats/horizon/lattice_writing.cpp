@@ -84,6 +84,24 @@ void mark_missing(FileGrid& grid, const Attribute& height, const GridRules& rule
     }
 }
 
+/// Whether the last node of each axis is finite and behind the first one, as limits in a file have to be.
+bool has_extent(const GridFrame& frame) {
+    const auto grows = [](double first, double step, std::uint32_t count) {
+        const double last = first + step * (count - 1.0);
+        return std::isfinite(last) && (count < 2 || last > first);
+    };
+    return grows(frame.x0, frame.xinc, frame.nx) && grows(frame.y0, frame.yinc, frame.ny);
+}
+
+/// Whether each number of a frame is finite as a float, and its steps are not 0 then.
+bool fits_single(const GridFrame& frame) {
+    for (const double number : {frame.x0, frame.y0, frame.xinc, frame.yinc, frame.rotation}) {
+        if (!std::isfinite(static_cast<float>(number))) return false;
+    }
+    return static_cast<float>(frame.xinc) != 0 && static_cast<float>(frame.yinc) != 0;
+}
+
+/// \pre the frame fits single precision
 void round_to_single(FileGrid& grid, const GridRules& rules, double tolerance, std::vector<Loss>& losses) {
     const GridFrame before = grid.frame;
     for (double* number : {&grid.frame.x0, &grid.frame.y0, &grid.frame.xinc, &grid.frame.yinc, &grid.frame.rotation}) {
@@ -95,15 +113,21 @@ void round_to_single(FileGrid& grid, const GridRules& rules, double tolerance, s
         add_loss(losses, {LossClass::substance, grid.name, "places of the nodes, by up to " + number_text(moved), why});
     }
     double largest = 0;
-    std::uint64_t changed = 0;
+    std::uint64_t changed = 0, beyond = 0;
     for (double& h : grid.heights) {
         const auto rounded = static_cast<double>(static_cast<float>(h));
+        if (!std::isfinite(rounded)) {
+            ++beyond;
+            h = grid.no_data;
+            continue;
+        }
         if (rounded != h && h != grid.no_data) {
             ++changed;
             largest = std::max(largest, std::abs(rounded - h));
         }
         h = rounded;
     }
+    if (beyond > 0) add_loss(losses, {LossClass::substance, grid.name, "heights beyond single precision, written as missing", why, beyond});
     grid.no_data = static_cast<double>(static_cast<float>(grid.no_data));
     if (changed > 0) {
         add_loss(losses,
@@ -137,6 +161,10 @@ Result<FileGrid> grid_for_writing(const Dataset& dataset, const GridRules& rules
             why = "'" + raster->info.name + "': " + misfit;
             continue;
         }
+        if (!has_extent(fit->frame)) {
+            why = "'" + raster->info.name + "': its nodes coincide beside their distance from the origin";
+            continue;
+        }
         const Attribute& height = raster->info.attributes[index];
         FileGrid grid;
         grid.frame = fit->frame;
@@ -146,6 +174,10 @@ Result<FileGrid> grid_for_writing(const Dataset& dataset, const GridRules& rules
         grid.height_index = index;
         grid.heights = file_heights(*raster, *fit, height, asked_sign->value_or(raster->info.crs.z_positive));
         mark_missing(grid, height, rules, losses);
+        if (rules.single_precision && !fits_single(grid.frame)) {
+            why = "'" + raster->info.name + "': its frame is beyond single precision";
+            continue;
+        }
         if (rules.single_precision) round_to_single(grid, rules, fit->tolerance, losses);
         if (fit->moved > 0) {
             add_loss(losses, {LossClass::identity, grid.name, "last digits of the nodes' places, by up to " + number_text(fit->moved),

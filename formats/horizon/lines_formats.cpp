@@ -91,6 +91,8 @@ Result<WrittenLines> lines_for_writing(const Dataset& dataset, OutputSet& out, c
     lines.set = &std::get<PolylineSet>(dataset.objects[*index]);
     const ObjectInfo& info = lines.set->info;
     lines.chains = chains_of(*lines.set);
+    if (lines.chains.empty())
+        return failure(FailureKind::cannot_hold, "F021", {}, std::string(title) + " hold lines: there is none to write");
     lines.sign = asked_sign->value_or(info.crs.z_positive);
     add_other_losses(dataset, *index, title, lines.losses);
     add_info_losses(info, {.title = title}, out, lines.losses);

@@ -9,13 +9,6 @@ namespace geomend::horizon {
 
 namespace {
 
-std::string stem_of(const OutputSet& out) {
-    if (out.is_standard_output()) return {};
-    std::filesystem::path path = out.main_path().filename();
-    if (path.extension() == ".gz") path = path.stem();
-    return path.stem().string();
-}
-
 void add_crs_losses(const ObjectInfo& info, const InfoKept& kept, const std::string& why, std::vector<Loss>& losses) {
     const CoordinateSystem& crs = info.crs;
     const auto lost = [&](LossClass c, std::string what) { add_loss(losses, {c, info.name, std::move(what), why}); };
@@ -45,7 +38,7 @@ void add_info_losses(const ObjectInfo& info, const InfoKept& kept, const OutputS
     const auto lost = [&](LossClass c, std::string what, std::uint64_t count = 1) {
         add_loss(losses, {c, info.name, std::move(what), why, count});
     };
-    if (!info.name.empty() && !kept.names && info.name != stem_of(out)) lost(LossClass::identity, "name");
+    if (!info.name.empty() && !kept.names && info.name != out.stem()) lost(LossClass::identity, "name");
     if (info.role != FeatureRole::unknown || !info.role_text.empty()) lost(LossClass::identity, "role");
     if (!info.feature.empty()) lost(LossClass::identity, "geological feature");
     if (!info.groups.empty()) lost(LossClass::identity, "groups");

@@ -249,9 +249,11 @@ void append_value(std::string& text, const WrittenColumn& column, std::size_t po
 
 Result<std::size_t> point_set_for_writing(const Dataset& dataset, std::string_view title) {
     for (std::size_t i = 0; i < dataset.objects.size(); ++i) {
-        if (std::holds_alternative<PointSet>(dataset.objects[i])) return i;
+        const auto* set = std::get_if<PointSet>(&dataset.objects[i]);
+        if (set != nullptr && !set->points.empty()) return i;
     }
-    return failure(FailureKind::cannot_hold, "F021", {}, std::string(title) + " hold one point set: there is none among the objects");
+    return failure(FailureKind::cannot_hold, "F021", {},
+                   std::string(title) + " hold one point set: there is none with points among the objects");
 }
 
 }  // namespace geomend::horizon

@@ -53,10 +53,11 @@ void add_line(PolylineSet& set, std::string name, std::span<const Vec3> points) 
 
 Result<std::size_t> polylines_for_writing(const Dataset& dataset, std::string_view title) {
     for (std::size_t i = 0; i < dataset.objects.size(); ++i) {
-        if (std::holds_alternative<PolylineSet>(dataset.objects[i])) return i;
+        const auto* set = std::get_if<PolylineSet>(&dataset.objects[i]);
+        if (set != nullptr && !set->points.empty()) return i;
     }
     return failure(FailureKind::cannot_hold, "F021", {},
-                   std::string(title) + " hold one set of polylines: there is none among the objects");
+                   std::string(title) + " hold one set of polylines: there is none with points among the objects");
 }
 
 }  // namespace geomend::horizon

@@ -13,13 +13,6 @@ namespace {
 
 constexpr double largest_harmless_shift = 1e-6;
 
-std::string stem_of(const OutputSet& out) {
-    if (out.is_standard_output()) return {};
-    std::filesystem::path path = out.main_path().filename();
-    if (path.extension() == ".gz") path = path.stem();
-    return path.stem().string();
-}
-
 }  // namespace
 
 Result<const CornerPointGrid*> choose_grid(const Dataset& dataset, const OutputSet& out, std::vector<Loss>& losses) {
@@ -60,7 +53,7 @@ void add_grid_losses(const CornerPointGrid& grid, const OutputSet& out, std::vec
         add_loss(losses, {c, grid.info.name, std::move(what), why, count});
     };
     const ObjectInfo& info = grid.info;
-    if (!info.name.empty() && info.name != stem_of(out)) lost(LossClass::identity, "name");
+    if (!info.name.empty() && info.name != out.stem()) lost(LossClass::identity, "name");
     if (info.role != FeatureRole::unknown || !info.role_text.empty()) lost(LossClass::identity, "role");
     if (!info.feature.empty()) lost(LossClass::identity, "geological feature");
     if (!info.groups.empty()) lost(LossClass::identity, "groups");

@@ -146,7 +146,9 @@ private:
         if ((*entry)->count != 6 * pillars) return wrong_count(**entry, 6 * pillars);
         const auto values = doubles(doc_, **entry);
         if (!values) return values.why();
-        grid_.single_precision = (*entry)->type == ValueType::real;
+        grid_.info.precision =
+            (*entry)->type == ValueType::real ? CoordinatePrecision::single_precision : CoordinatePrecision::double_precision;
+        for (std::size_t d = 0; d < 3; ++d) grid_.info.stored_around[d] = real(d, 0);
         for (std::size_t v = 0; v < values->size(); ++v) {
             if (!std::isfinite((*values)[v]))
                 return fail("F006", (*entry)->place, "value " + std::to_string(v + 1) + " of the corner lines is not finite");

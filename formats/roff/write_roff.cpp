@@ -146,6 +146,9 @@ private:
         if (stopped()) return failure(FailureKind::cancelled, "F022", {grid_.info.name}, "stopped");
         write_depths();
         if (stopped()) return failure(FailureKind::cancelled, "F022", {grid_.info.name}, "stopped");
+        if (!std::isfinite(largest_))
+            return failure(FailureKind::cannot_hold, "F021", {grid_.info.name},
+                           "coordinates are beyond single precision, which ROFF stores");
         add_rounding_loss(grid_, rounded_, largest_, losses_);
         return {};
     }

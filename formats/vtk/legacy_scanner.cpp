@@ -11,6 +11,7 @@
 
 #include "base/number_text.h"
 #include "base/text_cursor.h"
+#include "base/wording.h"
 
 namespace geomend::vtk {
 
@@ -108,12 +109,6 @@ int hex_digit(char c) {
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
     if (c >= 'A' && c <= 'F') return c - 'A' + 10;
     return -1;
-}
-
-std::string quoted_start(std::string_view word) {
-    std::string text = "'";
-    for (const char c : word.substr(0, 40)) text += c >= ' ' && c <= '~' ? c : '?';
-    return text + (word.size() > 40 ? "...'" : "'");
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ void Writer::dims(const std::array<std::uint32_t, 3>& dims) {
 }
 
 void Writer::points(const ObjectInfo& info, std::span<const Vec3> points) {
-    const bool single = annotation(info, points_type_key) == "Float32" && exact_as_float(points);
+    const bool single = info.precision == CoordinatePrecision::single_precision && exact_as_float(points);
     out_ << "POINTS ";
     out_.number(std::uint64_t{points.size()}) << (single ? " float\n" : " double\n");
     if (single) arrays_.points_as_float(points);

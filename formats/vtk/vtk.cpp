@@ -73,36 +73,54 @@ constexpr Keeps block_keeps() {
     return k;
 }
 
+constexpr std::array legacy_options{
+    OptionRow{"encoding", OptionUse::writing, OptionValue::words, "text|binary|ascii", "text (the default, also called ascii) or binary"},
+    OptionRow{"version", OptionUse::writing, OptionValue::words, "5.1|4.2", "version of the file; older readers understand 4.2"},
+};
+constexpr std::array xml_options{
+    OptionRow{"encoding", OptionUse::writing, OptionValue::words, "appended|ascii", "raw data at the end (the default), or text"},
+    OptionRow{"compress", OptionUse::writing, OptionValue::words, "yes|no", "compressed by zlib, or not (the default)"},
+};
+
+// What all of them do.
+constexpr Format of_family(Format row) {
+    row.family = "vtk";
+    row.flat_meshes = row.elevations = true;
+    if (row.write != nullptr) row.options = row.write == write_legacy ? std::span<const OptionRow>(legacy_options) : xml_options;
+    return row;
+}
+
 constexpr std::string_view wells_note = "substance: markers, zones and curves of wells";
 constexpr std::string_view one_note = "substance: all but one object, and objects of other kinds";
 
 const std::array rows = {
-    Format{"vtk", "vtk", "VTK legacy", vtk, sniff_legacy, read_legacy, write_legacy, WriterWants::objects, legacy_keeps(),
-           "substance: all but one object; wells", "real files and clients"},
-    Format{"vtu", "vtk", "VTK XML unstructured grid", vtu, sniff<0>, read_vtk_xml, write_vtu, WriterWants::objects, cell_keeps(),
-           "substance: grids and rasters; markers, zones and curves of wells", "real files and clients"},
-    Format{"vtp", "vtk", "VTK XML poly data", vtp, sniff<1>, read_vtk_xml, write_vtp, WriterWants::objects, poly_keeps(),
-           "substance: cells, grids and rasters; markers, zones and curves of wells", "real files and clients"},
-    Format{"vts", "vtk", "VTK XML structured grid", vts, sniff<2>, read_vtk_xml, write_vts, WriterWants::objects, grid_keeps(), one_note,
-           "real files and clients"},
-    Format{"vti", "vtk", "VTK XML image", vti, sniff<3>, read_vtk_xml, write_vti, WriterWants::objects, raster_keeps(), one_note,
-           "fixtures and clients: no real file was found"},
-    Format{"vtr", "vtk", "VTK XML rectilinear grid", vtr, sniff<4>, read_vtk_xml, write_vtr, WriterWants::objects, raster_keeps(), one_note,
-           "fixtures and clients: no real file was found"},
-    Format{"vtm", "vtk", "VTK XML multi-block: a block per corner, line, surface and region", vtm, sniff<5>, read_vtk_xml, write_vtm,
-           WriterWants::brep, block_keeps(), wells_note, "real files and clients"},
-    Format{"pvd", "vtk", "ParaView series in time: a VTK XML file per report step", pvd, nullptr, nullptr, write_pvd, WriterWants::objects,
-           cell_keeps(), "substance: models; markers, zones and curves of wells", "fixtures and clients: made from restart files"},
-    Format{"pvtu", "vtk", "VTK XML unstructured grid in pieces", pvtu, sniff<6>, read_vtk_xml, nullptr, WriterWants::objects, cell_keeps(),
-           "", "real files"},
-    Format{"pvtp", "vtk", "VTK XML poly data in pieces", pvtp, sniff<7>, read_vtk_xml, nullptr, WriterWants::objects, poly_keeps(), "",
-           "fixtures only: no real file was found"},
-    Format{"pvts", "vtk", "VTK XML structured grid in pieces", pvts, sniff<8>, read_vtk_xml, nullptr, WriterWants::objects, grid_keeps(),
-           "", "fixtures only: no real file was found"},
-    Format{"pvti", "vtk", "VTK XML image in pieces", pvti, sniff<9>, read_vtk_xml, nullptr, WriterWants::objects, raster_keeps(), "",
-           "fixtures only: no real file was found"},
-    Format{"pvtr", "vtk", "VTK XML rectilinear grid in pieces", pvtr, sniff<10>, read_vtk_xml, nullptr, WriterWants::objects,
-           raster_keeps(), "", "fixtures only: no real file was found"},
+    of_family({"vtk", "vtk", "VTK legacy", vtk, sniff_legacy, read_legacy, write_legacy, WriterWants::objects, legacy_keeps(),
+               "substance: all but one object; wells", "real files and clients"}),
+    of_family({"vtu", "vtk", "VTK XML unstructured grid", vtu, sniff<0>, read_vtk_xml, write_vtu, WriterWants::objects, cell_keeps(),
+               "substance: grids and rasters; markers, zones and curves of wells", "real files and clients"}),
+    of_family({"vtp", "vtk", "VTK XML poly data", vtp, sniff<1>, read_vtk_xml, write_vtp, WriterWants::objects, poly_keeps(),
+               "substance: cells, grids and rasters; markers, zones and curves of wells", "real files and clients"}),
+    of_family({"vts", "vtk", "VTK XML structured grid", vts, sniff<2>, read_vtk_xml, write_vts, WriterWants::objects, grid_keeps(),
+               one_note, "real files and clients"}),
+    of_family({"vti", "vtk", "VTK XML image", vti, sniff<3>, read_vtk_xml, write_vti, WriterWants::objects, raster_keeps(), one_note,
+               "fixtures and clients: no real file was found"}),
+    of_family({"vtr", "vtk", "VTK XML rectilinear grid", vtr, sniff<4>, read_vtk_xml, write_vtr, WriterWants::objects, raster_keeps(),
+               one_note, "fixtures and clients: no real file was found"}),
+    of_family({"vtm", "vtk", "VTK XML multi-block: a block per corner, line, surface and region", vtm, sniff<5>, read_vtk_xml, write_vtm,
+               WriterWants::brep, block_keeps(), wells_note, "real files and clients"}),
+    of_family({"pvd", "vtk", "ParaView series in time: a VTK XML file per report step", pvd, nullptr, nullptr, write_pvd,
+               WriterWants::objects, cell_keeps(), "substance: models; markers, zones and curves of wells",
+               "fixtures and clients: made from restart files"}),
+    of_family({"pvtu", "vtk", "VTK XML unstructured grid in pieces", pvtu, sniff<6>, read_vtk_xml, nullptr, WriterWants::objects,
+               cell_keeps(), "", "real files"}),
+    of_family({"pvtp", "vtk", "VTK XML poly data in pieces", pvtp, sniff<7>, read_vtk_xml, nullptr, WriterWants::objects, poly_keeps(), "",
+               "fixtures only: no real file was found"}),
+    of_family({"pvts", "vtk", "VTK XML structured grid in pieces", pvts, sniff<8>, read_vtk_xml, nullptr, WriterWants::objects,
+               grid_keeps(), "", "fixtures only: no real file was found"}),
+    of_family({"pvti", "vtk", "VTK XML image in pieces", pvti, sniff<9>, read_vtk_xml, nullptr, WriterWants::objects, raster_keeps(), "",
+               "fixtures only: no real file was found"}),
+    of_family({"pvtr", "vtk", "VTK XML rectilinear grid in pieces", pvtr, sniff<10>, read_vtk_xml, nullptr, WriterWants::objects,
+               raster_keeps(), "", "fixtures only: no real file was found"}),
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "model/attribute_operations.h"
+
 namespace geomend::vtk {
 
 namespace {
@@ -164,17 +166,7 @@ std::string unknown_cell_name(std::int64_t vtk_type) {
 }
 
 void take_values(Attribute& attribute, std::span<const std::uint32_t> source) {
-    std::visit(
-        [&](auto& values) {
-            const std::size_t n = attribute.components;
-            std::decay_t<decltype(values)> taken;
-            taken.reserve(source.size() * n);
-            for (const std::uint32_t s : source) {
-                for (std::size_t c = 0; c < n; ++c) taken.push_back(values[s * n + c]);
-            }
-            values = std::move(taken);
-        },
-        attribute.values);
+    attribute.values = taken(attribute.values, source, attribute.components);
 }
 
 }  // namespace geomend::vtk

@@ -17,8 +17,6 @@ namespace geomend::vtk {
 
 /// Annotation of an object: the kind of dataset that held it ("PolyData", "UnstructuredGrid", ...).
 inline constexpr std::string_view dataset_key = "vtk.dataset";
-/// Annotation of an object: "Float32" where the file stored coordinates in single precision.
-inline constexpr std::string_view points_type_key = "vtk.points";
 /// Annotation of an attribute: "Scalars", "Vectors", "Normals", "TCoords", "Tensors", "GlobalIds", "PedigreeIds".
 inline constexpr std::string_view attribute_role_key = "vtk.role";
 /// Annotation of an edge attribute whose values stood on whole polylines ("polyline").

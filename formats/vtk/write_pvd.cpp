@@ -62,8 +62,8 @@ Object at_moment(const Object& object, const Moment& moment) {
 Result<std::vector<Loss>> write_pvd(const Dataset& dataset, OutputSet& out, const WriteOptions& options) {
     const auto settings = write_settings(options);
     if (!settings) return settings.why();
-    if (out.is_standard_output())
-        return failure(FailureKind::cannot_hold, "F021", {"standard output"}, "a .pvd needs a folder for its steps: name a file");
+    if (out.is_stream())
+        return failure(FailureKind::cannot_hold, "F021", {out.main_path().string()}, "a .pvd needs a folder for its steps: name a file");
     std::map<Moment, int> moments;
     for (const Object& object : dataset.objects) {
         Moment moment;
@@ -73,7 +73,7 @@ Result<std::vector<Loss>> write_pvd(const Dataset& dataset, OutputSet& out, cons
     }
     if (moments.empty()) moments[{}] = 0;
     std::vector<Loss> losses;
-    const std::string stem = out.main_path().stem().string();
+    const std::string stem = out.stem();
     OutputFile& index = out.main_file();
     index << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
     std::size_t step = 0;

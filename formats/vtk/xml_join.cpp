@@ -71,7 +71,7 @@ std::vector<Piece*> filled(std::vector<Piece>& pieces) {
 
 void note_type(ObjectInfo& info, const std::vector<Piece*>& pieces) {
     const bool single = !pieces.empty() && std::ranges::all_of(pieces, [](const Piece* p) { return p->single_precision; });
-    if (single) info.annotations.push_back({std::string(points_type_key), "Float32"});
+    if (single) info.precision = CoordinatePrecision::single_precision;
 }
 
 void append_cells(CellMesh& to, const CellMesh& from, std::uint32_t first_point) {

@@ -164,7 +164,7 @@ public:
         const auto fits = [](const Vec3& p) {
             return std::ranges::all_of(p, [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
         };
-        if (annotation(info, points_type_key) == "Float32" && std::ranges::all_of(points, fits)) {
+        if (info.precision == CoordinatePrecision::single_precision && std::ranges::all_of(points, fits)) {
             single_.reserve(3 * points.size());
             for (const Vec3& p : points) {
                 for (const double x : p) single_.push_back(static_cast<float>(x));

@@ -123,7 +123,7 @@ private:
     void set_kind(ObjectInfo& info) const { info.annotations.push_back({std::string(dataset_key), element_name(kind_)}); }
 
     void note_precision(ObjectInfo& info, const Piece& piece) const {
-        if (piece.single_precision) info.annotations.push_back({std::string(points_type_key), "Float32"});
+        if (piece.single_precision) info.precision = CoordinatePrecision::single_precision;
     }
 
     Result<Object> structured(Piece piece) {
@@ -281,7 +281,7 @@ bool apply_own_text(std::string_view text, Dataset& dataset) {
     const bool ours = apply_dataset_text(text, dataset);
     for (std::size_t i = 0; i < mine.size(); ++i) {
         std::vector<Annotation>& annotations = info_of(dataset.objects[i]).annotations;
-        std::erase_if(annotations, [](const Annotation& a) { return a.key == dataset_key || a.key == points_type_key; });
+        std::erase_if(annotations, [](const Annotation& a) { return a.key == dataset_key; });
         annotations.insert(annotations.end(), mine[i].begin(), mine[i].end());
     }
     return ours;

@@ -30,8 +30,7 @@ class BlockWriter {
 public:
     BlockWriter(OutputSet& out, const WriteOptions& options, const XmlWriteSettings& settings)
         : out_(out), options_(options), settings_(settings) {
-        stem_ = out.main_path().stem().string();
-        if (out.main_path().extension() == ".gz") stem_ = std::filesystem::path(stem_).stem().string();
+        stem_ = out.stem();
     }
 
     void add(std::vector<std::string> groups, std::string name, const Object& object) {
@@ -143,8 +142,8 @@ std::vector<bool> objects_in_breps(const Dataset& dataset) {
 Result<std::vector<Loss>> write_vtm(const Dataset& dataset, OutputSet& out, const WriteOptions& options) {
     const auto settings = write_settings(options);
     if (!settings) return settings.why();
-    if (out.is_standard_output())
-        return failure(FailureKind::cannot_hold, "F021", {"standard output"}, "a .vtm needs a folder for its blocks: name a file");
+    if (out.is_stream())
+        return failure(FailureKind::cannot_hold, "F021", {out.main_path().string()}, "a .vtm needs a folder for its blocks: name a file");
     std::vector<Loss> losses;
     const std::vector<bool> used = objects_in_breps(dataset);
     std::vector<ModelBlocks> models;

@@ -37,25 +37,28 @@ std::string temporary_suffix() {
     return ".geomend-" + std::to_string(::getpid()) + "-" + std::to_string(counter.fetch_add(1)) + ".tmp";
 }
 
-int write_all(int fd, const char* bytes, std::size_t size) {
-    while (size > 0) {
-        const ssize_t put = ::write(fd, bytes, size);
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) return errno;
-        bytes += put;
-        size -= static_cast<std::size_t>(put);
-    }
-    return 0;
+// Whatever the length of the target's name, the temporary one is no longer than names may be.
+fs::path temporary_beside(const fs::path& target) {
+    constexpr std::size_t longest = 200;
+    return target.parent_path() / (target.filename().string().substr(0, longest) + temporary_suffix());
+}
+
+fs::path temporary_for_stream() {
+    std::error_code error;
+    const fs::path folder = fs::temp_directory_path(error);
+    return (error ? fs::path("/tmp") : folder) / ("geomend" + temporary_suffix());
 }
 
 Failure unwritable(const fs::path& target, int error) {
-    return failure(FailureKind::unwritable, "F020", {target.string()},
+    if (error == ECANCELED) return failure(FailureKind::cancelled, "F022", {}, "stopped; no file was changed");
+    return failure(FailureKind::unwritable, "F020", {target == "-" ? "standard output" : target.string()},
                    "cannot write: " + std::error_code(error, std::generic_category()).message());
 }
 
 }  // namespace
 
-OutputFile::OutputFile(fs::path target, bool packed) : target_(std::move(target)) {
+OutputFile::OutputFile(fs::path name, bool packed) : name_(std::move(name)), target_(find_output_target(name_)), error_(target_.error) {
+    if (error_ != 0) return;
     if (packed) packer_ = std::make_unique<Packer>();
     open();
 }
@@ -65,21 +68,14 @@ OutputFile::~OutputFile() {
     if (!committed_ && !temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
+// A file that stands in for one with fewer permissions is nobody else's until it has them.
 void OutputFile::open() {
-    standard_output_ = target_ == "-";
-    const fs::path beside = standard_output_ ? fs::temp_directory_path() / "geomend" : target_;
-    temporary_ = beside.string() + temporary_suffix();
-    struct stat about {};
-    if (!standard_output_ && ::stat(target_.c_str(), &about) == 0 && S_ISDIR(about.st_mode)) {
-        error_ = EISDIR;
-        temporary_.clear();
-        return;
-    }
-    fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd_ < 0) {
-        error_ = errno;
-        temporary_.clear();
-    }
+    temporary_ = target_.is_file() ? temporary_beside(target_.path) : temporary_for_stream();
+    const bool ours = !target_.is_file() || target_.exists;
+    fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, ours ? 0600 : 0666);
+    if (fd_ < 0) error_ = errno;
+    else if (!target_.is_file()) ::unlink(temporary_.c_str());
+    if (fd_ < 0 || !target_.is_file()) temporary_.clear();
 }
 
 void OutputFile::put(const char* bytes, std::size_t size) {
@@ -118,20 +114,37 @@ void OutputFile::end() {
             put(reinterpret_cast<const char*>(packer_->out.data()), packer_->out.size() - z.avail_out);
         }
     }
-    if (standard_output_) return;
+    buffer_ = {};
+    packer_.reset();
+    if (target_.is_file()) close_file();
+}
+
+// No more than an error is kept of a file that is closed: results of very many files have no descriptor each.
+void OutputFile::close_file() {
     if (fd_ >= 0 && ::close(fd_) != 0 && error_ == 0) error_ = errno;
     fd_ = -1;
 }
 
-// A library may have replaced the file under its name: what stands there now is synced.
-void OutputFile::sync() {
-    if (error_ != 0 || standard_output_) return;
-    const int fd = ::open(temporary_.c_str(), O_RDWR | O_CLOEXEC);
-    if (fd < 0 || ::fsync(fd) != 0) error_ = errno;
-    if (fd >= 0) ::close(fd);
+void OutputFile::settle(bool to_disk) {
+    if (error_ != 0 || !target_.is_file() || (!to_disk && !target_.exists)) return;
+    fd_ = ::open(temporary_.c_str(), O_RDWR | O_CLOEXEC);
+    if (fd_ < 0) {
+        error_ = errno;
+        return;
+    }
+    keep_permissions(fd_, target_);
+    if (to_disk && ::fsync(fd_) != 0 && errno != EINVAL) error_ = errno;
+    close_file();
 }
 
-OutputSet::OutputSet(fs::path main_path) : main_path_(std::move(main_path)) {}
+OutputSet::OutputSet(fs::path main_path) : main_path_(std::move(main_path)) { is_stream_ = !find_output_target(main_path_).is_file(); }
+
+std::string OutputSet::stem() const {
+    if (is_stream_) return {};
+    fs::path name = main_path_.filename();
+    if (name.extension() == ".gz") name = name.stem();
+    return name.stem().string();
+}
 
 OutputSet::~OutputSet() {
     files_.clear();
@@ -147,9 +160,9 @@ void OutputSet::make_folder(const fs::path& folder) {
     if (fs::create_directory(folder, error)) made_folders_.push_back(folder);
 }
 
-OutputFile& OutputSet::add(fs::path target) {
-    const bool packed = target.extension() == ".gz";
-    files_.push_back(std::unique_ptr<OutputFile>(new OutputFile(std::move(target), packed)));
+OutputFile& OutputSet::add(fs::path name) {
+    const bool packed = name.extension() == ".gz";
+    files_.push_back(std::unique_ptr<OutputFile>(new OutputFile(std::move(name), packed)));
     return *files_.back();
 }
 
@@ -169,29 +182,52 @@ OutputFile& OutputSet::companion(const fs::path& path) {
 
 namespace {
 
-// Sends a finished temporary file to standard output.
-int send_to_standard_output(int fd) {
-    if (::lseek(fd, 0, SEEK_SET) < 0) return errno;
-    std::vector<char> block(std::size_t{1} << 20);
-    for (;;) {
-        const ssize_t got = ::read(fd, block.data(), block.size());
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return errno;
-        if (got == 0) return 0;
-        if (const int error = write_all(STDOUT_FILENO, block.data(), static_cast<std::size_t>(got)); error != 0) return error;
-    }
-}
-
 struct Renamed {
     fs::path target;
     fs::path backup;  // empty where there was nothing before
 };
 
+// Of two names of one file a rename leaves both.
+void take_back(const Renamed& r) {
+    if (r.backup.empty()) return;
+    std::rename(r.backup.c_str(), r.target.c_str());
+    ::unlink(r.backup.c_str());
+}
+
 void undo(const std::vector<Renamed>& done) {
     for (auto r = done.rbegin(); r != done.rend(); ++r) {
         if (r->backup.empty()) ::unlink(r->target.c_str());
-        else std::rename(r->backup.c_str(), r->target.c_str());
+        else take_back(*r);
     }
+}
+
+// Devices and pipes are never renamed over, also where they came while we wrote.
+int refuse_what_is_no_file(const fs::path& target) {
+    struct stat about {};
+    if (::lstat(target.c_str(), &about) != 0) return errno == ENOENT ? 0 : errno;
+    return S_ISREG(about.st_mode) ? 0 : EEXIST;
+}
+
+// A second name for what the target is now, so that there is a file under its own name all the while.
+int keep_aside(Renamed& r) {
+    r.backup = temporary_beside(r.target);
+    if (::link(r.target.c_str(), r.backup.c_str()) == 0) return 0;
+    if (errno == ENOENT) {
+        r.backup.clear();
+        return 0;
+    }
+    return std::rename(r.target.c_str(), r.backup.c_str()) == 0 ? 0 : errno;  // not every file system has links
+}
+
+int put_in_place(const fs::path& temporary, Renamed& r, bool keep_old) {
+    if (const int error = refuse_what_is_no_file(r.target); error != 0) return error;
+    if (keep_old) {
+        if (const int error = keep_aside(r); error != 0) return error;
+    }
+    if (std::rename(temporary.c_str(), r.target.c_str()) == 0) return 0;
+    const int error = errno;
+    take_back(r);
+    return error;
 }
 
 // One call for thousands of pieces is a hundred times faster than one for each.
@@ -205,43 +241,41 @@ int sync_file_system(const fs::path& a_file_of_it) {
 
 }  // namespace
 
-Result<void> OutputSet::commit() {
+// All that can fail before anything is seen.
+Result<void> OutputSet::prepare(const Monitor* monitor) {
     constexpr std::size_t few = 16;
     for (const auto& file : files_) {
         file->end();
-        if (files_.size() <= few) file->sync();
-        if (file->error_ != 0) return unwritable(file->target_, file->error_);
+        file->settle(files_.size() <= few);
+        if (file->error_ != 0) return unwritable(file->name_, file->error_);
     }
     if (files_.size() > few) {
-        if (const int error = sync_file_system(files_.back()->temporary_); error != 0) return unwritable(main_path_, error);
+        const auto on_disk = std::ranges::find_if(files_, [](const auto& file) { return file->target_.is_file(); });
+        const int error = on_disk == files_.end() ? 0 : sync_file_system((*on_disk)->temporary_);
+        if (error != 0) return unwritable(main_path_, error);
     }
-    // With one file a rename is atomic. With several, the old ones are kept aside until all are in place.
+    if (monitor != nullptr && monitor->stopped()) return unwritable(main_path_, ECANCELED);
+    return {};
+}
+
+Result<void> OutputSet::commit(const Monitor* monitor) {
+    if (auto prepared = prepare(monitor); !prepared) return prepared;
+    // One rename is atomic. Where more can fail after it, the old files are kept aside until all is in place.
     std::vector<Renamed> done;
-    const bool several = files_.size() > 1;
+    const auto give_up = [&](const fs::path& name, int error) {
+        undo(done);
+        return unwritable(name, error);
+    };
     for (const auto& file : files_) {
-        if (file->standard_output_) continue;
-        Renamed r{file->target_, {}};
-        std::error_code ignored;
-        if (several && fs::exists(r.target, ignored)) {
-            r.backup = r.target.string() + temporary_suffix();
-            if (std::rename(r.target.c_str(), r.backup.c_str()) != 0) {
-                const int error = errno;
-                undo(done);
-                return unwritable(file->target_, error);
-            }
-        }
-        if (std::rename(file->temporary_.c_str(), r.target.c_str()) != 0) {
-            const int error = errno;
-            if (!r.backup.empty()) std::rename(r.backup.c_str(), r.target.c_str());
-            undo(done);
-            return unwritable(file->target_, error);
-        }
+        if (!file->target_.is_file()) continue;
+        Renamed r{file->target_.path, {}};
+        if (const int error = put_in_place(file->temporary_, r, files_.size() > 1); error != 0) return give_up(file->name_, error);
         file->committed_ = true;
         done.push_back(std::move(r));
     }
     for (const auto& file : files_) {
-        if (!file->standard_output_) continue;
-        if (const int error = send_to_standard_output(file->fd_); error != 0) return unwritable("standard output", error);
+        if (file->target_.is_file()) continue;
+        if (const int error = send_to_stream(file->fd_, file->target_, monitor); error != 0) return give_up(file->name_, error);
     }
     for (const Renamed& r : done) {
         if (!r.backup.empty()) ::unlink(r.backup.c_str());

@@ -41,6 +41,18 @@ bool is_utf8(std::string_view bytes) {
     return true;
 }
 
+std::string valid_utf8(std::string_view bytes) {
+    std::string text;
+    text.reserve(bytes.size());
+    while (!bytes.empty()) {
+        const std::size_t n = sequence_length(bytes);
+        if (n == 0) text += "\xef\xbf\xbd";
+        else text.append(bytes.substr(0, n));
+        bytes.remove_prefix(n == 0 ? 1 : n);
+    }
+    return text;
+}
+
 std::string latin1_to_utf8(std::string_view bytes) {
     std::string text;
     text.reserve(bytes.size());

@@ -100,6 +100,7 @@ void stop_on_signals() {
     ::sigaction(SIGINT, &action, nullptr);
     ::sigaction(SIGTERM, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of the write
+    std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that may not grow
     std::signal(SIGCHLD, SIG_DFL);  // where it is ignored nobody learns how a worker ended
 }
 

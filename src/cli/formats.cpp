@@ -42,6 +42,24 @@ const char* word(Keeping k) {
     return words[static_cast<std::size_t>(k)];
 }
 
+const char* word(OptionUse use) {
+    constexpr const char* words[] = {"reading", "writing", "reading and writing"};
+    return words[static_cast<std::size_t>(use)];
+}
+
+// The words that are allowed, or how the value is written.
+Json values_json(const OptionRow& row) {
+    if (row.kind != OptionValue::words) return row.values;
+    Json words = Json::array();
+    std::string_view rest = row.values;
+    for (std::size_t end = 0; end != std::string_view::npos;) {
+        end = rest.find('|');
+        words.push_back(rest.substr(0, end));
+        if (end != std::string_view::npos) rest.remove_prefix(end + 1);
+    }
+    return words;
+}
+
 std::string table_json() {
     Json all = Json::array();
     for (const Format& f : all_formats()) {
@@ -56,6 +74,10 @@ std::string table_json() {
         j["keeps"] = std::move(keeps);
         j["loss"] = f.lossy_note;
         j["tried_on"] = f.tried_on;
+        Json options = Json::array();
+        for (const OptionRow& o : f.options)
+            options.push_back({{"key", o.key}, {"used_in", word(o.use)}, {"values", values_json(o)}, {"meaning", o.meaning}});
+        j["options"] = std::move(options);
         all.push_back(std::move(j));
     }
     return json_text(all);
@@ -81,6 +103,9 @@ std::string table_text() {
         append_list(text, f, Keeping::yes, "keeps");
         append_list(text, f, Keeping::partly, "keeps partly");
         if (!f.lossy_note.empty()) text += "    loses: " + std::string(f.lossy_note) + '\n';
+        for (const OptionRow& o : f.options)
+            text += "    option " + std::string(o.key) + "=" + std::string(o.values) + " (" + word(o.use) + "): " + std::string(o.meaning) +
+                    '\n';
         if (!f.tried_on.empty()) text += "    tried on: " + std::string(f.tried_on) + '\n';
     }
     return text;

@@ -5,6 +5,8 @@
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "formats/options.h"
+#include "pipeline/command_options.h"
 #include "pipeline/complexity_report.h"
 
 namespace geomend::cli {
@@ -37,7 +39,8 @@ ExitStatus run(const InfoOptions& o) {
     if (!options) return report(options.why());
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
-    const LoadOptions load{o.from, std::move(*options), &monitor};
+    if (auto known = checked_options(*options, {{}, nullptr, info_option_rows()}); !known) return report(known.why());
+    const LoadOptions load{o.from, std::move(*options), &monitor, info_option_rows(), o.files.size() > 1};
     const auto measures = complexity_options(load.options, &monitor);
     if (!measures) return report(measures.why());
     const bool measured = o.complexity || !o.sites.empty();

@@ -66,10 +66,10 @@ void tell_losses(const std::vector<Loss>& losses, bool verbose) {
 ExitStatus run(const RepairOptions& o) {
     if (o.json && o.output == "-")
         return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
-    DebrisFolder debris(o.debris, o.max_findings);
-    if (auto targets = check_targets(o, debris); !targets) return report(targets.why());
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
+    DebrisFolder debris(o.debris, o.max_findings, &monitor);
+    if (auto targets = check_targets(o, debris); !targets) return report(targets.why());
     auto request = request_of(o, monitor);
     if (!request) return report(request.why());
     request->inspect = inspection(o, debris, 1);
@@ -80,7 +80,7 @@ ExitStatus run(const RepairOptions& o) {
     Report all = empty_report(o);
     all.files.push_back(std::move(repaired->file));
     for (const std::string& file : o.reports) {
-        if (auto written = write_report(all, file); !written) status = worse(status, report(written.why()));
+        if (auto written = write_report(all, file, &monitor); !written) status = worse(status, report(written.why()));
     }
     if (!o.quiet) tell_losses(repaired->losses, o.verbose);
     if (o.json) return worse(status, print(report_json(all)));

@@ -11,6 +11,8 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/validate_many.h"
+#include "formats/options.h"
+#include "pipeline/command_options.h"
 #include "pipeline/scene.h"
 #include "report/baseline.h"
 #include "validators/readiness.h"
@@ -118,10 +120,11 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     auto checks = check_options(o, o, &monitor);
     if (!checks) return report(checks.why());
     checks->target = o.target;
-    const LoadOptions load{o.from, std::move(*options), &monitor};
+    if (auto known = checked_options(*options, {{}, nullptr, validate_option_rows()}); !known) return report(known.why());
+    const LoadOptions load{o.from, std::move(*options), &monitor, validate_option_rows(), o.is_worker() && o.run_size > 1};
     if (o.is_worker()) return work(o, load, *checks);
 
-    DebrisFolder debris(o.debris, o.max_findings);
+    DebrisFolder debris(o.debris, o.max_findings, &monitor);
     if (auto targets = check_targets(o, debris); !targets) return report(targets.why());
     Baseline baseline;
     if (!o.baseline.empty()) {
@@ -136,7 +139,7 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
         many ? judge_many(command, o, files, monitor, baseline, debris, status) : judge_here(o, load, *checks, baseline, debris, status);
     if (!all) return report(all.why());
     for (const std::string& file : o.reports) {
-        if (auto written = write_report(*all, file); !written) status = worse(status, report(written.why()));
+        if (auto written = write_report(*all, file, &monitor); !written) status = worse(status, report(written.why()));
     }
     if (o.json) return worse(status, print(report_json(*all)));
     if (o.quiet) return status;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/predicates.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -145,6 +146,16 @@ int orientation_2d(const Vec3& a, const Vec3& b, const Vec3& c, unsigned axis) {
     if (std::abs(det) > 5e-16 * size) return sign_of(det);  // four roundings of 2^-53 in each term
     if (size == 0) return 0;
     return exact_orientation_2d(a, b, c, i, j);
+}
+
+unsigned main_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 n = cross(minus(b, a), minus(c, a));
+    std::array<unsigned, 3> axes{0, 1, 2};
+    std::sort(axes.begin(), axes.end(), [&](unsigned i, unsigned j) { return std::abs(n[i]) > std::abs(n[j]); });
+    for (const unsigned axis : axes) {
+        if (orientation_2d(a, b, c, axis) != 0) return axis;
+    }
+    return axes[0];
 }
 
 bool in_line(const Vec3& a, const Vec3& b, const Vec3& c) {

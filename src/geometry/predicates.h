@@ -18,6 +18,10 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 /// far end of that axis, 0 where they are in line when it is dropped.
 int orientation_2d(const Vec3& a, const Vec3& b, const Vec3& c, unsigned axis);
 
+/// The axis to drop so that a triangle keeps its area as far as may be, for orientation_2d() in its plane, which is not 0 then.
+/// \pre the points are not in line
+unsigned main_axis(const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// Whether three points lie on one line, or two of them at one place.
 bool in_line(const Vec3& a, const Vec3& b, const Vec3& c);
 

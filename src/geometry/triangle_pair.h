@@ -6,19 +6,9 @@
 #include <span>
 
 #include "base/vec3.h"
-#include "model/triangle_soup.h"
+#include "geometry/contact.h"
 
 namespace geomend {
-
-/// How two triangles meet, apart from the vertices and edges that they share by number. What both have in common is
-/// convex: nothing, a point, a segment or a flat polygon; the kinds tell these apart.
-enum class Meeting : std::uint8_t {
-    none,      ///< in nothing but shared vertices and edges
-    point,     ///< in one point that is no shared vertex: a vertex of one on the other, or two edges that cross
-    touch,     ///< in a segment that lies on an edge of one or of both; nothing passes through (T-contact)
-    crossing,  ///< in a segment that runs through the inside of both
-    overlap    ///< in a common area: both lie in one plane; the same triangle twice, too
-};
 
 struct TriangleMeeting {
     Meeting kind = Meeting::none;

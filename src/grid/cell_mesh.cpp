@@ -5,8 +5,10 @@
 #include <array>
 #include <atomic>
 
+#include "base/big_array.h"
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
+#include "grid/cell_faces.h"
 #include "grid/cell_geometry.h"
 #include "grid/pillar_nodes.h"
 #include "grid/pinched_cell.h"
@@ -14,8 +16,6 @@
 namespace geomend::grid {
 
 namespace {
-
-constexpr std::uint32_t nobody = 0xffffffffu;
 
 void take_info(const CornerPointGrid& grid, Cells& cells) {
     ObjectInfo& info = cells.mesh.info;
@@ -25,7 +25,6 @@ void take_info(const CornerPointGrid& grid, Cells& cells) {
     info.feature = grid.info.feature;
     info.crs = grid.info.crs;
     info.groups = grid.info.groups;
-    info.attributes = cell_attributes(grid, cells.source);
 }
 
 void list_collapsed(const CornerPointGrid& grid, std::span<const std::uint8_t> present, Cells& cells) {
@@ -34,91 +33,43 @@ void list_collapsed(const CornerPointGrid& grid, std::span<const std::uint8_t> p
     }
 }
 
-Attribute picked(const Attribute& from, std::span<const std::uint32_t> rows) {
-    Attribute to = from;
-    std::visit(
-        [&](auto& values) {
-            auto all = std::move(values);
-            values.clear();
-            values.reserve(rows.size() * from.components);
-            for (const std::uint32_t row : rows) {
-                for (std::uint32_t c = 0; c < from.components; ++c) values.push_back(all[std::size_t{row} * from.components + c]);
-            }
-        },
-        to.values);
-    return to;
-}
-
-// Faces of each cell, in the order in which they were made.
-struct FacesOfCells {
-    std::vector<std::uint64_t> first;
-    std::vector<std::uint32_t> faces;
-
-    FacesOfCells(const GridFaces& all, std::size_t cells) : first(cells + 1, 0) {
-        for (const auto& f : all.faces) {
-            ++first[f.first + 1];
-            if (f.second != nobody) ++first[f.second + 1];
-        }
-        for (std::size_t c = 0; c < cells; ++c) first[c + 1] += first[c];
-        faces.resize(first.back());
-        std::vector<std::uint64_t> at(first.begin(), first.end() - 1);
-        for (std::uint32_t f = 0; f < all.faces.size(); ++f) {
-            faces[at[all.faces[f].first]++] = f;
-            if (all.faces[f].second != nobody) faces[at[all.faces[f].second]++] = f;
+// The distinct values of a list, ascending. Lists are short: a look at all that were found costs less than sorting.
+void find_distinct(std::span<const std::uint32_t> all, std::vector<std::uint32_t>& distinct) {
+    distinct.clear();
+    if (all.size() > 48) {
+        distinct.assign(all.begin(), all.end());
+    } else {
+        for (const std::uint32_t n : all) {
+            if (std::ranges::find(distinct, n) == distinct.end()) distinct.push_back(n);
         }
     }
-};
-
-// Lengths first, so that all cells can be filled at the same time.
-void add_cell_faces(const GridFaces& faces, const FacesOfCells& own, bool turn_first, Cells& cells) {
-    CellMesh& mesh = cells.mesh;
-    mesh.cell_faces.reserve(cells.source.size() + 1);
-    mesh.cell_faces.push_back(0);
-    for (const std::uint32_t c : cells.source) mesh.cell_faces.push_back(mesh.cell_faces.back() + own.first[c + 1] - own.first[c]);
-    mesh.face_offsets.reserve(mesh.cell_faces.back() + 1);
-    mesh.face_offsets.push_back(0);
-    for (const std::uint32_t c : cells.source) {
-        for (std::uint64_t f = own.first[c]; f < own.first[c + 1]; ++f)
-            mesh.face_offsets.push_back(mesh.face_offsets.back() + faces.polygon(own.faces[f]).size());
-    }
-    mesh.face_nodes.resize(mesh.face_offsets.back());
-    parallel_blocks(cells.source.size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t s = first; s < last; ++s) {
-            const std::uint32_t c = cells.source[s];
-            auto to = mesh.face_nodes.begin() + static_cast<std::ptrdiff_t>(mesh.face_offsets[mesh.cell_faces[s]]);
-            for (std::uint64_t f = own.first[c]; f < own.first[c + 1]; ++f) {
-                const auto polygon = faces.polygon(own.faces[f]);
-                const bool turn = (faces.faces[own.faces[f]].first == c) == turn_first;
-                to = turn ? std::ranges::reverse_copy(polygon, to).out : std::ranges::copy(polygon, to).out;
-            }
-        }
-    });
+    std::ranges::sort(distinct);
+    distinct.erase(std::ranges::unique(distinct).begin(), distinct.end());
 }
 
-// The distinct corners of the faces of each cell, ascending.
+// The distinct corners of the faces of each cell, ascending. Made in pieces, so that they hardly lie in memory twice.
 void add_cell_nodes(CellMesh& mesh) {
-    constexpr std::size_t at_once = 8192;
-    const std::size_t cells = mesh.types.size(), blocks = (cells + at_once - 1) / at_once;
-    std::vector<std::vector<std::uint32_t>> nodes(blocks);
-    mesh.offsets.resize(cells + 1);
-    mesh.offsets[0] = 0;
-    parallel_for_each_index(blocks, [&](std::size_t block) {
-        std::vector<std::uint32_t> distinct;
-        for (std::size_t c = block * at_once; c < std::min(cells, (block + 1) * at_once); ++c) {
-            const auto* const corners = mesh.face_nodes.data();
-            distinct.assign(corners + mesh.face_offsets[mesh.cell_faces[c]], corners + mesh.face_offsets[mesh.cell_faces[c + 1]]);
-            std::ranges::sort(distinct);
-            distinct.erase(std::ranges::unique(distinct).begin(), distinct.end());
-            nodes[block].insert(nodes[block].end(), distinct.begin(), distinct.end());
-            mesh.offsets[c + 1] = distinct.size();
-        }
-    });
-    for (std::size_t c = 0; c < cells; ++c) mesh.offsets[c + 1] += mesh.offsets[c];
-    mesh.nodes.reserve(mesh.offsets.back());
-    for (auto& part : nodes) {
-        mesh.nodes.insert(mesh.nodes.end(), part.begin(), part.end());
-        part = {};
+    constexpr std::size_t block = 8192, blocks_at_once = 64;
+    const std::size_t cells = mesh.types.size(), blocks = (cells + block - 1) / block;
+    std::vector<std::vector<std::uint32_t>> nodes(blocks_at_once);
+    make_big(mesh.offsets, cells + 1);
+    mesh.nodes.reserve(cells * 8 + cells / 2);
+    for (std::size_t start = 0; start < blocks; start += blocks_at_once) {
+        const std::size_t count = std::min(blocks_at_once, blocks - start);
+        parallel_for_each_index(count, [&](std::size_t part) {
+            std::vector<std::uint32_t> distinct;
+            nodes[part].clear();
+            const std::size_t first = (start + part) * block;
+            for (std::size_t c = first; c < std::min(cells, first + block); ++c) {
+                const std::uint64_t from = mesh.face_offsets[mesh.cell_faces[c]], to = mesh.face_offsets[mesh.cell_faces[c + 1]];
+                find_distinct({mesh.face_nodes.data() + from, static_cast<std::size_t>(to - from)}, distinct);
+                nodes[part].insert(nodes[part].end(), distinct.begin(), distinct.end());
+                mesh.offsets[c + 1] = distinct.size();
+            }
+        });
+        for (std::size_t part = 0; part < count; ++part) mesh.nodes.insert(mesh.nodes.end(), nodes[part].begin(), nodes[part].end());
     }
+    for (std::size_t c = 0; c < cells; ++c) mesh.offsets[c + 1] += mesh.offsets[c];
 }
 
 }  // namespace
@@ -138,41 +89,6 @@ bool right_handed(const CornerPointGrid& grid) {
     return votes >= 0;
 }
 
-std::vector<Attribute> cell_attributes(const CornerPointGrid& grid, std::span<const std::uint32_t> source) {
-    std::vector<std::int32_t> i, j, k, active;
-    std::vector<std::int64_t> global;
-    std::vector<std::int32_t> rank(grid.activity.empty() ? 0 : grid.cell_count());
-    std::int32_t next = 0;
-    for (std::size_t c = 0; c < rank.size(); ++c) rank[c] = grid.is_active(c) ? ++next : 0;
-    for (const std::uint32_t cell : source) {
-        const auto at = grid.ijk(cell);
-        i.push_back(static_cast<std::int32_t>(at[0] + 1));
-        j.push_back(static_cast<std::int32_t>(at[1] + 1));
-        k.push_back(static_cast<std::int32_t>(at[2] + 1));
-        global.push_back(std::int64_t{cell} + 1);
-        active.push_back(rank.empty() ? static_cast<std::int32_t>(cell + 1) : rank[cell]);
-    }
-    std::vector<Attribute> all;
-    const auto add = [&](const char* name, AttributeValues values) {
-        if (find_attribute(grid.info.attributes, name, AttributeLocation::cell) != nullptr) return;
-        Attribute a;
-        a.name = name;
-        a.location = AttributeLocation::cell;
-        a.values = std::move(values);
-        all.push_back(std::move(a));
-    };
-    add("I", std::move(i));
-    add("J", std::move(j));
-    add("K", std::move(k));
-    add("GlobalIndex", std::move(global));
-    add("ActiveIndex", std::move(active));
-    for (const Attribute& a : grid.info.attributes) {
-        if (a.location == AttributeLocation::cell) all.push_back(picked(a, source));
-        else if (a.location == AttributeLocation::object) all.push_back(a);
-    }
-    return all;
-}
-
 Cells plain_cells(const CornerPointGrid& grid) {
     Cells cells;
     const std::vector<std::uint8_t> present = present_cells(grid);
@@ -190,25 +106,27 @@ Cells plain_cells(const CornerPointGrid& grid) {
     }
     list_collapsed(grid, present, cells);
     take_info(grid, cells);
+    cells.mesh.info.attributes = cell_attributes(grid, cells.source);
     return cells;
 }
 
-Cells conforming_cells(const CornerPointGrid& grid) { return conforming_cells(grid, conforming_faces(grid)); }
-
-Cells conforming_cells(const CornerPointGrid& grid, const GridFaces& faces) {
+Cells conforming_cells(const CornerPointGrid& grid) {
     Cells cells;
-    for (std::uint32_t c = 0; c < grid.cell_count(); ++c) {
-        if (faces.present[c] != 0) cells.source.push_back(c);
-    }
-    const FacesOfCells own(faces, grid.cell_count());
-    cells.mesh.points = faces.points;
-    cells.mesh.types.assign(cells.source.size(), CellType::polyhedron);
-    // Elevation turns the hand round: what leaves the cell in (I,J,K) enters it where the grid is right-handed.
-    add_cell_faces(faces, own, right_handed(grid), cells);
+    add_conforming_faces(grid, cells);
     add_cell_nodes(cells.mesh);
-    cells.unmatched_columns = faces.unmatched_columns;
-    list_collapsed(grid, faces.present, cells);
     take_info(grid, cells);
+    cells.mesh.info.attributes = cell_attributes(grid, cells.source);
+    return cells;
+}
+
+Cells take_conforming_cells(CornerPointGrid& grid) {
+    Cells cells;
+    add_conforming_faces(grid, cells);
+    grid.depths = std::vector<double>();  // an empty list would keep the memory
+    grid.pillars = std::vector<double>();
+    add_cell_nodes(cells.mesh);
+    take_info(grid, cells);
+    cells.mesh.info.attributes = take_cell_attributes(grid, cells.source);
     return cells;
 }
 

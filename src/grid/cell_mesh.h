@@ -25,11 +25,14 @@ Cells plain_cells(const CornerPointGrid& grid);
 
 /// Polyhedra that fit face to face (conforming_faces).
 Cells conforming_cells(const CornerPointGrid& grid);
-Cells conforming_cells(const CornerPointGrid& grid, const GridFaces& faces);
+/// The same with less memory: of the grid pillars, depths and values of attributes of cells are gone afterwards.
+Cells take_conforming_cells(CornerPointGrid& grid);
 
 /// Attributes by which each cell is found again: I J K, GlobalIndex and ActiveIndex, all from 1, then all attributes of
 /// the grid's cells.
 std::vector<Attribute> cell_attributes(const CornerPointGrid& grid, std::span<const std::uint32_t> source);
+/// The same; the grid loses the values.
+std::vector<Attribute> take_cell_attributes(CornerPointGrid& grid, std::span<const std::uint32_t> source);
 
 /// True where most of the cells are right-handed in (x, y, depth).
 bool right_handed(const CornerPointGrid& grid);

@@ -59,16 +59,17 @@ void connect_row(const CornerPointGrid& grid, std::uint32_t j, PairSides& sides,
 }
 
 void connect_downwards(const CornerPointGrid& grid, std::uint32_t j, Connections& to, RowResult& row) {
-    for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
-        std::size_t above = grid.cell_count();
-        for (std::uint32_t k = 0; k < grid.dims[2]; ++k) {
-            const std::size_t cell = grid.cell(i, j, k);
-            if (to.present[cell] == 0) continue;
-            if (above < grid.cell_count() && stacked(grid, above, cell)) {
-                to.neighbours[above] |= Connections::below;
+    const std::size_t layer = std::size_t{grid.dims[0]} * grid.dims[1];
+    std::vector<std::uint32_t> above(grid.dims[0], grid.dims[2]);  // layer of the last present cell, per column
+    for (std::uint32_t k = 0; k < grid.dims[2]; ++k) {
+        for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
+            const std::size_t column = grid.cell(i, j, 0);
+            if (to.present[column + k * layer] == 0) continue;
+            if (above[i] < grid.dims[2] && stacked(grid, i, j, above[i], k)) {
+                to.neighbours[column + above[i] * layer] |= Connections::below;
                 ++row.internal;
             }
-            above = cell;
+            above[i] = k;
         }
     }
 }
@@ -83,14 +84,12 @@ std::size_t next_below(const CornerPointGrid& grid, std::span<const std::uint8_t
     return cells;
 }
 
-bool stacked(const CornerPointGrid& grid, std::size_t upper, std::size_t lower) {
-    const auto u = grid.ijk(upper), l = grid.ijk(lower);
-    if (!grid.reservoirs.empty() && pillar_set(grid, u[2]) != pillar_set(grid, l[2])) return false;
-    for (unsigned c = 0; c < 4; ++c) {
-        if (grid.depths[corner_index(grid.dims, u[0], u[1], u[2], c + 4)] != grid.depths[corner_index(grid.dims, l[0], l[1], l[2], c)])
-            return false;
-    }
-    return true;
+bool stacked(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::uint32_t upper, std::uint32_t lower) {
+    if (!grid.reservoirs.empty() && pillar_set(grid, upper) != pillar_set(grid, lower)) return false;
+    const double* bottom = grid.depths.data() + corner_index(grid.dims, i, j, upper, 4);
+    const double* top = grid.depths.data() + corner_index(grid.dims, i, j, lower, 0);
+    const std::size_t row = 2 * std::size_t{grid.dims[0]};
+    return bottom[0] == top[0] && bottom[1] == top[1] && bottom[row] == top[row] && bottom[row + 1] == top[row + 1];
 }
 
 void column_sides(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, CellFace face, std::span<Side> sides) {

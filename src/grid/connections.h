@@ -45,7 +45,8 @@ Connections connections(const CornerPointGrid& grid, SimulatedCells cells);
 std::size_t next_below(const CornerPointGrid& grid, std::span<const std::uint8_t> present, std::size_t cell);
 
 /// True where the bottom of one cell is the top of another of the same column, on all four pillars.
-bool stacked(const CornerPointGrid& grid, std::size_t upper, std::size_t lower);
+/// \param upper, lower layers of column (i,j)
+bool stacked(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::uint32_t upper, std::uint32_t lower);
 
 /// The sides that the cells of column (i,j) turn to a neighbour, one per layer; face is one of the four lateral ones.
 /// Pillar a is the one with the lower j (for i faces) or the lower i (for j faces).

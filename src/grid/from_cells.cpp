@@ -16,9 +16,7 @@ constexpr double double_rounding = 1.2e-16, single_rounding = 6e-8;
 Vec3 depth_down(const Vec3& p) { return {p[0], p[1], 0.0 - p[2]}; }
 
 double rounding_of(const ObjectInfo& info) {
-    const bool single =
-        std::ranges::any_of(info.annotations, [](const Annotation& a) { return a.key == "vtk.points" && a.value == "Float32"; });
-    return single ? single_rounding : double_rounding;
+    return info.precision == CoordinatePrecision::single_precision ? single_rounding : double_rounding;
 }
 
 void take_info(const ObjectInfo& from, CornerPointGrid& to) {

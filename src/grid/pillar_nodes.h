@@ -36,6 +36,8 @@ public:
 
     /// Positions, elevation-up.
     std::vector<Vec3> points(const CornerPointGrid& grid) const;
+    /// The same into an empty array, which may have room for more.
+    void add_points(const CornerPointGrid& grid, std::vector<Vec3>& to) const;
 
 private:
     std::vector<std::uint64_t> first_;  // per pillar

@@ -25,8 +25,14 @@ void push_between(std::vector<std::uint32_t>& polygon, std::uint32_t from, std::
 
 }  // namespace
 
-PlaneRow PlaneMaker::make(std::uint32_t j) {
-    row_ = {};
+void shift_crossings(FaceBatch& batch, std::uint32_t pillar_nodes, std::uint32_t shift) {
+    if (shift == 0) return;
+    for (std::uint32_t& node : batch.nodes) node += node >= pillar_nodes ? shift : 0;
+}
+
+void PlaneMaker::make(std::uint32_t j, PlaneRow& to) {
+    std::swap(row_, to);
+    row_.clear();
     plane_points_ = plane_faces_ = 0;
     row_.first.push_back(0);
     for (std::uint32_t i = 0; i <= grid_.dims[0]; ++i) {
@@ -35,7 +41,7 @@ PlaneRow PlaneMaker::make(std::uint32_t j) {
         if (i < grid_.dims[0]) across_j(i, j);
         end_plane();
     }
-    return std::move(row_);
+    std::swap(row_, to);
 }
 
 void PlaneMaker::across_i(std::uint32_t i, std::uint32_t j) {

@@ -24,6 +24,11 @@ struct FaceBatch {
         sizes.push_back(static_cast<std::uint32_t>(polygon.size()));
         nodes.insert(nodes.end(), polygon.begin(), polygon.end());
     }
+    void clear() {
+        faces.clear();
+        sizes.clear();
+        nodes.clear();
+    }
 };
 
 /// A crossing of two edges, as one of them sees it.
@@ -48,7 +53,17 @@ struct PlaneRow {
     std::span<const EdgeCrossing> of_plane(std::size_t plane) const {
         return {crossings.data() + first[plane], static_cast<std::size_t>(first[plane + 1] - first[plane])};
     }
+    void clear() {
+        batch.clear();
+        points.clear();
+        crossings.clear();
+        first.clear();
+        unmatched = 0;
+    }
 };
+
+/// Adds a shift to the numbers of crossings: those from `pillar_nodes` on.
+void shift_crossings(FaceBatch& batch, std::uint32_t pillar_nodes, std::uint32_t shift);
 
 /// Makes the rows of a grid, one after the other; rows may be made at the same time by makers of their own.
 class PlaneMaker {
@@ -57,8 +72,9 @@ public:
     PlaneMaker(const CornerPointGrid& grid, std::span<const std::uint8_t> present, const PillarNodes& nodes)
         : grid_(grid), present_(present), nodes_(nodes) {}
 
-    /// \param j row of pillars, 0 .. ny. Cost: linear in layers for columns that are in order.
-    PlaneRow make(std::uint32_t j);
+    /// \param j row of pillars, 0 .. ny
+    /// \param to loses what it held; its arrays are used again. Cost: linear in layers for columns that are in order.
+    void make(std::uint32_t j, PlaneRow& to);
 
 private:
     // The pillars at both ends of a plane, without the shift of the set of coordinate lines.

@@ -31,8 +31,7 @@ struct CornerPointGrid {
     /// 0 inactive, 1 active; with two porosities 1 matrix, 2 fracture, 3 both. Empty: all are active.
     std::vector<std::uint8_t> activity;
 
-    bool single_precision = false;  ///< the file stores float32
-    bool cylindrical = false;       ///< pillars hold radius, angle in degrees and depth
+    bool cylindrical = false;  ///< pillars hold radius, angle in degrees and depth
 
     /// Layers that a set of coordinate lines is for (COORDSYS); first and last count from 0.
     struct Reservoir {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/vec3.h"
 #include "model/attribute.h"
 #include "model/coordinate_system.h"
 #include "model/feature.h"
@@ -34,6 +35,9 @@ struct Annotation {
     std::string value;
 };
 
+/// The precision in which a file stores coordinates.
+enum class CoordinatePrecision : std::uint8_t { double_precision, single_precision };
+
 /// What every object has whatever its geometry.
 struct ObjectInfo {
     std::string name;
@@ -41,6 +45,10 @@ struct ObjectInfo {
     std::string role_text;  ///< the file's own word ("normal_fault"); empty: not stated
     std::string feature;    ///< geological feature that the object is a part of; empty: not stated
     CoordinateSystem crs;
+    /// How the file that the object was read from stores its coordinates. Text counts as double precision. Coordinates that are
+    /// computed anew are double precision.
+    CoordinatePrecision precision = CoordinatePrecision::double_precision;
+    Vec3 stored_around{0, 0, 0};  ///< offset that was added to what the file stores, in the object's own axes
     std::vector<Attribute> attributes;
     std::vector<NamedSet> sets;
     std::vector<Annotation> annotations;  ///< in file order

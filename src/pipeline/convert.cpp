@@ -5,7 +5,9 @@
 #include <new>
 
 #include "base/output.h"
+#include "formats/options.h"
 #include "formats/registry.h"
+#include "pipeline/command_options.h"
 #include "pipeline/grid_origin.h"
 #include "pipeline/grids.h"
 #include "pipeline/merge.h"
@@ -40,15 +42,19 @@ Result<void> refuse_unterminated(const Dataset& dataset, const ConvertRequest& r
     return why;
 }
 
-Result<Dataset> load_all(const ConvertRequest& request) {
-    const bool ignore_crs = option_value(request.load.options, "crs") == "ignore";
-    Result<Dataset> all = load(request.inputs.front(), request.load);
-    if (!all) return all;
-    if (auto ended = refuse_unterminated(*all, request); !ended) return std::move(ended).why();
-    for (std::size_t i = 1; i < request.inputs.size(); ++i) {
-        Result<Dataset> more = load(request.inputs[i], request.load);
+Result<Dataset> load_one(OpenedInput opened, const LoadOptions& options, const ConvertRequest& request) {
+    auto dataset = load(opened, options);
+    if (!dataset) return dataset;
+    if (auto ended = refuse_unterminated(*dataset, request); !ended) return std::move(ended).why();
+    return dataset;
+}
+
+Result<Dataset> load_all(std::vector<OpenedInput> opened, const LoadOptions& options, const ConvertRequest& request) {
+    const bool ignore_crs = option_value(options.options, "crs") == "ignore";
+    Result<Dataset> all = load_one(std::move(opened.front()), options, request);
+    for (std::size_t i = 1; all && i < opened.size(); ++i) {
+        Result<Dataset> more = load_one(std::move(opened[i]), options, request);
         if (!more) return more;
-        if (auto ended = refuse_unterminated(*more, request); !ended) return std::move(ended).why();
         if (!ignore_crs) {
             if (auto agreed = check_agreement(*all, request.inputs.front(), *more, request.inputs[i]); !agreed)
                 return std::move(agreed).why();
@@ -58,10 +64,31 @@ Result<Dataset> load_all(const ConvertRequest& request) {
     return all;
 }
 
+// Opens all inputs, so that options are checked against all formats in play before any of them is read.
+Result<std::vector<OpenedInput>> open_all(const ConvertRequest& request, const Format& target, LoadOptions& options) {
+    std::vector<OpenedInput> opened;
+    OptionsInPlay in_play{{}, &target, request.load.command.empty() ? convert_option_rows() : request.load.command};
+    // What no format and no command knows is refused before files are opened.
+    if (auto known = checked_options(request.load.options, in_play); !known) return std::move(known).why();
+    for (const std::string& path : request.inputs) {
+        auto one = open_input(path, request.load);
+        if (!one) return std::move(one).why();
+        in_play.read.push_back(one->format);
+        opened.push_back(std::move(*one));
+    }
+    auto checked = checked_options(request.load.options, in_play);
+    if (!checked) return std::move(checked).why();
+    options = request.load;
+    options.options = std::move(*checked);
+    return opened;
+}
+
 Result<void> make_like(Dataset& dataset, const Format& format, const ConvertRequest& request) {
     if (request.like.empty()) return make_grids(dataset, format, nullptr);
     LoadOptions options = request.load;
     options.from.clear();
+    options.one_of_many = true;
+    if (options.command.empty()) options.command = convert_option_rows();
     auto like = load(request.like, options);
     if (!like) return std::move(like).why();
     return make_grids(dataset, format, &*like);
@@ -93,7 +120,10 @@ using Change = std::function<Result<void>(Dataset&)>;
 Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Change& change) {
     const auto format = target_format(request);
     if (!format) return format.why();
-    auto dataset = load_all(request);
+    LoadOptions options;
+    auto opened = open_all(request, **format, options);
+    if (!opened) return std::move(opened).why();
+    auto dataset = load_all(std::move(*opened), options, request);
     if (!dataset) return std::move(dataset).why();
     const Monitor* monitor = request.load.monitor;
     if (monitor != nullptr && monitor->stopped()) return stopped();
@@ -102,9 +132,9 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Cha
         if (auto changed = change(*dataset); !changed) return std::move(changed).why();
     }
     if (auto made = make_like(*dataset, **format, request); !made) return std::move(made).why();
-    if (auto done = apply_grid_options(*dataset, request.load.options); !done) return std::move(done).why();
-    if (auto moved = move_grid_origins(*dataset, **format, request.load.options); !moved) return std::move(moved).why();
-    if (auto shaped = shape_grids(*dataset, **format, request.load.options); !shaped) return std::move(shaped).why();
+    if (auto done = apply_grid_options(*dataset, options.options); !done) return std::move(done).why();
+    if (auto moved = move_grid_origins(*dataset, **format, options.options); !moved) return std::move(moved).why();
+    if (auto shaped = shape_grids(*dataset, **format, options.options); !shaped) return std::move(shaped).why();
     shape_for(*dataset, **format);
 
     ConvertReport report;
@@ -112,13 +142,13 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Cha
     report.findings = std::move(dataset->findings);
     report.losses = std::move(dataset->losses);
     OutputSet output(request.output);
-    auto written = (*format)->write(*dataset, output, {request.load.options, monitor});
+    auto written = (*format)->write(*dataset, output, {options.options, monitor});
     if (!written) return std::move(written).why();
     for (Loss& loss : *written) add_loss(report.losses, std::move(loss));
     std::ranges::stable_sort(report.losses, {}, &Loss::loss_class);
     if (!request.lossy && loses_substance(report.losses)) return cannot_hold(request.output, **format, report.losses);
     if (monitor != nullptr && monitor->stopped()) return stopped();
-    if (auto committed = output.commit(); !committed) return std::move(committed).why();
+    if (auto committed = output.commit(monitor); !committed) return std::move(committed).why();
     return report;
 }
 

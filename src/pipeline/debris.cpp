@@ -5,6 +5,7 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <memory>
 
 #include "base/output.h"
 #include "formats/registry.h"
@@ -89,13 +90,17 @@ Dataset objects_of(const Scene& scene, const SceneMark& mark, const Finding& f, 
     return dataset;
 }
 
-Result<void> write_one(const Dataset& dataset, const std::filesystem::path& path) {
+using Outputs = std::vector<std::unique_ptr<OutputSet>>;
+
+// Written, but not in its place yet.
+Result<void> write_one(const Dataset& dataset, const std::filesystem::path& path, Outputs& outputs) {
     const auto format = format_for_writing(path.string());
     if (!format) return format.why();
-    OutputSet output(path);
-    auto written = (*format)->write(dataset, output, {});
+    outputs.push_back(std::make_unique<OutputSet>(path));
+    auto written = (*format)->write(dataset, *outputs.back(), {});
     if (!written) return std::move(written).why();
-    return output.commit();
+    outputs.back()->main_file().close();
+    return {};
 }
 
 Failure cannot_use(const std::string& folder, const std::string& why) {
@@ -132,6 +137,7 @@ Result<void> DebrisFolder::open() const {
 Result<void> DebrisFolder::write(ReportedFile& file) {
     file.debris.assign(file.findings.size(), {});
     const auto sorted = worst_first(file.findings);
+    Outputs outputs;
     for (std::size_t i = 0; i < std::min(most_, sorted.size()); ++i) {
         const auto number = static_cast<std::size_t>(sorted[i] - file.findings.data());
         const std::string name = debris_name(next_++, *sorted[i]);
@@ -139,9 +145,14 @@ Result<void> DebrisFolder::write(ReportedFile& file) {
         if (dataset.objects.empty()) continue;
         for (const char* extension : {".vtp", ".ts"}) {
             const std::filesystem::path path = std::filesystem::path(folder_) / (name + extension);
-            if (auto written = write_one(dataset, path); !written) return written;
+            if (monitor_ != nullptr && monitor_->stopped())
+                return failure(FailureKind::cancelled, "F022", {}, "stopped; no debris was written");
+            if (auto written = write_one(dataset, path, outputs); !written) return written;
             file.debris[number].push_back(path.string());
         }
+    }
+    for (const auto& output : outputs) {
+        if (auto committed = output->commit(); !committed) return committed;
     }
     return {};
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "base/monitor.h"
 #include "base/result.h"
 #include "report/report.h"
 
@@ -15,19 +16,23 @@ namespace geomend {
 class DebrisFolder {
 public:
     /// \param most findings of a file that are listed; the others are not written
-    explicit DebrisFolder(std::string folder, std::size_t most = static_cast<std::size_t>(-1)) : folder_(std::move(folder)), most_(most) {}
+    /// \param monitor may be null; must outlive this
+    explicit DebrisFolder(std::string folder, std::size_t most = static_cast<std::size_t>(-1), const Monitor* monitor = nullptr)
+        : folder_(std::move(folder)), most_(most), monitor_(monitor) {}
 
     /// Makes the folder where it is not there. Failure (F020): it cannot be made, or holds debris of an earlier run,
     /// which would be taken for that of this one.
     Result<void> open() const;
 
-    /// Writes the debris of a file in the order of its report, and names the files in file.debris. Failure (F020) where that
-    /// cannot be done. \pre file.scene has a mark for each finding
+    /// Writes the debris of a file in the order of its report, and names the files in file.debris. None appears before all are
+    /// written. Failure (F020) where that cannot be done, (cancelled) where the monitor says stop. \pre file.scene has a mark for each
+    /// finding
     Result<void> write(ReportedFile& file);
 
 private:
     std::string folder_;
     std::size_t most_, next_ = 1;
+    const Monitor* monitor_;
 };
 
 /// The start of the names of a finding's debris: "0001-B08-fault_1-horizon_2". Characters beyond letters, digits, '.', '_' and

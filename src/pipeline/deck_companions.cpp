@@ -44,7 +44,7 @@ void take_geometry(CornerPointGrid& from, CornerPointGrid& to) {
     to.pillars = std::move(from.pillars);
     to.depths = std::move(from.depths);
     to.reservoirs = std::move(from.reservoirs);
-    to.single_precision = from.single_precision;
+    to.info.precision = from.info.precision;
     to.cylindrical = from.cylindrical;
     if (to.activity.empty()) to.activity = std::move(from.activity);
     if (!to.map_axes) to.map_axes = from.map_axes;

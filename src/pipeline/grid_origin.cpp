@@ -33,8 +33,8 @@ Result<void> move_grid_origins(Dataset& dataset, const Format& target, const For
     const std::string_view origin = option_value(options, "origin");
     if (origin.empty() || origin == "keep") return {};
     if (origin != "local") return usage("--option origin=" + std::string(origin) + ": expected local or keep");
-    const bool holds_axes = target.family == "grdecl" || (target.family == "eclipse" && target.name != "init" && target.name != "finit");
-    if (!holds_axes) return usage("--option origin=local: " + std::string(target.title) + " holds no map axes to say where the origin is");
+    if (!target.map_axes)
+        return usage("--option origin=local: " + std::string(target.title) + " holds no map axes to say where the origin is");
     std::optional<grid::LocalFrame> frame;
     for (Object& object : dataset.objects) {
         auto* grid = std::get_if<CornerPointGrid>(&object);

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 #include "base/number_text.h"
+#include "base/parallel.h"
 #include "geometry/measures.h"
 #include "grid/boundary_model.h"
 #include "grid/cell_geometry.h"
@@ -72,21 +74,25 @@ Result<void> group_by(const std::string& name, const CornerPointGrid& grid, Cell
 }
 
 // Volumes of conformal cells follow triangles, those of the grid bilinear faces: the difference per region is told.
-void tell_volumes(const CornerPointGrid& grid, const grid::Cells& cells, std::string_view region_name, std::vector<Finding>& findings) {
+void tell_volumes(const std::string& grid_name, std::span<const double> trilinear, const grid::Cells& cells, std::string_view region_name,
+                  std::vector<Finding>& findings) {
     const Attribute* regions =
         region_name.empty() ? nullptr : find_attribute(cells.mesh.info.attributes, std::string(region_name), AttributeLocation::cell);
+    std::vector<double> polyhedra(cells.source.size());
+    parallel_blocks(polyhedra.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t c = first; c < last; ++c) polyhedra[c] = cell_volume(cells.mesh, c);
+    });
     std::map<double, std::array<double, 2>> sums;
     for (std::size_t c = 0; c < cells.source.size(); ++c) {
-        const auto [i, j, k] = grid.ijk(cells.source[c]);
         auto& sum = sums[regions == nullptr ? 0.0 : value_as_double(*regions, c)];
-        sum[0] += std::abs(cell_volume(cells.mesh, c));
-        sum[1] += std::abs(grid::cell_volume(grid, i, j, k));
+        sum[0] += std::abs(polyhedra[c]);
+        sum[1] += std::abs(trilinear[cells.source[c]]);
     }
     for (const auto& [region, sum] : sums) {
         Finding told;
         told.code = "F152";
         told.severity = Severity::info;
-        told.entities.push_back(regions == nullptr ? EntityRef{"grid", grid.info.name, -1}
+        told.entities.push_back(regions == nullptr ? EntityRef{"grid", grid_name, -1}
                                                    : EntityRef{"region", std::string(region_name) + "_" + number_text(region), -1});
         told.measures = {{"volume_polyhedra", sum[0]}, {"volume_trilinear", sum[1]}, {"difference", sum[0] - sum[1]}};
         told.message = (regions == nullptr ? "all cells" : std::string(region_name) + " " + number_text(region)) + ": the polyhedra hold " +
@@ -150,11 +156,13 @@ Result<void> shape_grids(Dataset& dataset, const Format& target, const FormatOpt
     if (!faces.empty() && faces != "conformal" && faces != "plain")
         return usage("--option faces=" + std::string(faces) + ": expected plain or conformal");
     for (Object& object : dataset.objects) {
-        const auto* grid = std::get_if<CornerPointGrid>(&object);
+        auto* grid = std::get_if<CornerPointGrid>(&object);
         if (grid == nullptr) continue;
-        grid::Cells cells = faces == "conformal" ? grid::conforming_cells(*grid) : grid::plain_cells(*grid);
+        const bool conformal = faces == "conformal";
+        const std::vector<double> volumes = conformal ? grid::cell_volumes(*grid) : std::vector<double>();
+        grid::Cells cells = conformal ? grid::take_conforming_cells(*grid) : grid::plain_cells(*grid);
         list_losses(*grid, cells, dataset.losses);
-        if (faces == "conformal") tell_volumes(*grid, cells, regions, dataset.findings);
+        if (conformal) tell_volumes(grid->info.name, volumes, cells, regions, dataset.findings);
         if (!regions.empty()) {
             if (auto grouped = group_by(std::string(regions), *grid, cells.mesh); !grouped) return grouped;
         }

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <new>
 
+#include "formats/registry.h"
 #include "geometry/measures.h"
 #include "grid/cell_geometry.h"
 #include "grid/connections.h"
+#include "pipeline/command_options.h"
 #include "topology/brep_from_dataset.h"
 
 namespace geomend {
@@ -111,10 +113,10 @@ void count_object(const CornerPointGrid& o, ObjectSummary& s) {
     s.volume = grid::volume(o);
 }
 
-// VTK and MSH files store elevations whatever sign the model came with.
+// The sign of z in the file itself.
 ZPositive frame_of(const Dataset& dataset, const CoordinateSystem& crs) {
-    const bool always_up = dataset.format == "vtk" || dataset.format == "gmsh";
-    return always_up ? ZPositive::elevation : crs.z_positive;
+    const Format* format = format_by_name(dataset.format);
+    return format != nullptr && format->elevations ? ZPositive::elevation : crs.z_positive;
 }
 
 void into_frame(std::array<Vec3, 2>& box, ZPositive frame) {
@@ -218,7 +220,9 @@ FileSummary summarise(const std::string& path, const Dataset& dataset) {
 FileSummary summarise(const std::string& path, const LoadOptions& options, const topology::ComplexityOptions* complexity) {
     FileSummary failed;
     failed.file = path;
-    auto dataset = load(path, options);
+    LoadOptions reading = options;
+    if (reading.command.empty()) reading.command = info_option_rows();
+    auto dataset = load(path, reading);
     if (!dataset) {
         failed.error = std::move(dataset).why();
         return failed;

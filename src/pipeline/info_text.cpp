@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <cstdio>
-
 #include "base/number_text.h"
+#include "base/wording.h"
 #include "pipeline/complexity_report.h"
 #include "pipeline/info.h"
 
@@ -9,14 +8,8 @@ namespace geomend {
 
 namespace {
 
-std::string counted(std::uint64_t n, const std::string& what) { return std::to_string(n) + ' ' + what; }
-
-// Six digits are enough for people; --json has them all.
-std::string short_number(double value) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.6g", value);
-    return buffer;
-}
+/// The same word for one and for many: a type or a role.
+std::string counted(std::uint64_t n, const std::string& what) { return geomend::counted(n, what, what); }
 
 std::string joined(const std::vector<std::string>& parts, const char* between) {
     std::string text;

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "base/input.h"
+#include "formats/options.h"
 #include "formats/registry.h"
 #include "pipeline/deck_companions.h"
 
@@ -25,22 +26,39 @@ Result<const Format*> named_format(const std::string& name, const Input& input) 
 
 }  // namespace
 
-Result<Dataset> load(const std::string& path, const LoadOptions& options, std::vector<std::string>* companions) {
+Result<OpenedInput> open_input(const std::string& path, const LoadOptions& options) {
     auto input = Input::open(path);
     if (!input) return std::move(input).why();
     if (input->bytes().empty()) return unreadable("F002", {input->name()}, "the file is empty");
     auto format = options.from.empty() ? format_for_reading(*input) : named_format(options.from, *input);
     if (!format) return std::move(format).why();
+    return OpenedInput{std::move(*input), *format};
+}
+
+Result<Dataset> load(const OpenedInput& opened, const LoadOptions& options, std::vector<std::string>* companions) {
+    const auto& [input, format] = opened;
     try {
-        auto dataset = (*format)->read(*input, {options.options, options.monitor});
-        if (dataset && (*format)->family == "grdecl") {
-            if (auto followed = follow_deck_companions(*dataset, *input, options); !followed) return std::move(followed).why();
+        auto dataset = format->read(input, {options.options, options.monitor});
+        if (dataset && format->deck_companions) {
+            if (auto followed = follow_deck_companions(*dataset, input, options); !followed) return std::move(followed).why();
         }
-        if (companions != nullptr) *companions = input->companions();
+        if (companions != nullptr) *companions = input.companions();
         return dataset;
     } catch (const std::bad_alloc&) {
-        return failure(FailureKind::limit, "F023", {input->name()}, "there is not enough memory to read this file");
+        return failure(FailureKind::limit, "F023", {input.name()}, "there is not enough memory to read this file");
     }
+}
+
+Result<Dataset> load(const std::string& path, const LoadOptions& options, std::vector<std::string>* companions) {
+    auto opened = open_input(path, options);
+    if (!opened) return std::move(opened).why();
+    OptionsInPlay in_play{{}, nullptr, options.command};
+    if (!options.one_of_many) in_play.read.push_back(opened->format);
+    auto checked = checked_options(options.options, in_play);
+    if (!checked) return std::move(checked).why();
+    LoadOptions settled = options;
+    settled.options = std::move(*checked);
+    return load(*opened, settled, companions);
 }
 
 }  // namespace geomend

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "pipeline/command_options.h"
 #include "repair/grid_steps.h"
 
 namespace geomend {
@@ -49,7 +50,9 @@ Result<void> mend(Dataset& dataset, const RepairRequest& request, RepairReport& 
 Result<RepairReport> repair_file(const RepairRequest& request) {
     if (auto known = repair::known_grid_steps(request.steps); !known) return std::move(known).why();
     RepairReport report;
-    const auto converted = convert(request.files, [&](Dataset& dataset) { return mend(dataset, request, report); });
+    ConvertRequest files = request.files;
+    if (files.load.command.empty()) files.load.command = repair_option_rows();
+    const auto converted = convert(files, [&](Dataset& dataset) { return mend(dataset, request, report); });
     if (converted) {
         report.losses = converted->losses;
         return report;

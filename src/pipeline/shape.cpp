@@ -32,9 +32,6 @@ bool is_faced(const Dataset& dataset) {
     return true;
 }
 
-// MSH carries all that a StatedModel says beside the mesh; Gocad solids have but their own records.
-bool carries_statements(const Format& target) { return target.family == "gmsh"; }
-
 // MSH bounds surfaces by lines and lines by corners; Gocad solids, for one, do not state them.
 bool lacks_lines(const CellMesh& mesh) {
     const auto has = [&](int d) { return std::ranges::any_of(mesh.entities, [d](const CellMesh::Entity& e) { return e.dimension == d; }); };
@@ -46,8 +43,8 @@ bool is_tagged_mesh(const Dataset& dataset, const Format& target) {
     if (dataset.objects.size() != 1 || !is_meshed(dataset.objects.front())) return false;
     if (dataset.format == target.family) return true;
     const auto& mesh = std::get<CellMesh>(dataset.objects.front());
-    if (!mesh.alias.empty() || (target.family == "gmsh" && lacks_lines(mesh))) return false;
-    return dataset.models.empty() || carries_statements(target);
+    if (!mesh.alias.empty() || (target.statements && lacks_lines(mesh))) return false;
+    return dataset.models.empty() || target.statements;
 }
 
 std::vector<bool> objects_inside(const Dataset& dataset) {
@@ -112,13 +109,10 @@ void to_faced_models(Dataset& dataset) {
 
 void to_tagged_meshes(Dataset& dataset, const Format& target) {
     replace_models(dataset, [&](const Brep& brep) {
-        if (carries_statements(target)) append(dataset, topology::tagged_model(brep, dataset.losses));
+        if (target.statements) append(dataset, topology::tagged_model(brep, dataset.losses));
         else dataset.objects.emplace_back(topology::tagged_mesh(brep, dataset.losses));
     });
 }
-
-// VTK and MSH hold cells of every dimension; elsewhere a mesh of cells is a volume.
-bool holds_flat_meshes(const Format& target) { return target.family == "vtk" || target.family == "gmsh"; }
 
 bool is_flat_mesh(const Object& object) {
     const auto* mesh = std::get_if<CellMesh>(&object);
@@ -143,7 +137,7 @@ void shape_for(Dataset& dataset, const Format& target) {
     const bool stated = states_a_model(dataset);
     switch (target.wants) {
         case WriterWants::objects:
-            if (!holds_flat_meshes(target)) to_flat_objects(dataset);
+            if (!target.flat_meshes) to_flat_objects(dataset);
             break;
         case WriterWants::brep:
             if (stated) topology::build_breps(dataset);
@@ -153,7 +147,7 @@ void shape_for(Dataset& dataset, const Format& target) {
             break;
         case WriterWants::tagged_mesh:
             if (stated && !is_tagged_mesh(dataset, target)) to_tagged_meshes(dataset, target);
-            if (!stated && !holds_flat_meshes(target)) to_flat_objects(dataset);
+            if (!stated && !target.flat_meshes) to_flat_objects(dataset);
             break;
         case WriterWants::corner_point:
             break;

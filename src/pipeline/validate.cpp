@@ -5,6 +5,7 @@
 #include <map>
 #include <new>
 
+#include "pipeline/command_options.h"
 #include "validators/readiness.h"
 
 namespace geomend {
@@ -64,6 +65,7 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         std::ranges::move(checked.findings, std::back_inserter(file.findings));
     };
     const validators::CheckOptions run = with_causes(options);
+    topology::LocalLengths lengths;
     bool all_judged = !dataset.objects.empty() && std::ranges::all_of(dataset.objects, has_checks) && !lacks_a_part(dataset) &&
                       validators::judges_anything(options);
     for (const Object& object : dataset.objects) {
@@ -78,10 +80,11 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         auto checked = validators::check_models(dataset, run, judged);
         if (!checked) return std::move(checked).why();
         take(*checked);
+        lengths = std::move(checked->local);
     }
     if (validators::wanted(options, "F160")) tell_unchecked(dataset, file.findings);
     if (const validators::Target* target = validators::find_target(options.target)) {
-        auto ready = validators::readiness(dataset, *target, file.tolerance, file.findings);
+        auto ready = validators::readiness(dataset, *target, lengths, file.findings);
         if (!ready) return std::move(ready).why();
         std::ranges::copy_if(*ready, std::back_inserter(file.findings),
                              [&](const Finding& f) { return validators::wanted(options, f.code); });
@@ -96,7 +99,9 @@ Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_o
                               const Inspect& inspect) {
     if (auto known = validators::known_codes(options); !known) return std::move(known).why();
     std::vector<std::string> companions;
-    auto dataset = load(path, load_options, &companions);
+    LoadOptions reading = load_options;
+    if (reading.command.empty()) reading.command = validate_option_rows();
+    auto dataset = load(path, reading, &companions);
     if (!dataset) return std::move(dataset).why();
     try {
         std::vector<Brep> judged;

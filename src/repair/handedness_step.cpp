@@ -135,7 +135,7 @@ StepReport handedness(CornerPointGrid& grid, const validators::GridScope& scope,
     if (records > 0) {
         report.message +=
             "; " +
-            validators::counted(records, "record that is kept as it stands may name", "records that are kept as they stand may name") +
+            counted(records, "record that is kept as it stands may name", "records that are kept as they stand may name") +
             " cells by their old row";
         report.measures = {{"records_as_they_stand", static_cast<double>(records)}};
     }

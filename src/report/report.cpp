@@ -110,12 +110,12 @@ Result<void> report_form(const std::string& path) {
     return form ? Result<void>() : Result<void>(form.why());
 }
 
-Result<void> write_report(const Report& report, const std::string& path) {
+Result<void> write_report(const Report& report, const std::string& path, const Monitor* monitor) {
     const auto form = form_of(path);
     if (!form) return form.why();
     OutputSet output(path);
     output.main_file() << (*form)->make(report);
-    return output.commit();
+    return output.commit(monitor);
 }
 
 }  // namespace geomend

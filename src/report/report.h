@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/monitor.h"
 #include "base/result.h"
 #include "report/run_summary.h"
 #include "report/scene.h"
@@ -74,8 +75,9 @@ std::size_t page_triangles(std::size_t files);
 /// file that has a scene, with the findings marked where they are. Text of files never becomes markup.
 std::string report_html(const Report& report);
 
-/// Writes by extension: .json, .sarif, .xml (JUnit), .html, .txt. Failure (usage) for others, (unwritable) where it cannot.
-Result<void> write_report(const Report& report, const std::string& path);
+/// Writes by extension: .json, .sarif, .xml (JUnit), .html, .txt. Failure (usage) for others, (unwritable) where it cannot,
+/// (cancelled) where the monitor says stop while the reader of a pipe is waited for.
+Result<void> write_report(const Report& report, const std::string& path, const Monitor* monitor = nullptr);
 /// Failure (usage) where write_report() would refuse the extension.
 Result<void> report_form(const std::string& path);
 

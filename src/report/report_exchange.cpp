@@ -3,6 +3,7 @@
 #include <set>
 
 #include "base/codes.h"
+#include "base/utf8.h"
 #include "base/xml_text.h"
 #include "report/json.h"
 #include "report/report.h"
@@ -86,7 +87,7 @@ std::string report_junit(const Report& report) {
         }
         text += " </testsuite>\n";
     }
-    return text + "</testsuites>\n";
+    return valid_utf8(text + "</testsuites>\n");
 }
 
 std::string report_sarif(const Report& report) {

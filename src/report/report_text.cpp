@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <span>
 
 #include "base/codes.h"
+#include "base/wording.h"
 #include "report/elements.h"
 #include "report/report.h"
 #include "report/worst_first.h"
@@ -15,16 +15,6 @@ namespace {
 
 constexpr std::size_t shown_elements = 8;
 constexpr std::size_t few_notes = 8;  // so many are told one by one in any case
-
-std::string rounded(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
-
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : many);
-}
 
 class Text {
 public:

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/dataset.h"
-#include "topology/frontiers.h"
-#include "topology/line_graph.h"
+#include "topology/assemble.h"
+#include "topology/welded_points.h"
 
 namespace geomend::topology {
 
@@ -16,30 +17,26 @@ namespace geomend::topology {
 /// Loose surfaces without a StatedModel make none. Cost: near-linear in triangles and cells.
 void build_breps(Dataset& dataset);
 
-/// A model put together to be judged: the boundary representation and what it was made from.
-struct JudgedModel {
-    Brep brep;
-    std::vector<FaceEdges> faces;  ///< per surface
-    LineGraph graph;
-    FoundRegions found;                  ///< by walking along the surfaces, whatever the file states
-    bool stated = false;                 ///< the file states a model; false: put together from loose surfaces
-    bool regions_stated = false;         ///< brep.regions are the file's own; false: they are those of `found`
-    double tolerance = 0;                ///< at which points were welded
-    std::uint64_t points_welded = 0;     ///< vertices that gave way to another one that is near, but not equal
-    std::vector<Vec3> welded_positions;  ///< where some of them were; at most 100
-    /// Per surface and polygon its number in the object that it comes from; empty: one after the other from first_polygon.
-    std::vector<std::vector<std::uint32_t>> source_polygons;
-    /// Per loose surface the polygons that were turned over, being wound against their neighbours; empty: none anywhere.
-    std::vector<std::vector<std::uint32_t>> turned_polygons;
-    std::vector<std::uint64_t> first_polygon;  ///< per surface
-    std::vector<Finding> findings;             ///< where the file's claims disagree with its geometry
+/// One model to be judged: what it is made of, and at which tolerances its points are welded.
+struct ModelSource {
+    enum Kind : std::uint8_t { stated_model, tagged_mesh, loose_surfaces } kind = loose_surfaces;
+    std::uint32_t model = no_index;  ///< a stated model's number in the Dataset
+    /// The objects of the model, in groups with a tolerance each: points of two groups are welded where they are equal only.
+    std::vector<WeldGroup> groups;
 };
 
-/// Builds what checks judge: each model that the file states, and one model of all surfaces that belong to none. Points
-/// closer than the tolerance are one vertex: they take the position of the one that comes first. Loose surfaces are taken
-/// apart where lines cut them and where they do not hang together, and wound one way.
-/// \param tolerance in the unit of the coordinates; 0: only equal positions
-/// Failure (internal) where indices are out of range. Cost: near-linear in triangles and cells.
+/// The models of a Dataset, each of one group at tolerance 0: those that the file states, then meshes with entities that none
+/// of them is about, then one of all surfaces that belong to none. What would make no surface and no region is left out.
+std::vector<ModelSource> model_sources(const Dataset& dataset);
+
+/// Builds what checks judge, in the order of the sources. Points closer than the tolerance of their group are one vertex: they
+/// take the position of the one that comes first. Loose surfaces are taken apart where lines cut them and where they do not
+/// hang together, and wound one way.
+/// \pre sources are those of model_sources(), whose groups may be split and given tolerances, and whose loose surfaces may be
+/// split into several sources. Failure (internal) where indices are out of range. Cost: near-linear in triangles and cells.
+Result<std::vector<JudgedModel>> models_to_judge(const Dataset& dataset, std::span<const ModelSource> sources);
+
+/// The same for all models at one tolerance; 0: only equal positions.
 Result<std::vector<JudgedModel>> models_to_judge(const Dataset& dataset, double tolerance);
 
 }  // namespace geomend::topology

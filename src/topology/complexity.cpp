@@ -103,7 +103,7 @@ void count_locally(const MeasuredModel& model, const ComplexityOptions& o, Compl
     cells.sites = volume_sites(model, o);
     if (stopped(o)) return;
     if (cells.sites.empty()) {
-        out.undefined.push_back("cells: no point was found inside the regions");
+        out.undefined.push_back("cells: points could not be spread evenly inside the regions");
         return;
     }
     cells.resolution = std::cbrt(model.volume / static_cast<double>(cells.sites.size()));

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/principal_axes.h"
 #include "geometry/vectors.h"
 #include "topology/complexity.h"
 
@@ -44,9 +45,6 @@ struct MeasuredModel {
 double length(const Vec3& a);
 /// a + t b
 Vec3 moved(const Vec3& a, const Vec3& b, double t = 1);
-
-/// Eigenvectors of a symmetric matrix xx xy xz yy yz zz, by ascending eigenvalue (Jacobi).
-std::array<Vec3, 3> principal_axes(const std::array<double, 6>& moments);
 
 /// Shape of a surface and of a line: 1 - projection on its mean plane or line / size.
 double surface_shape(const MeasuredModel& model, std::size_t surface);

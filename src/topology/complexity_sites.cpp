@@ -42,8 +42,10 @@ public:
                 high[a] = std::max(high[a], p[a]);
             }
         }
-        // A model as flat as a leaf has more squares than points: they are made larger.
-        step_ = std::max(step, std::sqrt((high[0] - low_[0]) * (high[1] - low_[1]) / most_rays));
+        // A model as flat as a leaf or as thin as a thread has more squares than points: they are made larger.
+        const double width = high[0] - low_[0], depth = high[1] - low_[1];
+        step_ = std::max({step, std::sqrt(width / most_rays * depth), width / most_rays, depth / most_rays});
+        if (!std::isfinite(step_) || !(step_ > 0) || !(height_ > 0)) return;
         for (std::size_t a = 0; a < 2; ++a) dims_[a] = static_cast<std::int64_t>((high[a] - low_[a]) / step_) + 1;
         height_ /= step_ * step_;
         hits_.resize(static_cast<std::size_t>(dims_[0] * dims_[1]));
@@ -56,13 +58,16 @@ public:
         }
     }
 
-    std::vector<Vec3> points_inside() {
+    /// None where there would be more than `most`: the regions' volumes are not those that their sides enclose.
+    std::vector<Vec3> points_inside(double most) {
         std::vector<Vec3> points;
         for (std::size_t ray = 0; ray < hits_.size(); ++ray) {
+            if (static_cast<double>(points.size()) > most) return {};
             auto& hits = hits_[ray];
             std::ranges::stable_sort(hits, {}, &Hit::z);
             for (std::size_t h = 0; h + 1 < hits.size(); ++h) {
                 if (!hits[h].above.valid() || hits[h].above != hits[h + 1].below) continue;
+                if ((hits[h + 1].z - hits[h].z) / height_ > most) return {};
                 fill(ray, hits[h].z, hits[h + 1].z, points);
             }
         }
@@ -91,7 +96,7 @@ private:
 
     void cast(const MeasuredModel& model, const std::array<std::uint32_t, 3>& t, const std::array<RegionId, 2>& regions) {
         const Vec3 normal = model.area_vector(t);
-        if (normal[2] == 0) return;
+        if (normal[2] == 0 || !std::isfinite(normal[2]) || hits_.empty()) return;
         std::array<std::int64_t, 2> first, last;
         for (std::size_t a = 0; a < 2; ++a) {
             const auto [least, most] = std::minmax({model.points[t[0]][a], model.points[t[1]][a], model.points[t[2]][a]});
@@ -157,9 +162,10 @@ void even_out(std::span<const Vec3> points, std::vector<Vec3>& sites) {
 }  // namespace
 
 std::vector<Vec3> volume_sites(const MeasuredModel& model, const ComplexityOptions& options) {
-    Rays rays(model, std::cbrt(model.volume / sample_count(options.sites)));
+    const double samples = sample_count(options.sites);
+    Rays rays(model, std::cbrt(model.volume / samples));
     rays.cast(model);
-    const std::vector<Vec3> points = rays.points_inside();
+    const std::vector<Vec3> points = rays.points_inside(4 * samples + 1000);
     std::vector<Vec3> sites = some_of(points, options.sites);
     for (std::uint32_t i = 0; i < options.iterations && !sites.empty(); ++i) {
         if (options.monitor != nullptr) {

@@ -83,4 +83,22 @@ BrepData::Surface surface_of_part(const Surface& surface, std::uint32_t part, co
     return result;
 }
 
+SurfaceComplex::Face face_of_part(const Surface& surface, std::uint32_t object, std::uint32_t part, const WeldedPoints& points) {
+    SurfaceComplex::Face face;
+    face.surface = surface_of_part(surface, part, points.of.at(object));
+    face.surface.source_object = object;
+    face.surface.source_part = part;
+    face.first_polygon = surface.parts.empty() ? 0 : surface.parts[part].first_polygon;
+    face.tolerance = points.tolerance.at(object);
+    return face;
+}
+
+void add_corner_hints(const Object& object, const std::vector<std::uint32_t>& vertex_of, SurfaceComplex& complex) {
+    const auto* surface = std::get_if<Surface>(&object);
+    if (surface == nullptr) return;
+    for (const std::uint32_t point : surface->border_corners) {
+        if (point < surface->points.size()) complex.lines.corner_hints.push_back(vertex_of[point]);
+    }
+}
+
 }  // namespace geomend::topology

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/dataset.h"
-#include "topology/weld.h"
+#include "topology/welded_points.h"
 
 namespace geomend::topology {
 
@@ -13,6 +13,12 @@ Attribute restricted(const Attribute& attribute, const std::vector<std::uint32_t
 /// those of other parts that its polygons use. Attributes are cut to the part.
 /// \param vertex_of per point of the surface its model vertex
 BrepData::Surface surface_of_part(const Surface& surface, std::uint32_t part, const std::vector<std::uint32_t>& vertex_of);
+
+/// The same as a face, without names and role. \pre the surface is object `object` of the Dataset that the points are of
+SurfaceComplex::Face face_of_part(const Surface& surface, std::uint32_t object, std::uint32_t part, const WeldedPoints& points);
+
+/// Adds the border corners that a surface states, as hints where closed lines have their corners.
+void add_corner_hints(const Object& object, const std::vector<std::uint32_t>& vertex_of, SurfaceComplex& complex);
 
 /// Number of parts: at least 1.
 std::size_t part_count(const Surface& surface);

@@ -118,13 +118,15 @@ private:
 /// Lists the sides that face each other around a line. False when two polygons coincide. Around the free border of a part that
 /// does not hang together with its surface none are listed: a stray triangle would make a leak of the surface.
 bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const PolygonEdges> all_edges, std::uint32_t line,
-                 double tolerance, LesserParts& lesser, std::vector<FoundRegions::Join>& joins) {
+                 std::span<const double> tolerances, LesserParts& lesser, std::vector<FoundRegions::Join>& joins) {
     const auto uses = graph.edge_uses(graph.edges[longest_edge(brep, graph, line)]);
     const Vec3& a = brep.vertices[uses[0].low];
     const Vec3& b = brep.vertices[uses[0].high];
     std::vector<Leaf> leaves;
+    double tolerance = 0;
     for (const EdgeUse& use : uses) {
         if (use.surface == no_index) continue;
+        if (!tolerances.empty()) tolerance = std::max(tolerance, tolerances[use.surface]);
         const auto& surface = brep.surfaces[use.surface];
         const std::uint32_t polygon = all_edges[use.surface].polygon(use.corner);
         if (uses.size() == 1 && lesser.contains(use.surface, polygon)) return true;
@@ -243,14 +245,14 @@ private:
 
 }  // namespace
 
-FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones, double tolerance) {
+FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones, std::span<const double> tolerances) {
     FoundRegions found;
     DisjointSets sides(2 * brep.surfaces.size()), groups(brep.surfaces.size());
     std::vector<PolygonEdges> all_edges;
     for (const auto& surface : brep.surfaces) all_edges.emplace_back(surface.polygons);
     LesserParts lesser(brep);
     for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
-        if (!join_around(brep, graph, all_edges, l, tolerance, lesser, found.joins)) found.uncertain_lines.emplace_back(l);
+        if (!join_around(brep, graph, all_edges, l, tolerances, lesser, found.joins)) found.uncertain_lines.emplace_back(l);
         std::uint32_t first = no_index;
         for (const EdgeUse& use : graph.edge_uses(graph.edges[graph.line_edges[graph.line_first_edge[l]]])) {
             if (use.surface == no_index) continue;

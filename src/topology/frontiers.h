@@ -27,8 +27,10 @@ struct FoundRegions {
 /// Finds the regions that surfaces bound: around each line the surfaces are put in order (exactly, at its longest
 /// edge) and each side is joined to the one that faces it; sides that hang together make a shell. A shell that encloses
 /// a positive volume bounds a region; any other lies inside the smallest region that contains it, or in the Universe.
-/// \param tolerance polygons at a line that are no farther apart coincide: their order is not known, and regions end there
+/// \param tolerances per surface; empty: 0. Polygons at a line that are no farther apart than the largest of their surfaces
+/// coincide: their order is not known, and regions end there
 /// Cost: near-linear; n log n where surfaces do not all hang together.
-FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones, double tolerance = 0);
+FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::span<const double> cones,
+                          std::span<const double> tolerances = {});
 
 }  // namespace geomend::topology

@@ -7,18 +7,20 @@
 namespace geomend::topology {
 
 BrepData::Interface& InterfaceBook::enter(SurfaceId surface, const std::string& name) {
-    // Surfaces come interface by interface, so that the newest is nearly always the one.
-    auto found = std::find_if(brep_.interfaces.rbegin(), brep_.interfaces.rend(), [&](const auto& i) { return i.name == name; });
-    if (found == brep_.interfaces.rend()) {
-        brep_.interfaces.push_back({name, FeatureRole::unknown, {}, {}, {}, {}});
-        found = brep_.interfaces.rbegin();
-    }
+    const auto [at, is_new] = known_.emplace(name, InterfaceId(brep_.interfaces.size()));
+    if (is_new) brep_.interfaces.push_back({name, FeatureRole::unknown, {}, {}, {}, {}});
+    auto* found = &brep_.interfaces[at->second.value];
     found->surfaces.push_back(surface);
     auto& s = brep_.surfaces[surface.value];
-    s.interface_id = InterfaceId(static_cast<std::size_t>(&*found - brep_.interfaces.data()));
+    s.interface_id = at->second;
     if (found->role == FeatureRole::unknown) found->role = s.role;
     if (found->role_text.empty()) found->role_text = s.role_text;
     return *found;
+}
+
+InterfaceId InterfaceBook::find(const std::string& name) const {
+    const auto found = known_.find(name);
+    return found == known_.end() ? InterfaceId() : found->second;
 }
 
 void name_surfaces(BrepData& brep) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 
 #include "model/brep.h"
 
@@ -12,9 +13,12 @@ class InterfaceBook {
 public:
     explicit InterfaceBook(BrepData& brep) : brep_(brep) {}
     BrepData::Interface& enter(SurfaceId surface, const std::string& name);
+    /// The interface of a name, or none.
+    InterfaceId find(const std::string& name) const;
 
 private:
     BrepData& brep_;
+    std::unordered_map<std::string, InterfaceId> known_;
 };
 
 /// Names surfaces that have none: as their interface, with a number where it has several.

@@ -93,7 +93,7 @@ std::vector<RegionId> add_stated_regions(Assembly& a, const std::vector<StatedRe
 }
 
 void add_found_regions(Assembly& a) {
-    a.found = find_regions(a.brep, a.graph, a.cones, a.tolerance);
+    a.found = find_regions(a.brep, a.graph, a.cones, a.tolerances);
     const FoundRegions& found = a.found;
     for (const auto& sides : found.regions) {
         BrepData::Region region;

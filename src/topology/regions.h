@@ -9,6 +9,7 @@
 #include "topology/face_edges.h"
 #include "topology/frontiers.h"
 #include "topology/line_graph.h"
+#include "topology/surface_complex.h"
 
 namespace geomend::topology {
 
@@ -17,17 +18,10 @@ struct Assembly {
     BrepData brep;
     std::vector<FaceEdges> faces;
     LineGraph graph;
-    std::vector<double> cones;  ///< see cone_volumes
-    FoundRegions found;         ///< where the surfaces were walked along
-    double tolerance = 0;       ///< within which polygons at a line coincide
+    std::vector<double> cones;       ///< see cone_volumes
+    FoundRegions found;              ///< where the surfaces were walked along
+    std::vector<double> tolerances;  ///< per surface, within which polygons at a line coincide
     std::vector<Finding> findings;
-};
-
-/// A region as a file states it, over B-Rep surfaces.
-struct StatedRegion {
-    std::string name;
-    bool universe = false;
-    std::vector<BrepData::Side> sides;
 };
 
 /// Appends the regions that the file lists. Their sides are brought into agreement with the geometry (see

@@ -18,6 +18,15 @@ TEST(Utf8, KnowsWellFormedText) {
     EXPECT_FALSE(is_utf8("\xc3"));             // cut
 }
 
+TEST(Utf8, TakesReplacementsForWhatIsNone) {
+    EXPECT_EQ(valid_utf8("a\xc3\xa9 b"), "a\xc3\xa9 b");
+    EXPECT_EQ(valid_utf8("\xe9t\xc3"), "\xef\xbf\xbdt\xef\xbf\xbd");
+    EXPECT_TRUE(rc::check("what comes out is UTF-8", [](const std::string& bytes) {
+        RC_ASSERT(is_utf8(valid_utf8(bytes)));
+        if (is_utf8(bytes)) RC_ASSERT(valid_utf8(bytes) == bytes);
+    }));
+}
+
 TEST(Latin1, GoesToUtf8AndBack) {
     EXPECT_TRUE(rc::check("any bytes come back", [](const std::string& bytes) {
         const std::string text = latin1_to_utf8(bytes);

@@ -22,7 +22,7 @@ std::string against(const Dataset& data, const char* target) {
     const auto checked = validators::check_models(data, {});
     EXPECT_TRUE(checked);
     if (!checked) return "failed";
-    const auto findings = validators::readiness(data, *validators::find_target(target), checked->lengths.tolerance, checked->findings);
+    const auto findings = validators::readiness(data, *validators::find_target(target), checked->local, checked->findings);
     EXPECT_TRUE(findings);
     std::string codes;
     for (const Finding& f : *findings) {
@@ -34,7 +34,7 @@ std::string against(const Dataset& data, const char* target) {
 std::vector<topology::JudgedModel> judged(const Dataset& data) {
     const auto checked = validators::check_models(data, {});
     EXPECT_TRUE(checked);
-    auto models = topology::models_to_judge(data, checked->lengths.tolerance);
+    auto models = topology::models_to_judge(data, topology::model_sources(data, checked->local));
     EXPECT_TRUE(models);
     return models ? std::move(*models) : std::vector<topology::JudgedModel>{};
 }

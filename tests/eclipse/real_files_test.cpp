@@ -61,7 +61,7 @@ TEST(RealEgrid, ReekHasItsConnectionsMapAndInactiveCell) {
     EXPECT_EQ(grid.map_unit, "METRES");
     EXPECT_EQ(grid.info.crs.axis_units[2], "METRES");
     EXPECT_EQ(grid.info.name, "REEK");
-    EXPECT_TRUE(grid.single_precision);
+    EXPECT_EQ(grid.info.precision, CoordinatePrecision::single_precision);
 }
 
 TEST(RealEgrid, DualPorosityConnectsMatrixAndFracture) {

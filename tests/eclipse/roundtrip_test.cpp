@@ -87,6 +87,19 @@ TEST_P(EgridThereAndBack, NumbersWithAllTheirDigits) {
     expect_same_grid(grid, grid_of(back));
 }
 
+TEST_P(EgridThereAndBack, CoordinatesBeyondSinglePrecisionCannotBeHeld) {
+    for (const bool depth : {false, true}) {
+        CornerPointGrid grid = faulted_grid(3, 3, 3);
+        (depth ? grid.depths[5] : grid.pillars[0]) = 1e300;
+        for (const char* form : {GetParam(), "bgrdecl"}) {
+            OutputSet out(path());
+            const auto written = eclipse_row(form).write(dataset_of(grid), out, {});
+            ASSERT_FALSE(written.ok()) << form;
+            EXPECT_EQ(written.why().kind, FailureKind::cannot_hold) << form;
+        }
+    }
+}
+
 TEST_P(EgridThereAndBack, DualPorosityAndRefinementsWithTheirLinks) {
     CornerPointGrid grid = faulted_grid(4, 3, 2);
     grid.porosity = CornerPointGrid::Porosity::dual_porosity;

@@ -38,21 +38,41 @@ struct Fraction {
     int sign() const { return n > 0 ? 1 : n < 0 ? -1 : 0; }
 };
 
-using Point = std::array<Fraction, 3>;
-using Corners3 = std::array<Point, 3>;
+template <class Number>
+int sign_of(const Number& x) {
+    return x.sign();
+}
 
-inline Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline Fraction dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Point cross(const Point& a, const Point& b) {
+template <class Number>
+using PointOf = std::array<Number, 3>;
+using Point = PointOf<Fraction>;
+
+template <class Number>
+PointOf<Number> operator-(const PointOf<Number>& a, const PointOf<Number>& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class Number>
+Number dot(const PointOf<Number>& a, const PointOf<Number>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Number>
+PointOf<Number> cross(const PointOf<Number>& a, const PointOf<Number>& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-inline bool is_zero(const Point& a) { return a == Point{}; }
+template <class Number>
+bool is_zero(const PointOf<Number>& a) {
+    return a == PointOf<Number>{};
+}
 
 /// Slow and plain: the points that span what two triangles have in common, in fractions. They are corners of one in the
 /// other, points where an edge passes through the other's plane inside it, and points where edges cross in one plane.
-class CommonPart {
+template <class Number>
+class CommonPartOf {
 public:
-    CommonPart(const Corners3& a, const Corners3& b) {
+    using Point = PointOf<Number>;
+    using Corners3 = std::array<Point, 3>;
+
+    CommonPartOf(const Corners3& a, const Corners3& b) {
         for (std::size_t i = 0; i < 3; ++i) {
             if (holds(b, a[i])) add(a[i]);
             if (holds(a, b[i])) add(b[i]);
@@ -74,14 +94,14 @@ public:
 
     static bool holds(const Corners3& t, const Point& p) {
         const Point n = cross(t[1] - t[0], t[2] - t[0]);
-        if (dot(n, p - t[0]).sign() != 0) return false;
+        if (sign_of(Number(dot(n, p - t[0]))) != 0) return false;
         for (std::size_t i = 0; i < 3; ++i) {
-            if (dot(n, cross(t[(i + 1) % 3] - t[i], p - t[i])).sign() < 0) return false;
+            if (sign_of(Number(dot(n, cross(t[(i + 1) % 3] - t[i], p - t[i])))) < 0) return false;
         }
         return true;
     }
     static bool holds(const Point& p, const Point& q, const Point& x) {
-        return is_zero(cross(q - p, x - p)) && dot(x - p, q - p).sign() >= 0 && dot(x - q, p - q).sign() >= 0;
+        return is_zero(cross(q - p, x - p)) && sign_of(Number(dot(x - p, q - p))) >= 0 && sign_of(Number(dot(x - q, p - q))) >= 0;
     }
 
 private:
@@ -92,22 +112,24 @@ private:
     }
     void pierce(const Point& p, const Point& q, const Corners3& t) {
         const Point n = cross(t[1] - t[0], t[2] - t[0]);
-        const Fraction from = dot(n, p - t[0]), to = dot(n, q - t[0]);
-        if (from.sign() * to.sign() >= 0) return;
-        const Point x = at(p, q, from / (from - to));
+        const Number from = dot(n, p - t[0]), to = dot(n, q - t[0]);
+        if (sign_of(from) * sign_of(to) >= 0) return;
+        const Point x = at(p, q, Number(from / (from - to)));
         if (holds(t, x)) add(x);
     }
     void cross_edges(const Point& p, const Point& q, const Point& r, const Point& s) {
         const Point n = cross(q - p, s - r);
-        if (is_zero(n) || dot(n, r - p).sign() != 0) return;
-        const Point x = at(p, q, dot(cross(r - p, s - r), n) / dot(n, n));
+        if (is_zero(n) || sign_of(Number(dot(n, r - p))) != 0) return;
+        const Point x = at(p, q, Number(dot(cross(r - p, s - r), n) / dot(n, n)));
         if (holds(p, q, x) && holds(r, s, x)) add(x);
     }
-    static Point at(const Point& p, const Point& q, Fraction t) {
+    static Point at(const Point& p, const Point& q, Number t) {
         const Point d = q - p;
         return {p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]};
     }
 };
+using CommonPart = CommonPartOf<Fraction>;
+using Corners3 = CommonPart::Corners3;
 
 inline Point exact(const Vec3& v) {
     return {static_cast<std::int64_t>(v[0]), static_cast<std::int64_t>(v[1]), static_cast<std::int64_t>(v[2])};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "formats/gmsh/write_geo.h"
 #include "gmsh_support.h"
 #include "support/real_data.h"
 
@@ -47,6 +48,23 @@ void expect_same(const CellMesh& a, const CellMesh& b, const std::string& way) {
     for (const auto& g : a.groups) groups_a[{g.dimension, g.tag}] = g.name;
     for (const auto& g : b.groups) groups_b[{g.dimension, g.tag}] = g.name;
     EXPECT_EQ(groups_a, groups_b) << way;
+}
+
+TEST(MshRoundTrip, AScriptOverPointsInAVolumeWithoutElementsOrBoundaryIsWritten) {
+    Dataset d;
+    CellMesh mesh;
+    mesh.points = {{0, 0, 0}, {1, 2, 3}};
+    mesh.entities.resize(1);
+    mesh.entities[0].tag = 7;
+    d.objects.emplace_back(std::move(mesh));
+    const TemporaryFolder folder;
+    OutputSet outputs(folder / "out.geo");
+    ASSERT_TRUE(gmsh::write_geo(d, outputs, {}).ok());
+    ASSERT_TRUE(outputs.commit().ok());
+    const auto back = read_text(read_file(folder / "out.msh"));
+    ASSERT_TRUE(back.ok()) << back.why().error.message;
+    EXPECT_EQ(mesh_of(*back).points.size(), 2u);
+    EXPECT_EQ(read_file(folder / "out.geo").find("Volume"), std::string::npos);
 }
 
 TEST(MshRoundTrip, MeshEntitiesAndGroupsComeBack) {

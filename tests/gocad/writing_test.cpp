@@ -163,6 +163,17 @@ TEST(GocadWriting, HeaderLinesRecordsAndWordsComeBack) {
     EXPECT_NE(written(renamed, "gocad-vs").find("*atoms*size:2\nname:new\ngname:no\n"), std::string::npos);
 }
 
+TEST(GocadWriting, NodesAndElementsThatAnObjectHasNotGoNowhereAndAreListed) {
+    const Dataset d = dataset_of("GOCAD VSet 1\nHEADER {\nname:v\n}\nTETRA 1 2 3 4\nODD 1\nVRTX 1 0 0 0\nTRGL 1 1 1\nEND\n");
+    ASSERT_EQ(d.losses.size(), 2u);
+    EXPECT_EQ(d.losses[0].loss_class, LossClass::identity);
+    const std::string again = written(d, "gocad-vs");
+    EXPECT_NE(again.find("ODD 1\n"), std::string::npos);
+    EXPECT_EQ(again.find("TRGL"), std::string::npos);
+    EXPECT_EQ(again.find("TETRA 1"), std::string::npos);
+    EXPECT_TRUE(has_finding(d, "F102"));
+}
+
 TEST(GocadWriting, LinesPartsAndSetsComeBack) {
     const std::string text =
         "GOCAD PLine 1\nREGION r 0\nILINE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nSEG 1 2\nILINE\nATOM 3 1\nVRTX 9 5 5 5 CNXYZ\nSEG 3 9\n"

@@ -143,7 +143,7 @@ TEST(Faces, share_a_face_for_every_connection_and_leave_no_cell_open) {
     }
     EXPECT_EQ(shared.size(), found.internal);
     EXPECT_GT(found.others.size(), 100u);
-    expect_closed_cells(conforming_cells(grid, faces).mesh);
+    expect_closed_cells(conforming_cells(grid).mesh);
 }
 
 // Depths from a few whole numbers: edges meet, coincide and cross in points that they share, layers wedge out and end.
@@ -181,7 +181,7 @@ TEST(Faces, of_columns_with_many_coincidences_close) {
         EXPECT_EQ(faces.unmatched_columns, 0u);
         const auto shared = std::ranges::count_if(faces.faces, [](const auto& f) { return f.second != 0xffffffffu; });
         EXPECT_EQ(static_cast<std::uint64_t>(shared), connections(grid).internal);
-        expect_closed_cells(conforming_cells(grid, faces).mesh);
+        expect_closed_cells(conforming_cells(grid).mesh);
         if (::testing::Test::HasFailure()) return;
     }
 }

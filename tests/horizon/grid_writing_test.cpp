@@ -138,6 +138,39 @@ TEST(GridWriting, WhatTheFormatsHaveNoPlaceForIsListed) {
     EXPECT_FALSE(has_loss(well_written("zmap", d).losses, LossClass::identity, "name"));
 }
 
+TEST(GridWriting, WhatIsBeyondSinglePrecisionIsMissingOrCannotBeHeld) {
+    const Dataset high = grid_dataset({3, 2}, {0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}}}, {1, 2, 1e300, 4, -1e300, 6});
+    const Written w = well_written("irap-grid-binary", high);
+    EXPECT_GT(substance(w.losses), 0);
+    EXPECT_EQ(nodes(good("irap-grid-binary", w.bytes)).size(), 4u);
+    const auto far = write("irap-grid-binary", grid_dataset({3, 2}, {1e300, 0, 0}, {{{1e290, 0, 0}, {0, 1e290, 0}}}, six));
+    ASSERT_FALSE(far);
+    EXPECT_EQ(far.why().kind, FailureKind::cannot_hold);
+}
+
+TEST(GridWriting, StepsThatAreLostBesideTheOriginCannotBeHeld) {
+    for (const char* format_name : {"zmap", "cps3", "irap-grid", "irap-grid-binary"}) {
+        const auto w = write(format_name, grid_dataset({3, 2}, {1e6, 0, 0}, {{{1e-30, 0, 0}, {0, 1, 0}}}, six));
+        ASSERT_FALSE(w) << format_name;
+        EXPECT_EQ(w.why().kind, FailureKind::cannot_hold) << format_name;
+    }
+}
+
+TEST(PointAndLineWriting, EmptyObjectsCannotBeWritten) {
+    Dataset d;
+    d.objects.emplace_back(PointSet{});
+    d.objects.emplace_back(PolylineSet{});
+    for (const char* format_name : {"irap-points", "petrel-points", "irap-polygons", "cps3-lines"}) {
+        const auto w = write(format_name, d);
+        ASSERT_FALSE(w) << format_name;
+        EXPECT_EQ(w.why().kind, FailureKind::cannot_hold) << format_name;
+    }
+    PointSet one;
+    one.points = {{1, 2, 3}};
+    d.objects.emplace_back(one);
+    EXPECT_EQ(std::get<PointSet>(good("irap-points", well_written("irap-points", d).bytes).objects.at(0)).points, one.points);
+}
+
 TEST(GridWriting, NothingToWriteIsAFailure) {
     Dataset d;
     d.objects.emplace_back(Surface{});

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/utf8.h"
 #include "support/temporary_folder.h"
 
 namespace geomend {
@@ -84,6 +85,14 @@ TEST(Report, TextGroupsByEntityWithTheWorstFirst) {
     EXPECT_NE(text.find("cells (1,2,3) (4,5,6) and 248 more"), std::string::npos) << text;
     EXPECT_EQ(text.find('\033'), std::string::npos);
     EXPECT_NE(report_text(made_report(), true).find('\033'), std::string::npos);
+}
+
+TEST(Report, JunitIsUtf8WhateverNamesAre) {
+    Report report = made_report();
+    report.files.front().file = "caf\xe9";
+    report.files.front().findings.front().message = "'\xff' is a name";
+    report.files.front().findings.front().entities = {{"surface", "\xc3(", 1}};
+    EXPECT_TRUE(is_utf8(report_junit(report)));
 }
 
 TEST(Report, JunitEscapesAndFailsOnErrorsOnly) {

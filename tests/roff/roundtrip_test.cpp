@@ -66,6 +66,19 @@ TEST_P(RoffThereAndBack, RoundingIsTold) {
     EXPECT_TRUE(has_class(write_roff(grid, row(), folder_ / "far.roff"), LossClass::substance));
 }
 
+TEST_P(RoffThereAndBack, CoordinatesBeyondSinglePrecisionCannotBeHeld) {
+    for (const bool depth : {false, true}) {
+        CornerPointGrid grid = faulted_grid(3, 3, 3);
+        (depth ? grid.depths[5] : grid.pillars[0]) = 1e300;
+        Dataset data;
+        data.objects.emplace_back(std::move(grid));
+        OutputSet out(path());
+        const auto written = row().write(data, out, {});
+        ASSERT_FALSE(written.ok());
+        EXPECT_EQ(written.why().kind, FailureKind::cannot_hold);
+    }
+}
+
 TEST_P(RoffThereAndBack, ElevationsStayElevationsInTheFile) {
     CornerPointGrid grid = faulted_grid(3, 3, 3);
     grid.info.crs.z_positive = ZPositive::elevation;

@@ -15,7 +15,7 @@ inline CornerPointGrid faulted_grid(std::uint32_t nx, std::uint32_t ny, std::uin
     grid.dims = {nx, ny, nz};
     grid.info.crs.z_positive = ZPositive::depth;
     grid.info.crs.z_positive_stated = true;
-    grid.single_precision = true;
+    grid.info.precision = CoordinatePrecision::single_precision;
     for (std::uint32_t j = 0; j <= ny; ++j) {
         for (std::uint32_t i = 0; i <= nx; ++i) {
             const double x = 100.0 * i, y = 80.0 * j;

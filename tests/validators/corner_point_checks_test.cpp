@@ -372,7 +372,7 @@ TEST(Lengths, FollowTheDesign) {
     EXPECT_DOUBLE_EQ(scope.lengths().diameter, diameter);
     EXPECT_DOUBLE_EQ(scope.lengths().tolerance, 1e-7 * diameter);
     EXPECT_DOUBLE_EQ(scope.lengths().near, 1e-3 * diameter);
-    grid.single_precision = true;
+    grid.info.precision = CoordinatePrecision::single_precision;
     EXPECT_DOUBLE_EQ(validators::GridScope(grid, {}).lengths().tolerance, 4 * std::ldexp(1.0, -14)) << "four steps of a float at 1020";
     CheckOptions given;
     given.tolerance = 0.25;

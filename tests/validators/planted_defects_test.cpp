@@ -468,7 +468,7 @@ TEST(SoundModel, HasNoErrorAndNoWarning) {
     const auto checked = validators::check_models(model.data(), {});
     ASSERT_TRUE(checked);
     for (const Finding& f : checked->findings) EXPECT_EQ(f.severity, Severity::info) << f.code << " " << f.message;
-    const auto models = topology::models_to_judge(model.data(), checked->lengths.tolerance);
+    const auto models = topology::models_to_judge(model.data(), topology::model_sources(model.data(), checked->local));
     ASSERT_TRUE(models && models->size() == 1);
     const BrepData& b = *models->front().brep;
     EXPECT_EQ(b.surfaces.size(), 8u + 12u + 6u + 3u);

@@ -39,7 +39,7 @@ public:
         for (std::size_t r = 0; r < model.regions.size(); ++r) {
             for (const auto& side : model.regions[r].sides) around_[side.face][side.front ? 1 : 0] = static_cast<int>(r);
         }
-        near_ = validators::lengths_of(data_, {}).near;
+        near_ = validators::lengths_of(data_, {}).largest.near;
     }
 
     Dataset& data() { return data_; }

@@ -21,7 +21,7 @@ using validators::find_target;
 using validators::readiness;
 
 std::vector<Finding> ready(const Dataset& data, const char* target, const std::vector<Finding>& found = {}) {
-    const auto findings = readiness(data, *find_target(target), 0, found);
+    const auto findings = readiness(data, *find_target(target), {}, found);
     EXPECT_TRUE(findings.ok());
     return findings ? *findings : std::vector<Finding>{};
 }

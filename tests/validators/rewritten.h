@@ -45,7 +45,7 @@ inline Verdict verdict(const Dataset& data) {
         for (const auto& name : names) text += "; " + name;
         v.findings.insert(text);
     }
-    const auto models = topology::models_to_judge(data, checked->lengths.tolerance);
+    const auto models = topology::models_to_judge(data, topology::model_sources(data, checked->local));
     EXPECT_TRUE(models);
     for (const auto& m : *models) {
         v.counts = {m.brep->corners.size(), m.brep->lines.size(), m.brep->surfaces.size(), m.brep->regions.size(), m.found.regions.size()};

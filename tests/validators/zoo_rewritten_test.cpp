@@ -40,7 +40,7 @@ Vec3 turned_by(const Vec3& p, const std::array<double, 3>& angles) {
 /// As a VTK file with points in single precision holds it.
 Dataset in_single_precision(Dataset data) {
     data = moved(std::move(data), [](const Vec3& p) { return Vec3{double(float(p[0])), double(float(p[1])), double(float(p[2]))}; });
-    for (Object& object : data.objects) info_of(object).annotations.push_back({"vtk.points_type", "Float32"});
+    for (Object& object : data.objects) info_of(object).precision = CoordinatePrecision::single_precision;
     return data;
 }
 

@@ -276,7 +276,7 @@ TEST(LegacyWrite, SinglePrecisionIsKeptOnlyWhereItIsExact) {
 TEST(LegacyWrite, SinglePrecisionTextHasTheDigitsOfTheDouble) {
     PointSet set;
     set.points = {{double{0.1f}, double{-2.1966224f}, 0}};
-    set.info.annotations.push_back({"vtk.points", "Float32"});
+    set.info.precision = CoordinatePrecision::single_precision;
     const std::string text = written(dataset(set));
     EXPECT_NE(text.find("0.10000000149011612 "), std::string::npos) << text;
     EXPECT_EQ(only<PointSet>(must_read(text)).points, set.points);

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "formats/options.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "base/number_text.h"
+#include "base/text_cursor.h"
+#include "formats/registry.h"
+
+namespace geomend {
+
+namespace {
+
+std::vector<std::string_view> split(std::string_view text, char at) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const std::size_t end = text.find(at);
+        parts.push_back(text.substr(0, end));
+        if (end == std::string_view::npos) return parts;
+        text.remove_prefix(end + 1);
+    }
+}
+
+// Letters to insert, to leave out, to change or to swap with the next one.
+std::size_t steps_between(std::string_view a, std::string_view b) {
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) {
+        for (std::size_t j = 0; j <= b.size(); ++j) {
+            if (i == 0 || j == 0) {
+                d[i][j] = i + j;
+                continue;
+            }
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    }
+    return d[a.size()][b.size()];
+}
+
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known) {
+    const std::string lower = lower_case(word.substr(0, 100));
+    const auto best = std::ranges::min_element(known, {}, [&](std::string_view one) { return steps_between(lower, one); });
+    return best == known.end() ? std::string_view() : *best;
+}
+
+// The value as the row writes it, or nothing where the row does not allow it.
+std::optional<std::string> allowed(const OptionRow& row, std::string_view value) {
+    switch (row.kind) {
+        case OptionValue::text:
+            return std::string(value);
+        case OptionValue::words:
+            for (const std::string_view word : split(row.values, '|')) {
+                if (same_word(word, value)) return std::string(word);
+            }
+            return std::nullopt;
+        case OptionValue::length: {
+            double length = 0;
+            if (parse_real(value, length) != NumberStatus::ok || !(length >= 0)) return std::nullopt;
+            return std::string(value);
+        }
+        case OptionValue::whole_number:
+        case OptionValue::whole_numbers: {
+            const auto numbers = split(value, ',');
+            std::uint64_t n = 0;
+            const bool good = std::ranges::all_of(numbers, [&](std::string_view one) { return parse_integer(one, n) == NumberStatus::ok; });
+            if (!good || (row.kind == OptionValue::whole_number && numbers.size() != 1)) return std::nullopt;
+            return std::string(value);
+        }
+    }
+    return std::nullopt;
+}
+
+std::string expected(const std::vector<const OptionRow*>& rows, std::string_view value) {
+    std::vector<std::string_view> words;
+    for (const OptionRow* row : rows) {
+        if (row->kind != OptionValue::words) return "expected " + std::string(row->values);
+        for (const std::string_view word : split(row->values, '|')) {
+            if (std::ranges::find(words, word) == words.end()) words.push_back(word);
+        }
+    }
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + std::string(words[i]);
+    if (words.size() > 1) text += " (nearest: " + std::string(nearest(value, words)) + ")";
+    return "expected " + text;
+}
+
+bool is_used(const OptionRow& row, bool in_reading) { return row.use == OptionUse::both || (row.use == OptionUse::reading) == in_reading; }
+
+void take(const Format& format, bool in_reading, std::vector<const OptionRow*>& rows) {
+    for (const OptionRow& row : format.options) {
+        if (is_used(row, in_reading)) rows.push_back(&row);
+    }
+}
+
+std::vector<const OptionRow*> rows_in_play(const OptionsInPlay& in_play) {
+    std::vector<const OptionRow*> rows;
+    for (const OptionRow& row : in_play.command) rows.push_back(&row);
+    if (in_play.written != nullptr) take(*in_play.written, false, rows);
+    for (const Format* format : in_play.read) take(*format, true, rows);
+    if (in_play.read.empty()) {
+        for (const Format& format : all_formats()) take(format, true, rows);
+    }
+    return rows;
+}
+
+// "it belongs to writing gocad-ts, gocad-ml ..." where another format has such an option.
+std::string home_of(std::string_view key) {
+    std::string reading, writing;
+    const auto add = [](std::string& list, std::string_view family) {
+        if (list.find(family) == std::string::npos) list += (list.empty() ? "" : ", ") + std::string(family);
+    };
+    for (const Format& format : all_formats()) {
+        for (const OptionRow& row : format.options) {
+            if (row.key != key) continue;
+            if (is_used(row, true)) add(reading, format.name);
+            if (is_used(row, false)) add(writing, format.name);
+        }
+    }
+    std::string text;
+    if (!reading.empty()) text = "it belongs to reading " + reading;
+    if (!writing.empty()) text += (text.empty() ? "it belongs to writing " : " and to writing ") + writing;
+    return text;
+}
+
+Failure wrong(const std::string& key, const std::string& value, const std::string& why) {
+    return failure(FailureKind::usage, "F018", {}, "--option " + key + "=" + value + ": " + why);
+}
+
+}  // namespace
+
+Result<FormatOptions> checked_options(const FormatOptions& options, const OptionsInPlay& in_play) {
+    const auto rows = rows_in_play(in_play);
+    FormatOptions checked;
+    for (const auto& [key, value] : options) {
+        std::vector<const OptionRow*> meant;
+        std::ranges::copy_if(rows, std::back_inserter(meant), [&](const OptionRow* row) { return row->key == key; });
+        if (meant.empty()) {
+            if (const std::string home = home_of(key); !home.empty()) return wrong(key, value, home + ", which this run does not do");
+            std::vector<std::string_view> keys;
+            for (const OptionRow* row : rows) keys.push_back(row->key);
+            const std::string_view near = nearest(key, keys);
+            return wrong(key, value, "no such option" + (near.empty() ? "" : "; the nearest is " + std::string(near)));
+        }
+        std::optional<std::string> good;
+        for (const OptionRow* row : meant) {
+            if (!good) good = allowed(*row, value);
+        }
+        if (!good) return wrong(key, value, expected(meant, value));
+        checked.emplace_back(key, std::move(*good));
+    }
+    return checked;
+}
+
+}  // namespace geomend

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/assemble.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/parallel.h"
+#include "topology/cut_nodes.h"
+#include "topology/face_volume.h"
+#include "topology/geology.h"
+#include "topology/pieces.h"
+#include "topology/regions.h"
+#include "topology/regions_of_complex.h"
+#include "topology/winding.h"
+
+namespace geomend::topology {
+
+namespace {
+
+void join_polygons(Assembly& a) {
+    a.faces.resize(a.brep.surfaces.size());
+    parallel_for_each_index(a.faces.size(), [&](std::size_t s) { a.faces[s] = connect_polygons(a.brep.surfaces[s]); });
+}
+
+void take_geometry(SurfaceComplex& complex, Assembly& a) {
+    a.brep.name = std::move(complex.name);
+    a.brep.crs = std::move(complex.crs);
+    a.brep.annotations = std::move(complex.annotations);
+    a.brep.vertices = std::move(complex.vertices);
+    a.findings = std::move(complex.findings);
+    a.brep.surfaces.reserve(complex.faces.size());
+    for (auto& face : complex.faces) a.brep.surfaces.push_back(std::move(face.surface));
+    join_polygons(a);
+}
+
+/// A surface for each piece that hangs together between lines. False where all are in one piece as they are.
+bool split_into_pieces(SurfaceComplex& complex, Assembly& a) {
+    std::vector<SurfaceComplex::Face> faces;
+    std::vector<BrepData::Surface> surfaces;
+    for (std::size_t f = 0; f < complex.faces.size(); ++f) {
+        for (auto& piece : pieces_of(a.brep.surfaces[f], a.faces[f])) {
+            faces.push_back(complex.faces[f]);
+            faces.back().source_polygons = std::move(piece.polygons);
+            surfaces.push_back(std::move(piece.surface));
+        }
+    }
+    if (surfaces.size() == complex.faces.size()) return false;
+    complex.faces = std::move(faces);
+    a.brep.surfaces = std::move(surfaces);
+    join_polygons(a);
+    return true;
+}
+
+/// Polygons that are wound against their neighbours are turned over, so that each side of a surface is one side.
+/// \return per surface the turned ones; empty: none anywhere
+std::vector<std::vector<std::uint32_t>> turn_over(Assembly& a) {
+    auto& surfaces = a.brep.surfaces;
+    std::vector<Winding> winding(surfaces.size());
+    parallel_for_each_index(surfaces.size(), [&](std::size_t s) { winding[s] = winding_of(surfaces[s]); });
+    const auto wrong = [](const Winding& w) { return !w.one_sided && !w.wrong.empty(); };
+    if (std::ranges::none_of(winding, wrong)) return {};
+    std::vector<std::vector<std::uint32_t>> turned(surfaces.size());
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        if (!wrong(winding[s])) continue;
+        for (const std::uint32_t p : winding[s].wrong) turn_polygon(surfaces[s], p);
+        turned[s] = std::move(winding[s].wrong);
+    }
+    join_polygons(a);
+    return turned;
+}
+
+void make_lines_anew(const SurfaceComplex& complex, Assembly& a) {
+    for (auto& surface : a.brep.surfaces) surface.lines.clear();
+    a.brep.lines.clear();
+    a.brep.corners.clear();
+    a.graph = build_lines(a.brep, a.faces, complex.lines);
+}
+
+void name_corners(const SurfaceComplex& complex, BrepData& brep) {
+    std::map<std::uint32_t, const std::string*> names;
+    for (const auto& corner : complex.corner_names) names.emplace(corner.vertex, &corner.name);
+    for (auto& corner : brep.corners) {
+        if (const auto found = names.find(corner.vertex.value); found != names.end()) corner.name = *found->second;
+    }
+}
+
+void name_lines(const SurfaceComplex& complex, Assembly& a) {
+    if (complex.line_names.empty()) return;
+    for (std::size_t l = 0; l < a.brep.lines.size(); ++l) {
+        if (a.graph.stated_line[l] != no_index) a.brep.lines[l].name = complex.line_names[a.graph.stated_line[l]];
+    }
+}
+
+/// Lines and corners. Gives the polygons that were turned over, per surface, where the complex is taken apart.
+std::vector<std::vector<std::uint32_t>> make_lines(SurfaceComplex& complex, Assembly& a) {
+    a.graph = build_lines(a.brep, a.faces, complex.lines);
+    std::vector<std::vector<std::uint32_t>> turned;
+    if (complex.take_apart) {
+        const bool apart = split_into_pieces(complex, a);
+        turned = turn_over(a);
+        if (apart || !turned.empty()) make_lines_anew(complex, a);
+    }
+    name_corners(complex, a.brep);
+    name_lines(complex, a);
+    for (std::size_t f = 0; f < complex.faces.size(); ++f) {
+        if (complex.faces[f].shared_nodes) split_nodes_along_cuts(a.brep, a.brep.surfaces[f]);
+    }
+    return turned;
+}
+
+void make_interfaces(const SurfaceComplex& complex, BrepData& brep) {
+    InterfaceBook book(brep);
+    for (std::uint32_t f = 0; f < complex.faces.size(); ++f) book.enter(SurfaceId(f), complex.faces[f].interface_name);
+    for (const auto& said : complex.interfaces) {
+        const InterfaceId found = book.find(said.name);
+        if (!found.valid()) continue;
+        brep.interfaces[found.value].feature = said.feature;
+        brep.interfaces[found.value].annotations = said.annotations;
+    }
+    name_surfaces(brep);
+}
+
+void make_features(const SurfaceComplex& complex, BrepData& brep) {
+    for (const auto& feature : complex.features) {
+        BrepData::Feature made{feature.name, {}};
+        for (const std::uint32_t f : feature.faces) {
+            made.surfaces.emplace_back(f);
+            auto& interface = brep.interfaces[brep.surfaces[f].interface_id.value];
+            if (interface.feature.empty()) interface.feature = feature.name;
+        }
+        brep.features.push_back(std::move(made));
+    }
+}
+
+}  // namespace
+
+Result<JudgedModel> assemble(SurfaceComplex complex, RegionSearch search) {
+    Assembly a;
+    take_geometry(complex, a);
+    auto turned = make_lines(complex, a);
+    for (const auto& face : complex.faces) a.tolerances.push_back(face.tolerance);
+    make_interfaces(complex, a.brep);
+    make_regions(complex, a);
+    make_contacts(a.brep);
+    count_internal_lines(a.brep);
+    make_features(complex, a.brep);
+    const bool found = !a.found.region_of_side.empty() || a.brep.surfaces.empty();
+    if (!found && search == RegionSearch::always) a.found = find_regions(a.brep, a.graph, a.cones, a.tolerances);
+    std::vector<std::vector<std::uint32_t>> source_polygons;
+    std::vector<std::uint64_t> first_polygon;
+    const bool apart = std::ranges::any_of(complex.faces, [](const auto& face) { return !face.source_polygons.empty(); });
+    for (auto& face : complex.faces) {
+        first_polygon.push_back(face.first_polygon);
+        if (apart) source_polygons.push_back(std::move(face.source_polygons));
+    }
+    auto brep = Brep::make(std::move(a.brep));
+    if (!brep) return std::move(brep).why();
+    const double tolerance = a.tolerances.empty() ? 0 : std::ranges::max(a.tolerances);
+    return JudgedModel{std::move(brep).value(),
+                       std::move(a.faces),
+                       std::move(a.graph),
+                       std::move(a.found),
+                       complex.stated,
+                       !found,
+                       tolerance,
+                       std::move(a.tolerances),
+                       complex.points_welded,
+                       std::move(complex.welded_positions),
+                       std::move(source_polygons),
+                       std::move(turned),
+                       std::move(first_polygon),
+                       std::move(a.findings)};
+}
+
+}  // namespace geomend::topology

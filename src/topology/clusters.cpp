@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "geometry/closest_points.h"
+#include "geometry/triangle_tree.h"
+
+namespace geomend::topology {
+
+namespace {
+
+constexpr double closeness = 0.01;  // of the larger diameter
+
+bool counts(const UsedPoints& used, std::uint32_t t, std::span<const std::uint8_t> left_out) {
+    return std::ranges::none_of(used.triangles[t], [&](std::uint32_t v) { return left_out[v] != 0; });
+}
+
+void widen(PartExtent& part, const ObjectInfo& info, const Vec3& p) {
+    double& largest = info.precision == CoordinatePrecision::single_precision ? part.largest_single : part.largest_double;
+    for (std::size_t k = 0; k < 3; ++k) {
+        part.low[k] = std::min(part.low[k], p[k]);
+        part.high[k] = std::max(part.high[k], p[k]);
+        largest = std::max(largest, std::abs(p[k] - info.stored_around[k]));
+    }
+}
+
+PartExtent extent_of(const Dataset& dataset, const UsedPoints& used, std::span<const std::uint32_t> triangles,
+                     std::span<const std::uint8_t> left_out) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    PartExtent part;
+    part.low = {infinite, infinite, infinite};
+    part.high = {-infinite, -infinite, -infinite};
+    Vec3 origin{}, weighted{}, plain{};
+    std::uint64_t corners = 0;
+    for (const std::uint32_t t : triangles) {
+        if (!counts(used, t, left_out)) continue;
+        const ObjectInfo& info = info_of(dataset.objects[used.object[t]]);
+        const double weight = used.weight(t);
+        const auto triangle = used.corners(t);
+        if (part.empty) origin = triangle[0];
+        part.empty = false;
+        part.weight += weight;
+        for (const Vec3& p : triangle) {
+            const Vec3 d = minus(p, origin);
+            plain = plus(plain, d);
+            weighted = plus(weighted, times(weight / 3, d));
+            widen(part, info, p);
+        }
+        corners += 3;
+    }
+    if (part.empty) return part;
+    part.centroid = plus(origin, part.weight > 0 ? times(1 / part.weight, weighted) : times(1 / static_cast<double>(corners), plain));
+    double square = 0;
+    for (const std::uint32_t t : triangles) {
+        if (!counts(used, t, left_out)) continue;
+        for (const std::uint32_t v : used.triangles[t]) {
+            const Vec3 d = minus(used.positions[v], part.centroid);
+            square = std::max(square, dot(d, d));
+        }
+    }
+    part.radius = std::sqrt(square);
+    return part;
+}
+
+/// Tells whether two parts come close to each other.
+class Closeness {
+public:
+    Closeness(const UsedPoints& used, const HangingParts& parts, std::span<const PartExtent> extents,
+              std::span<const std::uint8_t> left_out)
+        : used_(used), parts_(parts), extents_(extents), left_out_(left_out) {}
+
+    bool are_close(std::uint32_t a, std::uint32_t b) {
+        const double reach = closeness * 2 * std::max(extents_[a].radius, extents_[b].radius);
+        const Vec3 d = minus(extents_[a].centroid, extents_[b].centroid);
+        if (std::sqrt(dot(d, d)) > extents_[a].radius + extents_[b].radius + reach) return false;
+        if (parts_[a].size() < parts_[b].size()) std::swap(a, b);
+        return std::ranges::any_of(parts_[b], [&](std::uint32_t t) { return comes_close(t, a, reach); });
+    }
+
+private:
+    const UsedPoints& used_;
+    const HangingParts& parts_;
+    std::span<const PartExtent> extents_;
+    std::span<const std::uint8_t> left_out_;
+    std::unique_ptr<TriangleTree> tree_;
+
+    const TriangleTree& tree() {
+        if (!tree_) tree_ = std::make_unique<TriangleTree>(used_.positions, used_.triangles);
+        return *tree_;
+    }
+
+    bool comes_close(std::uint32_t t, std::uint32_t part, double reach) {
+        if (!counts(used_, t, left_out_)) return false;
+        const auto corners = used_.corners(t);
+        Vec3 low = corners[0], high = corners[0];
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min({corners[0][k], corners[1][k], corners[2][k]});
+            high[k] = std::max({corners[0][k], corners[1][k], corners[2][k]});
+            if (low[k] > extents_[part].high[k] + reach || high[k] < extents_[part].low[k] - reach) return false;
+        }
+        bool close = false;
+        tree().visit_triangles(tree().box(low, high, reach), [&](std::size_t i) {
+            const std::uint32_t other = tree_->number(i);
+            if (close || parts_.of_vertex[used_.triangles[other][0]] != part || !counts(used_, other, left_out_)) return;
+            close = closest_points(corners, used_.corners(other)).distance <= reach;
+        });
+        return close;
+    }
+};
+
+/// Calls visit(a, b) for each two parts whose bounding spheres come close to each other.
+template <class Visit>
+void each_candidate(std::span<const PartExtent> extents, const Visit& visit) {
+    std::vector<std::uint32_t> part;
+    std::vector<Vec3> points;
+    std::vector<Triangle> boxes;  // each spans the box around a sphere
+    for (std::uint32_t p = 0; p < extents.size(); ++p) {
+        const double r = (1 + 2 * closeness) * extents[p].radius;
+        if (extents[p].empty || !(r > 0)) continue;
+        const Vec3& c = extents[p].centroid;
+        const auto first = static_cast<std::uint32_t>(points.size());
+        points.insert(points.end(), {{c[0] - r, c[1] - r, c[2] - r}, {c[0] + r, c[1] + r, c[2] + r}, {c[0] - r, c[1] + r, c[2] - r}});
+        boxes.push_back({first, first + 1, first + 2});
+        part.push_back(p);
+    }
+    if (part.size() < 2) return;
+    const TriangleTree tree(points, boxes);
+    if (tree.levels().empty()) return;
+    tree.visit_pairs(tree.levels().size() - 1, 0, 0, [&](std::size_t i, std::size_t first, unsigned hits) {
+        visit_bits(hits, [&](std::size_t k) { visit(part[tree.number(i)], part[tree.number(first + k)]); });
+    });
+}
+
+}  // namespace
+
+std::vector<PartExtent> part_extents(const Dataset& dataset, const UsedPoints& used, const HangingParts& parts,
+                                     std::span<const std::uint8_t> left_out) {
+    std::vector<PartExtent> extents(parts.size());
+    parallel_for_each_index(parts.size(), [&](std::size_t p) { extents[p] = extent_of(dataset, used, parts[p], left_out); });
+    return extents;
+}
+
+double stored_steps(const PartExtent& part) {
+    double step = 0;
+    if (part.largest_double >= 0) step = std::nextafter(part.largest_double, HUGE_VAL) - part.largest_double;
+    if (part.largest_single >= 0) {
+        const auto v = static_cast<float>(part.largest_single);
+        step = std::max(step, static_cast<double>(std::nextafter(v, HUGE_VALF)) - static_cast<double>(v));
+    }
+    return 4 * step;
+}
+
+std::vector<std::uint32_t> cluster_parts(const UsedPoints& used, const HangingParts& parts, std::span<const PartExtent> extents,
+                                         std::span<const std::uint8_t> left_out) {
+    DisjointSets sets(parts.size());
+    Closeness closeness_of(used, parts, extents, left_out);
+    each_candidate(extents, [&](std::uint32_t a, std::uint32_t b) {
+        if (sets.root(a) != sets.root(b) && closeness_of.are_close(a, b)) sets.join(a, b);
+    });
+    auto cluster = std::move(sets).roots();
+    std::uint32_t count = 0;
+    for (std::uint32_t p = 0; p < cluster.size(); ++p) cluster[p] = cluster[p] == p ? count++ : cluster[cluster[p]];
+    return cluster;
+}
+
+}  // namespace geomend::topology

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/lengths.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "base/parallel.h"
+#include "geometry/principal_axes.h"
+#include "topology/clusters.h"
+#include "topology/outlying_points.h"
+
+namespace geomend::topology {
+
+namespace {
+
+constexpr double far_off = 10;       // diameters
+constexpr double sheet = 1.0 / 250;  // of the diameter: thinner clusters have no thickness
+constexpr double near_thickness = 1.0 / 200;
+
+/// What is known of one cluster.
+struct Cluster {
+    std::vector<std::uint32_t> parts;
+    Vec3 centroid{};
+    double radius = 0, thickness = 0, edge = 0, steps = 0;
+};
+
+/// The length up to which half of the weight lies. \pre not empty
+double weighted_median(std::vector<std::pair<double, double>>& lengths) {
+    double half = 0;
+    for (const auto& [length, weight] : lengths) half += weight / 2;
+    auto from = lengths.begin(), to = lengths.end();
+    while (to - from > 1) {
+        const auto middle = from + (to - from) / 2;
+        std::nth_element(from, middle, to);
+        double below = 0;
+        for (auto i = from; i != middle; ++i) below += i->second;
+        if (below > half) {
+            to = middle;
+        } else {
+            half -= below;
+            from = middle;
+        }
+    }
+    return from->first;
+}
+
+/// The middle one of the three edges.
+double middle_edge(const std::array<Vec3, 3>& t) {
+    std::array<double, 3> squares{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 d = minus(t[i], t[(i + 1) % 3]);
+        squares[i] = dot(d, d);
+    }
+    std::ranges::sort(squares);
+    return std::sqrt(squares[1]);
+}
+
+/// Everything that lengths are worked out from.
+class Survey {
+public:
+    explicit Survey(const Dataset& dataset) : dataset_(dataset), used_(used_points(dataset)), parts_(hanging_parts(used_)) {
+        marks_ = find_outlying(used_, parts_);
+        left_out_.resize(marks_.size());
+        measure();
+        if (take_back()) measure();
+    }
+
+    LocalLengths lengths(const LengthRules& rules) const;
+
+private:
+    const Dataset& dataset_;
+    UsedPoints used_;
+    HangingParts parts_;
+    std::vector<Outlying> marks_;
+    std::vector<std::uint8_t> left_out_;
+    std::vector<PartExtent> extents_;
+    std::vector<std::uint32_t> cluster_of_;  // per part
+    std::vector<Cluster> clusters_;
+
+    void measure();
+    bool take_back();
+    void measure_cluster(Cluster& cluster) const;
+    std::array<double, 6> moments(const Cluster& cluster) const;
+    std::vector<std::uint32_t> clusters_of_objects() const;
+    std::vector<OutlyingPoint> outlying() const;
+
+    double distance(const Cluster& cluster, std::uint32_t vertex) const {
+        const Vec3 d = minus(used_.positions[vertex], cluster.centroid);
+        return std::sqrt(dot(d, d));
+    }
+    const Cluster& cluster_of_vertex(std::uint32_t v) const { return clusters_[cluster_of_[parts_.of_vertex[v]]]; }
+
+    template <class Visit>
+    void each_triangle(const Cluster& cluster, const Visit& visit) const {
+        for (const std::uint32_t p : cluster.parts) {
+            for (const std::uint32_t t : parts_[p]) {
+                const auto& corners = used_.triangles[t];
+                if (left_out_[corners[0]] == 0 && left_out_[corners[1]] == 0 && left_out_[corners[2]] == 0) visit(t);
+            }
+        }
+    }
+};
+
+void Survey::measure() {
+    for (std::size_t v = 0; v < marks_.size(); ++v) left_out_[v] = marks_[v] != Outlying::no;
+    extents_ = part_extents(dataset_, used_, parts_, left_out_);
+    cluster_of_ = cluster_parts(used_, parts_, extents_, left_out_);
+    clusters_.clear();
+    for (std::uint32_t p = 0; p < cluster_of_.size(); ++p) {
+        if (cluster_of_[p] >= clusters_.size()) clusters_.resize(cluster_of_[p] + 1);
+        clusters_[cluster_of_[p]].parts.push_back(p);
+    }
+    parallel_for_each_index(clusters_.size(), [&](std::size_t c) { measure_cluster(clusters_[c]); });
+}
+
+/// What is far off for the part that it hangs together with, but not for the whole cluster, belongs to it.
+bool Survey::take_back() {
+    bool any = false;
+    for (std::uint32_t v = 0; v < marks_.size(); ++v) {
+        if (marks_[v] != Outlying::far) continue;
+        const Cluster& cluster = cluster_of_vertex(v);
+        if (distance(cluster, v) >= far_off * 2 * cluster.radius) continue;
+        marks_[v] = Outlying::no;
+        any = true;
+    }
+    return any;
+}
+
+/// Second moments of the areas about the centroid, from the corners and the middle of each triangle.
+std::array<double, 6> Survey::moments(const Cluster& cluster) const {
+    std::array<double, 6> m{};
+    each_triangle(cluster, [&](std::uint32_t t) {
+        const double weight = used_.weight(t);
+        const auto corners = used_.corners(t);
+        Vec3 middle{};
+        const auto add = [&](const Vec3& d, double w) {
+            std::size_t k = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                for (std::size_t j = i; j < 3; ++j) m[k++] += w * d[i] * d[j];
+            }
+        };
+        for (const Vec3& p : corners) {
+            const Vec3 d = minus(p, cluster.centroid);
+            middle = plus(middle, times(1.0 / 3, d));
+            add(d, weight / 12);
+        }
+        add(middle, weight * 3 / 4);
+    });
+    return m;
+}
+
+void Survey::measure_cluster(Cluster& cluster) const {
+    double weight = 0, count = 0;
+    Vec3 weighted{}, plain{};
+    const Vec3& origin = extents_[cluster.parts[0]].centroid;
+    for (const std::uint32_t p : cluster.parts) {
+        const PartExtent& part = extents_[p];
+        if (part.empty) continue;
+        const Vec3 d = minus(part.centroid, origin);
+        weight += part.weight;
+        count += 1;
+        weighted = plus(weighted, times(part.weight, d));
+        plain = plus(plain, d);
+        cluster.steps = std::max(cluster.steps, stored_steps(part));
+    }
+    if (count == 0) return;
+    cluster.centroid = plus(origin, weight > 0 ? times(1 / weight, weighted) : times(1 / count, plain));
+    const Vec3 normal = weight > 0 ? principal_axes(moments(cluster))[0] : Vec3{};
+    std::vector<std::pair<double, double>> edges;
+    each_triangle(cluster, [&](std::uint32_t t) {
+        const auto corners = used_.corners(t);
+        for (const Vec3& p : corners) {
+            const Vec3 d = minus(p, cluster.centroid);
+            cluster.radius = std::max(cluster.radius, dot(d, d));
+            cluster.thickness = std::max(cluster.thickness, 2 * std::abs(dot(d, normal)));
+        }
+        if (used_.is_weighted(t)) edges.emplace_back(middle_edge(corners), used_.weight(t));
+    });
+    cluster.radius = std::sqrt(cluster.radius);
+    if (!edges.empty()) cluster.edge = weighted_median(edges);
+}
+
+/// Per object the cluster in which most of it is; of equal ones the largest.
+std::vector<std::uint32_t> Survey::clusters_of_objects() const {
+    std::vector<std::uint32_t> of(dataset_.objects.size(), no_index);
+    for (std::uint32_t o = 0; o < of.size(); ++o) {
+        std::map<std::uint32_t, double> weights;
+        for (std::uint32_t t = used_.first_triangle[o]; t < used_.first_triangle[o + 1]; ++t) {
+            const auto& corners = used_.triangles[t];
+            const bool counts = std::ranges::none_of(corners, [&](std::uint32_t v) { return left_out_[v] != 0; });
+            weights[cluster_of_[parts_.of_vertex[corners[0]]]] += counts ? used_.weight(t) : 0;
+        }
+        const auto larger = [&](const auto& a, const auto& b) {
+            return std::pair(a.second, clusters_[a.first].radius) < std::pair(b.second, clusters_[b.first].radius);
+        };
+        if (!weights.empty()) of[o] = std::ranges::max_element(weights, larger)->first;
+    }
+    return of;
+}
+
+/// The points of objects at the positions of outlying vertices.
+std::vector<OutlyingPoint> Survey::outlying() const {
+    std::map<Vec3, std::uint32_t> at;
+    for (std::uint32_t v = 0; v < marks_.size(); ++v) {
+        if (marks_[v] != Outlying::no) at.emplace(used_.positions[v], v);
+    }
+    std::vector<OutlyingPoint> found;
+    if (at.empty()) return found;
+    for (std::uint32_t o = 0; o < dataset_.objects.size(); ++o) {
+        const auto* surface = std::get_if<Surface>(&dataset_.objects[o]);
+        const auto* mesh = std::get_if<CellMesh>(&dataset_.objects[o]);
+        if (surface == nullptr && mesh == nullptr) continue;
+        const auto& points = surface != nullptr ? surface->points : mesh->points;
+        for (std::uint32_t p = 0; p < points.size(); ++p) {
+            const auto v = at.find(points[p]);
+            if (v == at.end()) continue;
+            const Cluster& cluster = cluster_of_vertex(v->second);
+            const double times = cluster.radius > 0 ? distance(cluster, v->second) / (2 * cluster.radius) : 0;
+            found.push_back({o, p, times, marks_[v->second] == Outlying::usual});
+        }
+    }
+    return found;
+}
+
+LocalLengths Survey::lengths(const LengthRules& rules) const {
+    LocalLengths local;
+    local.cluster_of = clusters_of_objects();
+    local.outlying = outlying();
+    std::vector<std::uint32_t> number(clusters_.size(), no_index);
+    for (std::uint32_t& cluster : local.cluster_of) {
+        if (cluster == no_index) continue;
+        if (number[cluster] == no_index) {
+            number[cluster] = static_cast<std::uint32_t>(local.clusters.size());
+            const Cluster& c = clusters_[cluster];
+            Lengths lengths;
+            lengths.diameter = 2 * c.radius;
+            lengths.tolerance = rules.tolerance >= 0 ? rules.tolerance : std::max(1e-7 * lengths.diameter, c.steps);
+            double near = 1e-3 * lengths.diameter;
+            if (c.edge > 0) near = std::min(near, c.edge / 4);
+            if (c.thickness >= sheet * lengths.diameter) near = std::min(near, near_thickness * c.thickness);
+            lengths.near = rules.near >= 0 ? rules.near : std::max(10 * lengths.tolerance, near);
+            local.clusters.push_back(lengths);
+        }
+        cluster = number[cluster];
+    }
+    for (const Lengths& lengths : local.clusters) {
+        local.largest.diameter = std::max(local.largest.diameter, lengths.diameter);
+        local.largest.tolerance = std::max(local.largest.tolerance, lengths.tolerance);
+        local.largest.near = std::max(local.largest.near, lengths.near);
+    }
+    if (local.clusters.empty()) local.largest = {0, std::max(0.0, rules.tolerance), std::max(0.0, rules.near)};
+    return local;
+}
+
+}  // namespace
+
+std::vector<ModelSource> model_sources(const Dataset& dataset, const LocalLengths& lengths) {
+    auto sources = model_sources(dataset);
+    for (ModelSource& source : sources) {
+        std::map<std::pair<double, std::uint32_t>, WeldGroup> groups;
+        const bool same = std::ranges::all_of(lengths.clusters, [&](const Lengths& l) { return l.tolerance == lengths.largest.tolerance; });
+        for (const WeldGroup& group : source.groups) {
+            for (const std::uint32_t o : group.objects) {
+                const bool apart = !same && o < lengths.cluster_of.size() && lengths.cluster_of[o] != no_index;
+                WeldGroup& to = groups[{lengths.of(o).tolerance, apart ? lengths.cluster_of[o] : no_index}];
+                to.tolerance = lengths.of(o).tolerance;
+                to.objects.push_back(o);
+            }
+        }
+        source.groups.clear();
+        for (auto& [key, group] : groups) source.groups.push_back(std::move(group));
+    }
+    return sources;
+}
+
+LocalLengths local_lengths(const Dataset& dataset, const LengthRules& rules) { return Survey(dataset).lengths(rules); }
+
+}  // namespace geomend::topology

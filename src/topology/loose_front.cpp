@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <set>
+
+#include "base/parallel.h"
+#include "topology/faces_from_surfaces.h"
+#include "topology/front_ends.h"
+
+namespace geomend::topology {
+
+namespace {
+
+/// True for polygons that share next to no points, although more than a quarter are at positions of others, as STL files have it.
+bool is_soup(const BrepData::Surface& surface) {
+    const std::size_t corners = surface.polygons.corners.size();
+    if (surface.polygons.size() < 2 || 10 * surface.nodes.size() < 9 * corners) return false;
+    std::vector<VertexId> vertices = surface.nodes;
+    std::sort(vertices.begin(), vertices.end());
+    const auto distinct = static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+    return 4 * distinct < 3 * surface.nodes.size();  // two triangles side by side have four positions
+}
+
+/// One node for each vertex; attributes go, since they may differ.
+void join_nodes(BrepData::Surface& surface) {
+    std::vector<VertexId> nodes = surface.nodes;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    for (std::uint32_t& corner : surface.polygons.corners) {
+        corner = static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), surface.nodes[corner]) - nodes.begin());
+    }
+    surface.nodes = std::move(nodes);
+    surface.attributes.clear();
+}
+
+/// Names a surface whose polygons had points of their own.
+void report_soup(SurfaceComplex& complex, const SurfaceComplex::Face& face) {
+    Finding finding;
+    finding.code = "M08";
+    finding.severity = Severity::warning;
+    finding.message = "the triangles of '" + face.interface_name + "' have points of their own: judged as joined where points are equal";
+    finding.entities.push_back({"interface", face.interface_name, -1});
+    finding.count = face.surface.polygons.size();
+    finding.element_kind = "triangle";
+    complex.findings.push_back(std::move(finding));
+}
+
+}  // namespace
+
+SurfaceComplex complex_of_loose_surfaces(const Dataset& dataset, std::span<const WeldGroup> groups) {
+    std::vector<std::uint32_t> objects;
+    for (const WeldGroup& group : groups) objects.insert(objects.end(), group.objects.begin(), group.objects.end());
+    std::ranges::sort(objects);
+    WeldedPoints points = weld_points(dataset, groups);
+    SurfaceComplex complex;
+    complex.name = info_of(dataset.objects[objects.front()]).name;
+    complex.crs = info_of(dataset.objects[objects.front()]).crs;
+    complex.stated = false;
+    complex.take_apart = true;
+    complex.lines.shared_nodes = true;  // a fault that ends inside a horizon seldom cuts it there
+    struct Place {
+        std::uint32_t object, part;
+    };
+    std::vector<Place> places;
+    std::set<std::string_view> known;
+    for (const std::uint32_t o : objects) {
+        const auto& surface = std::get<Surface>(dataset.objects[o]);
+        for (std::uint32_t part = 0; part < part_count(surface); ++part) places.push_back({o, part});
+        add_corner_hints(dataset.objects[o], points.of.at(o), complex);
+        if (known.insert(surface.info.name).second) {
+            complex.interfaces.push_back({surface.info.name, surface.info.feature, surface.info.annotations});
+        }
+    }
+    complex.faces.resize(places.size());
+    std::vector<std::uint8_t> joined(places.size(), 0);
+    parallel_for_each_index(places.size(), [&](std::size_t f) {
+        const auto& surface = std::get<Surface>(dataset.objects[places[f].object]);
+        auto& face = complex.faces[f];
+        face = face_of_part(surface, places[f].object, places[f].part, points);
+        face.interface_name = surface.info.name;
+        face.surface.role = surface.info.role;
+        face.surface.role_text = surface.info.role_text;
+        if (!is_soup(face.surface)) return;
+        join_nodes(face.surface);
+        joined[f] = 1;
+    });
+    for (std::size_t f = 0; f < joined.size(); ++f) {
+        if (joined[f] != 0) report_soup(complex, complex.faces[f]);
+    }
+    give_vertices(points, complex);
+    return complex;
+}
+
+}  // namespace geomend::topology

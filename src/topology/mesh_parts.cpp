@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/mesh_parts.h"
+
+#include <algorithm>
+#include <map>
+
+#include "topology/faces_from_mesh.h"
+
+namespace geomend::topology {
+
+MeshParts parts_of_mesh(const CellMesh& mesh, std::uint32_t object) {
+    MeshParts parts{&mesh, object, cells_by_entity(mesh), stated_twins(mesh)};
+    for (std::size_t e = 0; e < mesh.entities.size(); ++e) {
+        parts.filled |= mesh.entities[e].dimension == 3 && !parts.entity_cells[e].empty();
+    }
+    return parts;
+}
+
+std::string entity_name(const CellMesh& mesh, const CellMesh::Entity& entity, const char* kind) {
+    if (!entity.name.empty()) return entity.name;
+    for (const std::uint32_t g : entity.groups) {
+        if (g < mesh.groups.size() && !mesh.groups[g].name.empty()) return mesh.groups[g].name;
+    }
+    return std::string(kind) + "_" + std::to_string(entity.tag);
+}
+
+SurfaceComplex::Face face_of_entity(const MeshParts& parts, std::uint32_t entity, const WeldedPoints& points) {
+    const bool point_attributes_here = !parts.filled;  // else they are the regions' own
+    SurfaceComplex::Face face;
+    face.surface = surface_of_cells(*parts.mesh, parts.entity_cells[entity], points.of.at(parts.object), parts.mesh->entities[entity].tag,
+                                    parts.twins ? &*parts.twins : nullptr, point_attributes_here);
+    face.surface.source_object = parts.object;
+    face.surface.source_part = entity;
+    face.shared_nodes = !parts.twins;
+    face.tolerance = points.tolerance.at(parts.object);
+    return face;
+}
+
+void add_lines_of_mesh(const MeshParts& parts, const WeldedPoints& points, SurfaceComplex& complex) {
+    const CellMesh& mesh = *parts.mesh;
+    const auto& vertex_of = points.of.at(parts.object);
+    const StatedLines own = stated_lines(mesh, parts.entity_cells, vertex_of);
+    const auto first_line = static_cast<std::uint32_t>(complex.line_names.size());
+    for (auto edge : own.edges) {
+        edge.line += first_line;
+        complex.lines.edges.push_back(edge);
+    }
+    complex.lines.corners.insert(complex.lines.corners.end(), own.corners.begin(), own.corners.end());
+    complex.lines.shared_nodes |= !parts.twins;
+    for (std::size_t e = 0; e < mesh.entities.size(); ++e) {
+        const auto& entity = mesh.entities[e];
+        complex.line_names.push_back(entity.name);
+        if (entity.dimension != 0 || entity.name.empty()) continue;
+        for (const std::uint32_t c : parts.entity_cells[e]) {
+            for (const std::uint32_t p : mesh.cell_nodes(c)) complex.corner_names.push_back({vertex_of[p], entity.name});
+        }
+    }
+}
+
+void add_volumes_of_mesh(const MeshParts& parts, const WeldedPoints& points, SurfaceComplex& complex) {
+    const CellMesh& mesh = *parts.mesh;
+    std::map<std::int64_t, std::uint32_t> face_of_tag;
+    for (std::uint32_t f = 0; f < complex.faces.size(); ++f) {
+        const auto& surface = complex.faces[f].surface;
+        if (surface.source_object == parts.object) face_of_tag.emplace(mesh.entities[surface.source_part].tag, f);
+    }
+    const auto number = static_cast<std::uint32_t>(complex.meshes.size());
+    complex.meshes.push_back({&mesh, parts.object, points.of.at(parts.object)});
+    for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
+        if (mesh.entities[e].dimension != 3) continue;
+        SurfaceComplex::Volume volume{number, parts.entity_cells[e], {entity_name(mesh, mesh.entities[e], "Region"), false, {}}};
+        for (const std::int64_t tag : mesh.entities[e].boundary) {
+            const auto found = face_of_tag.find(tag < 0 ? -tag : tag);
+            if (found != face_of_tag.end()) volume.boundary.sides.push_back({SurfaceId(found->second), tag < 0});  // normals point outwards
+        }
+        complex.volumes.push_back(std::move(volume));
+    }
+}
+
+}  // namespace geomend::topology

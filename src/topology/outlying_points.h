@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "topology/used_points.h"
+
+namespace geomend::topology {
+
+/// Why a vertex counts as outlying.
+enum class Outlying : std::uint8_t {
+    no,
+    far,   ///< it lies alone, far off from all that it hangs together with
+    usual  ///< and its height is a number that programs write for "no value"
+};
+
+/// Vertices that are likely no part of the shape, per vertex.
+///
+/// A vertex is `usual` where its height, of either sign, is a number such as -999.25, -9999 or 1e30 and lies at least as far from
+/// all other heights of its object as these lie from each other; all edges from it to others are steeper than 45 degrees; and
+/// these are less than a tenth of the vertices of the object (of 9999 and larger numbers: less than half).
+///
+/// Vertices are `far` where edges that are at least ten times as long as all the rest is wide are all that links them to the
+/// rest, and they are at most a twentieth of it (from a hundred times on: a quarter). So what tapers off through several
+/// vertices, as a salt dome does, and what makes a good part of a surface is not outlying, nor is a part that no edge links.
+/// Cost: linear; some times that where something is found.
+std::vector<Outlying> find_outlying(const UsedPoints& used, const HangingParts& parts);
+
+}  // namespace geomend::topology

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/lengths.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace geomend {
+namespace {
+
+/// A sheet of n x n squares of a side each, from a corner on; heights by a function.
+template <class Height>
+Surface sheet(const char* name, std::uint32_t n, double side, const Vec3& corner, const Height& height) {
+    Surface surface;
+    surface.info.name = name;
+    for (std::uint32_t j = 0; j <= n; ++j) {
+        for (std::uint32_t i = 0; i <= n; ++i) {
+            const double x = corner[0] + side * i, y = corner[1] + side * j;
+            surface.points.push_back({x, y, corner[2] + height(i, j)});
+        }
+    }
+    for (std::uint32_t j = 0; j < n; ++j) {
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t a = i + j * (n + 1), b = a + 1, c = a + n + 1, d = c + 1;
+            surface.polygons.corners.insert(surface.polygons.corners.end(), {a, b, d, a, d, c});
+        }
+    }
+    return surface;
+}
+
+Surface flat_sheet(const char* name, std::uint32_t n, double side, const Vec3& corner) {
+    return sheet(name, n, side, corner, [](std::uint32_t, std::uint32_t) { return 0.0; });
+}
+
+Dataset with(std::vector<Surface> surfaces) {
+    Dataset data;
+    for (Surface& s : surfaces) data.objects.emplace_back(std::move(s));
+    return data;
+}
+
+topology::LocalLengths lengths_of(const Dataset& data) { return topology::local_lengths(data, {}); }
+
+TEST(Lengths, of_one_sheet_are_those_of_its_shape) {
+    const auto coarse = lengths_of(with({flat_sheet("a", 1, 1000, {0, 0, 0})}));
+    const auto fine = lengths_of(with({flat_sheet("a", 50, 20, {0, 0, 0})}));
+    ASSERT_EQ(coarse.clusters.size(), 1u);
+    EXPECT_NEAR(coarse.largest.diameter, 1000 * std::sqrt(2.0), 1e-6);
+    EXPECT_NEAR(fine.largest.diameter, coarse.largest.diameter, 1e-6);
+    EXPECT_NEAR(fine.largest.tolerance, coarse.largest.tolerance, 1e-12);
+}
+
+TEST(Lengths, do_not_change_where_one_triangle_is_refined) {
+    Surface plain = flat_sheet("a", 2, 500, {0, 0, 0});
+    Surface refined = plain;
+    // The first triangle's middle again and again: a thousand small triangles at a corner.
+    for (int k = 0; k < 500; ++k) {
+        auto& c = refined.polygons.corners;
+        const std::uint32_t a = c[0], b = c[1], d = c[2];
+        Vec3 middle{};
+        for (std::size_t x = 0; x < 3; ++x)
+            middle[x] = (refined.points[a][x] * 0.98 + refined.points[b][x] * 0.01 + refined.points[d][x] * 0.01);
+        refined.points.push_back(middle);
+        const auto m = static_cast<std::uint32_t>(refined.points.size() - 1);
+        c[2] = m;
+        c.insert(c.end(), {b, d, m, d, a, m});
+    }
+    const auto before = lengths_of(with({plain})), after = lengths_of(with({refined}));
+    EXPECT_NEAR(after.largest.diameter, before.largest.diameter, 1e-6);
+    EXPECT_TRUE(after.outlying.empty());
+}
+
+TEST(Lengths, of_a_basin_with_small_triangles_follow_the_triangles) {
+    const auto basin = lengths_of(with({flat_sheet("a", 100, 100, {0, 0, 0}), flat_sheet("far", 1, 400000, {0, 0, 50})}));
+    EXPECT_NEAR(basin.of(1).near, 1e-3 * basin.of(1).diameter, 1);
+    const auto fine = lengths_of(with({flat_sheet("a", 400, 100, {0, 0, 0})}));
+    EXPECT_NEAR(fine.largest.near, 25, 1e-6);
+}
+
+TEST(Lengths, of_copies_in_a_row_are_those_of_one) {
+    std::vector<Surface> row;
+    for (int k = 0; k < 16; ++k) row.push_back(flat_sheet("a", 4, 250, {1250.0 * k, 0, 0}));
+    const auto one = lengths_of(with({row[0]})), all = lengths_of(with(row));
+    ASSERT_EQ(all.clusters.size(), 16u);
+    for (const auto& l : all.clusters) EXPECT_NEAR(l.tolerance, one.largest.tolerance, 1e-12);
+}
+
+TEST(Lengths, of_surfaces_that_nearly_touch_are_common_ones) {
+    const auto both = lengths_of(with({flat_sheet("a", 4, 250, {0, 0, 0}), flat_sheet("b", 4, 250, {1001, 300, 0})}));
+    EXPECT_EQ(both.clusters.size(), 1u);
+}
+
+TEST(Lengths, are_not_changed_by_a_stray_part) {
+    Surface stray = flat_sheet("a", 4, 250, {0, 0, 0});
+    const auto first = static_cast<std::uint32_t>(stray.points.size());
+    stray.points.insert(stray.points.end(), {{1e6, 0, 0}, {1e6 + 10, 0, 0}, {1e6, 10, 0}});
+    stray.polygons.corners.insert(stray.polygons.corners.end(), {first, first + 1, first + 2});
+    const auto plain = lengths_of(with({flat_sheet("a", 4, 250, {0, 0, 0})})), all = lengths_of(with({stray}));
+    EXPECT_NEAR(all.largest.diameter, plain.largest.diameter, 1e-6);
+    EXPECT_TRUE(all.outlying.empty()) << "a part of its own, not an outlier";
+}
+
+class NoDataHeight : public ::testing::TestWithParam<double> {};
+
+TEST_P(NoDataHeight, is_named_and_takes_no_part) {
+    Surface surface = flat_sheet("hz", 6, 100, {0, 0, -1500});
+    surface.points[17][2] = GetParam();
+    surface.points[30][2] = GetParam();
+    const auto found = lengths_of(with({surface}));
+    EXPECT_LT(found.largest.diameter, 1000);
+    ASSERT_EQ(found.outlying.size(), 2u);
+    EXPECT_EQ(found.outlying[0].point, 17u);
+    EXPECT_EQ(found.outlying[1].point, 30u);
+    EXPECT_GT(found.outlying[0].times, 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Numbers, NoDataHeight, ::testing::Values(-999.25, -9999.0, -99999.0, 99999.0, 1e9, 1e15, -3e7));
+
+TEST(Lengths, know_a_needle_from_no_data) {
+    const auto needle = sheet("salt", 20, 100, {0, 0, -1000}, [](std::uint32_t i, std::uint32_t j) {
+        return i == 10 && j == 10 ? 9000.0 : i + j == 20 ? 200.0 : 0.0;
+    });
+    EXPECT_TRUE(lengths_of(with({needle})).outlying.empty());
+}
+
+TEST(Lengths, of_single_precision_have_its_steps_apart_from_the_offset) {
+    Surface surface = flat_sheet("a", 4, 250, {6.6e6, 0, 0});
+    surface.info.precision = CoordinatePrecision::single_precision;
+    EXPECT_DOUBLE_EQ(lengths_of(with({surface})).largest.tolerance, 2);
+    surface.info.stored_around = {6.6e6, 0, 0};
+    EXPECT_DOUBLE_EQ(lengths_of(with({surface})).largest.tolerance, 4 * std::ldexp(1.0, -14));
+}
+
+TEST(Lengths, that_are_given_are_those_of_all) {
+    const auto given = topology::local_lengths(with({flat_sheet("a", 4, 250, {0, 0, 0}), flat_sheet("b", 4, 1, {1e5, 0, 0})}), {0.5, 7});
+    ASSERT_EQ(given.clusters.size(), 2u);
+    for (const auto& l : given.clusters) {
+        EXPECT_EQ(l.tolerance, 0.5);
+        EXPECT_EQ(l.near, 7);
+    }
+}
+
+}  // namespace
+}  // namespace geomend
