@@ -5,6 +5,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "base/wording.h"
 #include "geometry/triangle_tree.h"
 #include "geometry/vectors.h"
 #include "topology/near_weld.h"
@@ -158,7 +159,9 @@ void tell_loose_contacts(const CellScope& scope, const OuterFaces& outer, const 
     }
     if (cells.empty()) return;
     Finding finding = cells_of_mesh_finding(
-        scope, "M36", counted(cells.size(), "cell", "cells") + in_mesh(scope) + " meet others at edges or corners only: no face joins their parts", cells);
+        scope, "M36",
+        counted(cells.size(), "cell", "cells") + in_mesh(scope) + " meet others at edges or corners only: no face joins their parts",
+        cells);
     if (!has_tetrahedra) finding.severity = Severity::info;
     const auto nodes = static_cast<double>(std::ranges::count(meets, 1));
     finding.measures = {{"nodes", nodes}};

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "base/parallel.h"
+#include "base/wording.h"
 #include "geometry/box_tree.h"
 #include "validators/cell_checks.h"
 #include "validators/cell_hulls.h"
@@ -63,7 +64,9 @@ void check_cell_overlaps(const CellScope& scope, std::vector<Finding>& findings)
     std::vector<std::uint8_t> asks(cells.size(), 0);
     for (std::size_t i = 0, f = 0; i < cells.size(); ++i) {
         first_face.push_back(static_cast<std::uint32_t>(f));
-        for (; f < across.size() && scope.faces()[f].cell == cells[i]; ++f) asks[i] |= across[f] == no_index ? 1 : 0;
+        for (; f < across.size() && scope.faces()[f].cell == cells[i]; ++f) {
+            if (across[f] == no_index) asks[i] = 1;
+        }
     }
     first_face.push_back(static_cast<std::uint32_t>(across.size()));
     std::vector<std::uint32_t> asking;

@@ -233,8 +233,9 @@ void check_stated_regions(const ModelScope& scope, std::vector<Finding>& finding
         const auto single = single_sides(region.sides);
         if (single.empty() || bare[r] != 0 || (!region.volume_known && region.cell_types.empty())) continue;
         if (region.cell_types.empty() && volumes[r] > 1) {
-            Finding finding = finding_of("B13", "region " + quoted(region.name) + " is stated as one, but surfaces inside of it part it into " +
-                                                    std::to_string(volumes[r]) + " volumes");
+            Finding finding =
+                finding_of("B13", "region " + quoted(region.name) + " is stated as one, but surfaces inside of it part it into " +
+                                      std::to_string(volumes[r]) + " volumes");
             finding.entities.push_back(region_ref(scope, r));
             finding.count = volumes[r];
             finding.element_kind = "volume";
@@ -335,7 +336,8 @@ void check_outside_surfaces(const ModelScope& scope, std::vector<Finding>& findi
     if (found.regions.empty() || found.region_of_side.empty()) return;
     std::vector<std::uint8_t> is_beside_cells(brep.surfaces.size(), 0);
     for (const auto& region : brep.regions) {
-        for (const auto& side : region.sides) is_beside_cells[side.surface.value] |= region.cell_types.empty() ? 0 : 1;
+        if (region.cell_types.empty()) continue;
+        for (const auto& side : region.sides) is_beside_cells[side.surface.value] = 1;
     }
     Finding finding;
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {

@@ -108,8 +108,7 @@ std::vector<std::uint8_t> embedded_lines(const ModelScope& scope) {
                 continue;
             }
             const auto& edges = edges_of[use.surface];
-            const std::pair<std::uint32_t, std::uint32_t> nodes =
-                std::minmax({edges.start_node(use.corner), edges.end_node(use.corner)});
+            const std::pair<std::uint32_t, std::uint32_t> nodes = std::minmax({edges.start_node(use.corner), edges.end_node(use.corner)});
             if (first.first == no_index) first = nodes;
             else if (first != nodes) is_apart[edge.line] = 1;
         }

@@ -73,7 +73,7 @@ std::vector<std::uint8_t> regions_with_bare_facets(const ModelScope& scope) {
     std::vector<std::uint32_t> region_of;
     const CellMesh mesh = cells_of_regions(brep, region_of);
     if (region_of.empty()) return bare;
-    const CellScope cells(mesh, scope.lengths(), {});
+    const CellScope cells(mesh, Lengths{}, {});
     const auto polygons = polygons_of(brep);
     const auto groups = cells.group_first();
     for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
@@ -119,12 +119,15 @@ std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope) {
     for (auto& part : parts.surfaces) faces.push_back(topology::connect_polygons(part));
     const auto graph = topology::build_lines(parts, faces, {});
     const auto cones = topology::cone_volumes(parts, faces);
-    const auto found = topology::find_regions(parts, graph, cones, scope.model().tolerance);
+    std::vector<double> tolerances;
+    for (const std::uint32_t s : source) tolerances.push_back(s < scope.model().tolerances.size() ? scope.model().tolerances[s] : 0);
+    const auto found = topology::find_regions(parts, graph, cones, tolerances);
     for (const auto& volume : found.regions) {
         for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
             if (sides[r].empty()) continue;
-            const bool is_inside = std::ranges::all_of(
-                volume, [&](const auto& side) { return sides[r].contains({source[side.surface.value], side.front}); });
+            const bool is_inside = std::ranges::all_of(volume, [&](const auto& side) {
+                return sides[r].contains({source[side.surface.value], side.front});
+            });
             volumes[r] += is_inside ? 1 : 0;
         }
     }
