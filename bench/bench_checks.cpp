@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "formats/gocad/write_gocad.h"
+#include "model_copies.h"
 #include "peak_memory.h"
 #include "pipeline/validate.h"
 #include "support/real_data.h"
@@ -21,54 +22,6 @@ namespace {
 
 using namespace geomend;
 
-/// Copies of a model with its statements, side by side in one.
-Dataset copies_of(const Dataset& one, std::uint32_t copies, double spacing) {
-    Dataset all;
-    all.format = one.format;
-    all.variant = one.variant;
-    all.models.resize(1);
-    StatedModel& model = all.models[0];
-    model.name = one.models[0].name;
-    model.crs = one.models[0].crs;
-    for (std::uint32_t c = 0; c < copies; ++c) {
-        const auto objects = static_cast<std::uint32_t>(all.objects.size()), faces = static_cast<std::uint32_t>(model.faces.size());
-        const auto shifted = [&](Vec3 p) {
-            p[0] += spacing * (c % 4);
-            p[1] += spacing * (c / 4);
-            return p;
-        };
-        const std::string mark = "_" + std::to_string(c);
-        for (Object object : one.objects) {
-            auto& surface = std::get<Surface>(object);
-            for (Vec3& p : surface.points) p = shifted(p);
-            surface.info.name += mark;
-            all.objects.push_back(std::move(object));
-        }
-        for (StatedModel::Face face : one.models[0].faces) {
-            face.object += objects;
-            face.number += faces;
-            face.interface_name += mark;
-            if (face.key) {
-                for (Vec3& p : *face.key) p = shifted(p);
-            }
-            model.faces.push_back(std::move(face));
-        }
-        for (StatedModel::Region region : one.models[0].regions) {
-            for (auto& side : region.sides) side.face += faces;
-            if (region.universe && c > 0) {
-                for (auto& known : model.regions) {
-                    if (known.universe) known.sides.insert(known.sides.end(), region.sides.begin(), region.sides.end());
-                }
-                continue;
-            }
-            if (!region.universe) region.name += mark;
-            model.regions.push_back(std::move(region));
-        }
-    }
-    for (std::size_t r = 0; r < model.regions.size(); ++r) model.regions[r].number = static_cast<std::int64_t>(model.faces.size() + 1 + r);
-    return all;
-}
-
 /// The file that is checked, on disk; empty where there is no real data.
 const std::string& model_file() {
     static const std::string path = [] {
@@ -78,7 +31,7 @@ const std::string& model_file() {
         if (!one) return std::string();
         const auto name = std::filesystem::temp_directory_path() / ("bench_checks_" + std::to_string(::getpid()) + ".ml");
         OutputSet files(name);
-        if (!gocad::write_model3d(copies_of(*one, 16, 20000), files, {}) || !files.commit()) return std::string();
+        if (!gocad::write_model3d(bench::copies_of(*one, 16, 20000), files, {}) || !files.commit()) return std::string();
         return name.string();
     }();
     return path;

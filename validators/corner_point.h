@@ -38,6 +38,8 @@ void check_scattered_regions(const GridScope&, std::vector<Finding>&);    // C23
 void check_region_numbers(const GridScope&, std::vector<Finding>&);       // C24
 void check_fault_effects(const GridScope&, std::vector<Finding>&);        // C25
 void check_shared_fault_faces(const GridScope&, std::vector<Finding>&);   // C26
+void check_stated_connections(const GridScope&, std::vector<Finding>&);   // C29
+void check_radial_angles(const GridScope&, std::vector<Finding>&);        // C31
 void check_idle_faults(const GridScope&, std::vector<Finding>&);          // G03
 
 /// Active cells that touch no other, where there is more than one active cell; ascending. What C21 tells of cells.

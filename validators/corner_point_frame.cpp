@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/map_axes.h"
 #include "validators/corner_point.h"
 
 // What the grid's frame says: C12, C13 and C19.
@@ -67,10 +68,19 @@ void check_handedness(const GridScope& scope, std::vector<Finding>& findings) {
 
 void check_map_axes(const GridScope& scope, std::vector<Finding>& findings) {
     const auto& grid = scope.grid();
-    if (!grid.map_axes) return;
     std::string what;
+    const auto tell_unit = [&](const std::string& unit, const char* keyword) {
+        if (unit.empty() || (grid::metres(unit) > 0 && grid::metres(unit) != 1200.0 / 3937)) return;
+        what +=
+            std::string(what.empty() ? "" : "; ") + "'" + unit + "' of " + keyword + " is no unit that simulators know (METRES, FEET, CM)";
+    };
+    tell_unit(grid.map_unit, "MAPUNITS");
+    if (!grid.map_axes) {
+        if (!what.empty()) findings.push_back(grid_finding(scope, "C13", std::move(what)));
+        return;
+    }
     if (std::abs(map_turn(*grid.map_axes)) < 1e-5)
-        what = "the three points of MAPAXES lie on one line or fall together: the map has no axes";
+        what += std::string(what.empty() ? "" : "; ") + "the three points of MAPAXES lie on one line or fall together: the map has no axes";
     if (grid.map_unit.empty()) what += std::string(what.empty() ? "" : "; ") + "MAPAXES is given, but MAPUNITS is not";
     if (!what.empty()) findings.push_back(grid_finding(scope, "C13", std::move(what)));
 }

@@ -22,6 +22,9 @@ constexpr std::array flow_burdens = {
     TargetBurden{"C05", "cells without thickness hold nothing and part what lies above from what lies below"},
     TargetBurden{"C15", "ACTNUM is read as inactive (0) or active"},
     TargetBurden{"C16", "these cells are made inactive"},
+    TargetBurden{"F145", "it takes other sizes for them, or stops"},
+    TargetBurden{"F146", "it stops there"},
+    TargetBurden{"F147", "it stops there"},
     TargetBurden{"C17", "parts of their own are solved with nothing that joins them"},
 };
 constexpr std::array mesher_burdens = {

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "validators/found_cells.h"
 #include "validators/readiness.h"
@@ -80,16 +82,53 @@ void check_properties(const CornerPointGrid& grid, std::vector<Finding>& finding
     for (const Property& p : properties) check_values(grid, p, findings);
 }
 
+void check_faults(const CornerPointGrid& grid, std::vector<Finding>& findings) {
+    constexpr std::size_t longest = 8;
+    Finding undeclared = about(grid, "S09", ""), long_names = about(grid, "S06", "");
+    std::uint64_t unknown = 0, too_long = 0;
+    std::map<std::string, std::string> by_front;
+    std::string alike;
+    for (const auto& fault : grid.faults) {
+        if (fault.boxes.empty() && (fault.multiplier || fault.edit_multiplier)) {
+            if (unknown++ == 0)
+                undeclared.message = "MULTFLT names the fault '" + fault.name + "', which no record of FAULTS states: OPM Flow stops";
+            if (undeclared.entities.size() <= listed_elements) undeclared.entities.push_back({"fault", fault.name});
+        }
+        const auto [at, is_new] = by_front.try_emplace(fault.name.substr(0, longest), fault.name);
+        if (!is_new && alike.empty()) alike = "; '" + at->second + "' and '" + fault.name + "' begin with the same eight letters";
+        if (fault.name.size() <= longest) continue;
+        if (too_long++ == 0) long_names.message = "the name '" + fault.name + "' of a fault has more than eight letters";
+        if (long_names.entities.size() <= listed_elements) long_names.entities.push_back({"fault", fault.name});
+    }
+    undeclared.count = unknown;
+    long_names.count = too_long;
+    long_names.message += alike;
+    if (unknown > 0) findings.push_back(std::move(undeclared));
+    if (too_long > 0) findings.push_back(std::move(long_names));
+}
+
+void check_region_multipliers(const CornerPointGrid& grid, std::vector<Finding>& findings) {
+    for (const auto& m : grid.region_multipliers) {
+        if (!m.from || !m.to || *m.from != *m.to) continue;
+        return findings.push_back(
+            about(grid, "S09", "MULTREGT has a multiplier within region " + std::to_string(*m.from) + ": OPM Flow stops"));
+    }
+}
+
 }  // namespace
 
 void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& findings) {
     if (grid.host)
-        return findings.push_back(about(grid, "S09", "this grid refines '" + grid.host->grid + "': OPM Flow takes no local refinements"));
+        return findings.push_back(about(grid, "S09",
+                                        "this grid refines " + (grid.host->grid.empty() ? "the main grid" : "'" + grid.host->grid + "'") +
+                                            ": OPM Flow takes no local refinements"));
     if (grid.porosity != CornerPointGrid::Porosity::single)
         findings.push_back(about(grid, "S09", "the grid has two porosities: OPM Flow takes one"));
     if (!misfit(grid).empty()) return;
     if (active_count(grid) == 0) return findings.push_back(about(grid, "S03", "no cell is active: there is nothing to simulate"));
     check_properties(grid, findings);
+    check_faults(grid, findings);
+    check_region_multipliers(grid, findings);
     if (grid.unit_system.empty())
         findings.push_back(about(grid, "S12", "the unit system is not stated: METRIC is taken (metres, millidarcy, bar)"));
 }

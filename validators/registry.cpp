@@ -94,7 +94,7 @@ constexpr std::array table = {
           check_crossing_pillars},
     Check{"C12", "outlines seen from above turn both ways (error), or all are left-handed in (x, y, depth) or on the map (info)",
           check_handedness},
-    Check{"C13", "MAPAXES has no two axes, or MAPUNITS is missing beside it", check_map_axes, true},
+    Check{"C13", "MAPAXES has no two axes, MAPUNITS is missing beside it, or names no unit that simulators know", check_map_axes, true},
     Check{"C14", "SPECGRID and DIMENS differ; told by the reader of decks"},
     Check{"C15", "ACTNUM is above 1 (above 3 in a grid of two porosities)", check_activity, true},
     Check{"C16", "PORV, or volume times PORO, NTG and MULTPV, is below MINPV or MINPVV (1e-6 where it is not stated)", check_pore_volumes},
@@ -120,6 +120,11 @@ constexpr std::array table = {
           "with --option as=brep: triangles of the outside or of faults cross by more than the tolerance, or outer ones that look the "
           "same way overlap, in columns that share no pillar"},
     Check{"C28", "with --option as=brep: as C27, in columns that share a pillar, or one column"},
+    Check{"C29",
+          "a record of NNC joins a cell with itself, or its transmissibility is below 0 (error); or a cell of it is inactive (warning)",
+          check_stated_connections, true},
+    Check{"C30", "two local grids refine the same cell of their host"},
+    Check{"C31", "the angles of the cells of a radial grid add up to more than 360 degrees", check_radial_angles},
     of_model(
         "G01",
         "two regions, layers, fault blocks or objects of loose surfaces of one model have the same name; info where the file states one "
@@ -214,7 +219,7 @@ constexpr std::array table = {
     Check{"S06", "with --for: a name is too long, has a character or beginning that the target refuses, or is there twice"},
     Check{"S07", "with --for: cells of three dimensions of a type that the target has not"},
     Check{"S08", "with --for abaqus or geos: cells without entity, cell set or attribute 'attribute'"},
-    Check{"S09", "with --for flow: local refinements, two porosities"},
+    Check{"S09", "with --for flow: local refinements, two porosities, MULTREGT within a region, multipliers of undeclared faults"},
     Check{"S10", "with --for openfoam: outer faces that no named cell of two dimensions covers"},
     Check{"S12", "with --for flow: no PERMY or PERMZ, no unit system"},
 };

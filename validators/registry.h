@@ -48,6 +48,10 @@ Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options
 /// Failure (cancelled) when the monitor stops it.
 Result<Checked> check(const Object& object, const CheckOptions& options);
 
+/// C30: local grids that refine the same cells of their host. `grids` are those of one file. Cost: linear in the cells of hosts
+/// and local grids.
+void check_local_grids(std::span<const CornerPointGrid* const> grids, std::vector<Finding>& findings);
+
 /// Runs all wanted checks of a corner-point grid. Never changes it. Cost: linear in cells but for columns whose cells
 /// overlap. Failure (cancelled) when the monitor stops it.
 Result<Checked> check(const CornerPointGrid& grid, const CheckOptions& options);

@@ -48,6 +48,8 @@ std::optional<std::string> companion_name(const Input& input, bool formatted) {
     return std::nullopt;
 }
 
+bool has_pores(double volume) { return volume > 0; }
+
 /// Activity from pore volumes: of both porosities where there are two.
 Result<void> activity_from_volumes(const ArrayFile& file, const Array& array, bool dual, CornerPointGrid& grid) {
     const auto volumes = reals(file, array);
@@ -64,9 +66,10 @@ Result<void> activity_from_volumes(const ArrayFile& file, const Array& array, bo
 }  // namespace
 
 bool is_no_cell_array(std::string_view name) {
-    constexpr std::string_view names[] = {"INTEHEAD", "LOGIHEAD", "DOUBHEAD", "TABDIMS",  "TAB",      "CON",      "TRANNNC",  "TRANGL",
-                                          "TRANLL",   "LGR",      "LGRHEADI", "LGRHEADQ", "LGRHEADD", "LGRNAMES", "LGRJOIN",  "STARTSOL",
-                                          "ENDSOL",   "SEQNUM",   "ENDLGR",   "NNC1",     "NNC2",     "NNCHEAD",  "FIPFAMNA", "REGDIMS"};
+    constexpr std::string_view names[] = {"INTEHEAD", "LOGIHEAD", "DOUBHEAD", "TABDIMS",  "TAB",      "CON",      "TRANNNC",
+                                          "TRANGL",   "TRANLL",   "LGR",      "LGRHEADI", "LGRHEADQ", "LGRHEADD", "LGRNAMES",
+                                          "LGRJOIN",  "LGRSGONE", "STARTSOL", "ENDSOL",   "SEQNUM",   "ENDLGR",   "NNC1",
+                                          "NNC2",     "NNCHEAD",  "FIPFAMNA", "REGDIMS"};
     return std::ranges::find(names, name) != std::end(names);
 }
 
@@ -86,6 +89,11 @@ Result<std::vector<PropertyPart>> property_parts(const ArrayFile& file, std::siz
     std::vector<PropertyPart> parts{{"", first, last}};
     for (std::size_t i = first; i < last; ++i) {
         const Array& array = file.arrays[i];
+        if ((array.name == "LGRSGONE" || array.name == "ENDLGR") && !parts.back().grid.empty()) {  // the main grid again
+            parts.back().last = i + 1;
+            parts.push_back({"", i + 1, last});
+            continue;
+        }
         if (array.name != "LGR" || array.type != ArrayType::text) continue;
         const auto words = texts(file, array);
         if (!words) return words.why();
@@ -146,6 +154,9 @@ Result<void> PropertyGrids::find_companion(const std::vector<PropertyPart>& part
         if (!*head) continue;
         const auto grid = std::ranges::find_if(
             found, [&](const CornerPointGrid& g) { return part.grid.empty() ? !g.host.has_value() : g.info.name == part.grid; });
+        if (grid != found.end()) {
+            if (auto done = take_pores_as_activity(part, **head, *grid); !done) return done;
+        }
         const std::string why = grid == found.end() ? "it has no grid '" + part.grid + "'" : misfit_with(*grid, **head);
         if (!why.empty()) {
             unused(why);
@@ -156,6 +167,46 @@ Result<void> PropertyGrids::find_companion(const std::vector<PropertyPart>& part
     findings.insert(findings.end(), read->findings.begin(), read->findings.end());
     annotations = std::move(read->annotations);
     losses = std::move(read->losses);
+    return {};
+}
+
+/// INTERSECT writes ACTNUM before it removes cells: those with pore volume are left. Nothing where that does not give
+/// as many cells as the head says.
+Result<void> PropertyGrids::take_pores_as_activity(const PropertyPart& part, const PropertyHead& head, CornerPointGrid& grid) {
+    if (head.active < 0 || misfit_with(grid, head).find("active") == std::string::npos) return {};
+    const auto take = [&](const ArrayFile& file, const PropertyPart& from) -> Result<bool> {
+        const bool dual = grid.porosity != Porosity::single;
+        const Array* volumes = find_array(file, from, "PORV");
+        if (volumes == nullptr || volumes->count != grid.cell_count() * (dual ? 2 : 1)) return false;
+        const auto values = reals(file, *volumes);
+        if (!values) return values.why();
+        if (std::ranges::count_if(*values, has_pores) != head.active) return false;
+        for (std::size_t c = 0; c < grid.cell_count() && !dual; ++c) {
+            if (has_pores((*values)[c]) && !grid.is_active(c)) return false;
+        }
+        const std::size_t before = active_count(grid);
+        if (auto done = activity_from_volumes(file, *volumes, dual, grid); !done) return done.why();
+        findings.push_back(make_finding("F134", Severity::info,
+                                        "cells are active in the grid file, but have no pore volume and no values: they are inactive",
+                                        {file_.input.name()}, before - active_count(grid)));
+        return true;
+    };
+    const auto own = take(file_, part);
+    if (!own) return own.why();
+    if (*own) return {};
+    for (const char* ending : {".INIT", ".FINIT", ".init", ".finit"}) {
+        const std::string name = stem_of(file_.input) + ending;
+        if (!file_.input.has_companion(name)) continue;
+        const auto input = file_.input.neighbour(name);
+        const auto file = input ? find_arrays(*input, options_.monitor) : Result<ArrayFile>(input.why());
+        const auto parts = file ? property_parts(*file, 0, file->arrays.size()) : Result<std::vector<PropertyPart>>(file.why());
+        if (!parts) return {};  // a file that cannot be read helps nobody; what is wrong with it is told where it is asked for
+        for (const PropertyPart& other : *parts) {
+            if (other.grid != part.grid) continue;
+            const auto taken = take(*file, other);
+            if (!taken || *taken) return {};
+        }
+    }
     return {};
 }
 

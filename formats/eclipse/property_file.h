@@ -32,7 +32,7 @@ struct PropertyPart {
 /// The value of INTEHEAD for a system, "METRIC" ...; empty where there is none.
 std::string unit_system_name(std::int32_t unit);
 
-/// Cuts the arrays [first, last) at LGR.
+/// Cuts the arrays [first, last) at LGR, and where the main grid goes on behind LGRSGONE or ENDLGR.
 Result<std::vector<PropertyPart>> property_parts(const ArrayFile& file, std::size_t first, std::size_t last);
 
 /// Reads INTEHEAD and LOGIHEAD of a part; nothing where there is no INTEHEAD.
@@ -60,6 +60,7 @@ public:
     std::vector<Loss> losses;
 
 private:
+    Result<void> take_pores_as_activity(const PropertyPart& part, const PropertyHead& head, CornerPointGrid& grid);
     Result<void> make_grid(const PropertyPart& part, const PropertyHead& head, CornerPointGrid& grid) const;
 
     const ArrayFile& file_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <array>
 
+#include "base/number_text.h"
 #include "formats/eclipse/cell_arrays.h"
 #include "formats/eclipse/grid_arrays.h"
 #include "formats/eclipse/kept_arrays.h"
@@ -25,6 +27,40 @@ Result<void> take_spec(const ArrayFile& file, const Array& array, GridParts& par
     parts.pillar_sets = static_cast<std::size_t>(std::max(1, sets));
     parts.grid.cylindrical = values->size() > 4 && values->at(4) == 1;
     return {};
+}
+
+/// The numbers of cells of a file of properties, which does not state them.
+Result<void> take_dims_option(const ArrayFile& file, const ReadOptions& options, GridParts& parts) {
+    std::string_view text = option_value(options.options, "dims");
+    if (text.empty())
+        return unreadable("F024", {file.input.name()},
+                          "the file holds properties, but not the numbers of cells: give them with --option dims=NX,NY,NZ, or the grid's "
+                          "own file as the first input");
+    std::array<std::int32_t, 3> dims{};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t comma = std::min(text.find(','), text.size());
+        std::int64_t number = 0;
+        const bool ok = parse_integer(text.substr(0, comma), number) == NumberStatus::ok && number >= 1 && number <= 2'000'000'000;
+        dims[a] = static_cast<std::int32_t>(number);
+        if (!ok || (comma == text.size()) != (a == 2))
+            return failure(FailureKind::usage, "F018", {},
+                           "option dims: expected three numbers of cells NX,NY,NZ, found '" +
+                               std::string(option_value(options.options, "dims")) + "'");
+        text.remove_prefix(std::min(comma + 1, text.size()));
+    }
+    return set_dims(file, file.arrays.front(), dims[0], dims[1], dims[2], parts);
+}
+
+/// A grid of properties alone.
+Result<CornerPointGrid> bare_grid(const ArrayFile& file, GridParts&& parts) {
+    CornerPointGrid& grid = parts.grid;
+    if (parts.activity != nullptr && parts.activity->count != grid.cell_count())
+        return unreadable(
+            "F008", place_of(file, *parts.activity),
+            "expected " + std::to_string(grid.cell_count()) + " values of 'ACTNUM', found " + std::to_string(parts.activity->count));
+    grid.info.crs.z_positive = ZPositive::depth;
+    grid.info.crs.z_positive_stated = true;
+    return std::move(grid);
 }
 
 void tell_unknown(const ArrayFile& file, const std::vector<const Array*>& unknown, std::vector<Finding>& findings) {
@@ -64,7 +100,11 @@ Result<Dataset> read_bgrdecl(const Input& input, const ReadOptions& options) {
         if (array->name != "COORDSYS" || parts.dims == nullptr) continue;
         if (auto done = take_coordinate_systems(*file, *array, parts); !done) return done.why();
     }
-    auto grid = finish_grid(*file, std::move(parts), data.findings);
+    const bool bare = parts.pillars == nullptr && parts.depths == nullptr && !later.empty();
+    if (bare && parts.dims == nullptr) {
+        if (auto done = take_dims_option(*file, options, parts); !done) return done.why();
+    }
+    auto grid = bare ? bare_grid(*file, std::move(parts)) : finish_grid(*file, std::move(parts), data.findings);
     if (!grid) return grid.why();
     CellOrder order;
     order.cells = grid->cell_count();

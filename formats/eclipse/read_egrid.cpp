@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "formats/eclipse/read_egrid.h"
 
+#include <algorithm>
 #include <map>
 
 #include "formats/eclipse/cell_arrays.h"
@@ -143,8 +144,9 @@ private:
         const std::int32_t number = parts_.number;
         auto grid = finish_grid(file_, std::move(parts_), data_.findings);
         if (!grid) return grid.why();
-        if (grid->host && !host_fits(*grid))
-            return fail("F007", array, "a cell of '" + grid->info.name + "' has a host cell that does not exist");
+        if (grid->host) {
+            if (auto done = take_host_box(array, *grid); !done) return done;
+        }
         if (grid->host && !grids_.empty()) take_after(*grid);
         if (!by_number_.emplace(number, grids_.size()).second)
             return fail("F009", array, "two grids have the number " + std::to_string(number));
@@ -164,19 +166,44 @@ private:
         grid.map_relative = global.map_relative;
     }
 
-    bool host_fits(const CornerPointGrid& grid) const {
+    /// Which host cells a local grid refines: HOSTNUM says it. The box in GRIDHEAD is of use only without it; some
+    /// programs write anything there.
+    Result<void> take_host_box(const Array& array, CornerPointGrid& grid) {
         const CornerPointGrid* host = nullptr;
         for (const CornerPointGrid& other : grids_) {
             if (grid.host->grid.empty() ? !other.host.has_value() : other.info.name == grid.host->grid) host = &other;
         }
-        if (host == nullptr) return false;
-        for (std::size_t d = 0; d < 3; ++d) {
-            if (grid.host->last[d] >= host->dims[d]) return false;
+        const std::string name = "'" + grid.info.name + "'";
+        if (host == nullptr) return fail("F007", array, "the host '" + grid.host->grid + "' of " + name + " is not there");
+        if (grid.host->cells.empty()) {
+            for (std::size_t d = 0; d < 3; ++d) {
+                if (grid.host->last[d] >= host->dims[d])
+                    return fail("F007", array,
+                                "the box of host cells of " + name + " in GRIDHEAD lies outside of the host, and there is no HOSTNUM");
+            }
+            return {};
         }
+        std::array<std::uint32_t, 3> first = host->dims, last{0, 0, 0};
         for (const std::uint64_t cell : grid.host->cells) {
-            if (cell >= host->cell_count()) return false;
+            if (cell >= host->cell_count())
+                return fail("F007", array,
+                            "HOSTNUM of " + name + " names cell " + std::to_string(cell + 1) + ", which the host does not have");
+            const auto ijk = host->ijk(cell);
+            for (std::size_t d = 0; d < 3; ++d) {
+                first[d] = std::min(first[d], ijk[d]);
+                last[d] = std::max(last[d], ijk[d]);
+            }
         }
-        return true;
+        const bool stated = grid.host->first != std::array<std::uint32_t, 3>{} || grid.host->last != std::array<std::uint32_t, 3>{};
+        if (stated && (grid.host->first != first || grid.host->last != last)) {
+            data_.findings.push_back(make_finding(
+                "F113", Severity::warning, "the box of host cells of " + name + " in GRIDHEAD is not that of HOSTNUM, which is taken",
+                place_of(file_, array)));
+            data_.findings.back().entities = {{"corner-point-grid", grid.info.name}};
+        }
+        grid.host->first = first;
+        grid.host->last = last;
+        return {};
     }
 
     // ---- connections: they are put on the grids when all are known ----

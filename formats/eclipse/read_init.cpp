@@ -31,7 +31,7 @@ Result<void> take_part(const ArrayFile& file, const PropertyPart& part, const Re
         if (options.monitor != nullptr && options.monitor->stopped())
             return failure(FailureKind::cancelled, "F022", {file.input.name()}, "stopped");
         const Array& array = file.arrays[i];
-        if (array.name == "LGR" || array.name == "ENDLGR" || array.name == "ACTNUM") continue;
+        if (array.name == "LGR" || array.name == "ENDLGR" || array.name == "LGRSGONE" || array.name == "ACTNUM") continue;
         if (!is_no_cell_array(array.name) && fits_cells(array, place->order)) {
             if (auto done = take_cell_array(file, array, place->order, array.name, grid, grids.findings); !done) return done;
             continue;

@@ -133,12 +133,15 @@ private:
         if (waiting_ || known_.cells.empty()) return fail("F004", *parts_.dims, "expected the corners of cells, found the end of the file");
         CornerPointGrid& grid = parts_.grid;
         const Location where = place_of(file_, *parts_.dims);
+        const bool two = holds_two_porosities();
+        if (two) join_porosities();
         if (const auto off = set_geometry(known_, grid)) {
             return unreadable("F013", where, *off + " is not on one line with the corners above and below: this is no corner-point grid");
         }
         const auto missing = static_cast<std::uint64_t>(std::ranges::count(grid.activity, absent));
         std::ranges::replace(grid.activity, absent, std::uint8_t{0});
-        if (std::ranges::count(grid.activity, std::uint8_t{0}) == 0) grid.activity.clear();
+        const std::uint8_t whole = two ? 3 : 1;
+        if (std::ranges::all_of(grid.activity, [&](std::uint8_t state) { return state == whole; })) grid.activity.clear();
         if (missing != 0) {
             data_.findings.push_back(make_finding(
                 "F134", Severity::info, "cells are not in the file: they are inactive, and their corners are put between those around them",
@@ -159,6 +162,51 @@ private:
         return {};
     }
 
+    /// Cells by number, with their place in known_; npos where the file has none.
+    std::vector<std::size_t> places() const {
+        std::vector<std::size_t> place(parts_.grid.cell_count(), npos);
+        for (std::size_t n = 0; n < known_.cells.size(); ++n) place[known_.cells[n]] = n;
+        return place;
+    }
+
+    /// The file does not say that there are two porosities: the fracture's half then repeats the corners of the matrix.
+    bool holds_two_porosities() const {
+        if (parts_.grid.dims[2] % 2 != 0) return false;
+        const std::vector<std::size_t> place = places();
+        const std::size_t half = place.size() / 2;
+        bool any = false;
+        for (std::size_t c = 0; c < half; ++c) {
+            if (place[c] == npos || place[half + c] == npos) continue;
+            any = true;
+            const auto corners = [&](std::size_t n) { return known_.corners.begin() + static_cast<std::ptrdiff_t>(24 * n); };
+            if (!std::equal(corners(place[c]), corners(place[c]) + 24, corners(place[half + c]))) return false;
+        }
+        return any;
+    }
+
+    /// Cells of the fracture, and their activity, go to those of the matrix.
+    void join_porosities() {
+        CornerPointGrid& grid = parts_.grid;
+        const std::vector<std::size_t> place = places();
+        const std::size_t half = place.size() / 2;
+        CornerCells joined;
+        std::vector<std::uint8_t> activity(half, absent);
+        for (std::size_t c = 0; c < half; ++c) {
+            const std::size_t from = place[c] != npos ? place[c] : place[half + c];
+            if (from == npos) continue;
+            joined.cells.push_back(c);
+            const auto corners = known_.corners.begin() + static_cast<std::ptrdiff_t>(24 * from);
+            joined.corners.insert(joined.corners.end(), corners, corners + 24);
+            activity[c] = static_cast<std::uint8_t>((grid.activity[c] == 1 ? 1 : 0) + (grid.activity[half + c] == 1 ? 2 : 0));
+        }
+        known_ = std::move(joined);
+        grid.activity = std::move(activity);
+        grid.dims[2] /= 2;
+        grid.porosity = CornerPointGrid::Porosity::dual_porosity;
+        if (grid.host && grid.host->cells.size() == place.size()) grid.host->cells.resize(half);
+    }
+
+    static constexpr std::size_t npos = static_cast<std::size_t>(-1);
     static constexpr std::uint8_t absent = 255;
     const ArrayFile& file_;
     const ReadOptions& options_;

@@ -148,7 +148,8 @@ private:
                 if (auto done = take_cell_array(file_, array, place->order, attribute_name(array, step, part.grid), grid, grids_.findings);
                     !done)
                     return done;
-            } else if (array.count != 0 && array.name != "SEQNUM" && array.name != "LGR") {
+            } else if (array.count != 0 && array.name != "SEQNUM" && array.name != "LGR" && array.name != "ENDLGR" &&
+                       array.name != "LGRSGONE") {
                 others_.insert(array.name);
                 ++other_count_;
             }

@@ -12,7 +12,7 @@ namespace geomend::grdecl {
 namespace {
 
 constexpr auto edits = std::to_array<std::string_view>(
-    {"EQUALS", "ADD", "MULTIPLY", "MINVALUE", "MAXVALUE", "COPY", "EQUALREG", "ADDREG", "MULTIREG", "COPYREG", "OPERATE"});
+    {"EQUALS", "ADD", "MULTIPLY", "MINVALUE", "MAXVALUE", "COPY", "EQUALREG", "ADDREG", "MULTIREG", "COPYREG", "OPERATE", "OPERATER"});
 
 /// Calls each(cell) for the cells of a box.
 template <class Each>
@@ -48,6 +48,9 @@ struct Edit {
         }
         CellArray* a = g.find(name(i));
         if (a != nullptr && a->values.index() < 2) return a;
+        // What was never stated has its initial value, where simulators know one.
+        if (const auto keyword = cell_keyword(name(i)); a == nullptr && keyword && keyword->initial && keyword->section != Section::edit)
+            return made(i, nullptr);
         result.applied = false;
         result.missing = name(i);
         return nullptr;
@@ -117,10 +120,27 @@ void apply_scalar(Edit& e, std::string_view keyword, const CellBox& where, CellA
     });
 }
 
+/// Arrays that simulators compute before section EDIT changes them.
+bool is_computed(std::string_view name) { return name == "PORV" || name == "TRANX" || name == "TRANY" || name == "TRANZ"; }
+
+/// Values that are computed later change likewise, also where the array is stated for some of the cells.
+void note_operation(Edit& e, std::string_view keyword, double value) {
+    using Operation = CornerPointGrid::EditOperation;
+    if (!is_computed(e.name(0)) || keyword == "EQUALS" || e.g.grid.edit_operations.size() >= 100'000) return;
+    const auto kind = keyword == "ADD"        ? Operation::Kind::add
+                      : keyword == "MINVALUE" ? Operation::Kind::at_least
+                      : keyword == "MAXVALUE" ? Operation::Kind::at_most
+                                              : Operation::Kind::multiply;
+    e.g.grid.edit_operations.push_back({e.name(0), kind, value, e.box.first, e.box.last});
+}
+
 void scalar_in_box(Edit& e, std::string_view keyword) {
     if (e.fail(take_box(e.in, e.record, 2, *e.g.dims, e.box))) return;
     double value = 0;
     if (e.fail(need_real(e.in, e.record, 1, "a value", value))) return;
+    note_operation(e, keyword, value);
+    const bool computed = is_computed(e.name(0)) && keyword != "EQUALS" && e.g.find(e.name(0)) == nullptr;
+    if (computed) return;  // it is noted
     CellArray* a = keyword == "EQUALS" ? e.made(0, nullptr) : e.existing(0);
     if (a != nullptr) apply_scalar(e, keyword, e.box, *a, value, nullptr, 0);
 }
@@ -135,8 +155,8 @@ void copy_in_box(Edit& e) {
 }
 
 /// The array of region numbers that a letter (M, F, O) names.
-CellArray* regions_of(Edit& e, std::size_t i) {
-    std::string word = e.record.given(i) ? upper_case(trimmed(e.record.text(i))) : "M";
+CellArray* regions_of(Edit& e, std::size_t i, const char* usual = "MULTNUM") {
+    const std::string word = e.record.given(i) ? upper_case(trimmed(e.record.text(i))) : usual;
     const std::string array = word == "F" ? "FLUXNUM" : word == "O" ? "OPERNUM" : word == "M" ? "MULTNUM" : word;
     CellArray* a = e.g.find(array);
     if (a == nullptr || a->values.index() != 1) {
@@ -200,24 +220,26 @@ Operation operation_of(std::string_view word) {
     return row == rows.end() ? nullptr : row->apply;
 }
 
-// target I1 .. K2 operation source a b
-void operate(Edit& e) {
-    if (e.fail(take_box(e.in, e.record, 1, *e.g.dims, e.box))) return;
-    const std::string word = upper_case(trimmed(e.record.text(7)));
+/// An operation, its source and its two numbers from item `i` on, in the cells of a box, or those of them in a region.
+void operate_in(Edit& e, std::size_t i, const CellBox& box, const CellArray* only, std::int64_t region) {
+    const std::string word = upper_case(trimmed(e.record.text(i)));
     const Operation apply = operation_of(word);
     if (apply == nullptr) {
-        e.fail(unreadable("F012", e.in.location(e.record.given(7) ? e.record.items[7].at : e.record.slash),
+        e.fail(unreadable("F012", e.in.location(e.record.given(i) ? e.record.items[i].at : e.record.slash),
                           "expected an operation of OPERATE (MULTA, POLY, COPY, ...), found " + shown(word)));
         return;
     }
     double a = 0, b = 0;
-    if (e.fail(take_real(e.in, e.record, 9, "a number", a)) || e.fail(take_real(e.in, e.record, 10, "a number", b))) return;
-    if (e.existing(8) == nullptr) return;
-    CellArray* target = e.made(0, e.g.find(e.name(8)));
+    if (e.fail(take_real(e.in, e.record, i + 2, "a number", a)) || e.fail(take_real(e.in, e.record, i + 3, "a number", b))) return;
+    if (e.existing(i + 1) == nullptr) return;
+    const std::string regions = only == nullptr ? std::string() : only->name;
+    CellArray* target = e.made(0, e.g.find(e.name(i + 1)));
     if (target == nullptr) return;
-    const CellArray* source = e.g.find(e.name(8));
+    const CellArray* source = e.g.find(e.name(i + 1));  // making the target may have moved both
+    const CellArray* numbers = regions.empty() ? nullptr : e.g.find(regions);
     bool finite = true;
-    e.change(*target, e.box, [&](std::size_t cell, double old) {
+    e.change(*target, box, [&](std::size_t cell, double old) {
+        if (numbers != nullptr && value_at(*numbers, cell) != static_cast<double>(region)) return old;
         const double x = value_at(*source, cell);
         if (is_unset(x)) return old;
         const double made = apply(is_unset(old) ? 0 : old, x, a, b);
@@ -229,6 +251,21 @@ void operate(Edit& e) {
         e.fail(unreadable("F006", e.in.location(e.record.begin), "OPERATE gives values that are not finite for " + shown(e.name(0))));
 }
 
+/// target I1 .. K2 operation source a b
+void operate(Edit& e) {
+    if (!e.fail(take_box(e.in, e.record, 1, *e.g.dims, e.box))) operate_in(e, 7, e.box, nullptr, 0);
+}
+
+/// target region operation source a b regions
+void operate_in_region(Edit& e) {
+    std::int64_t region = 0;
+    if (e.fail(need_whole(e.in, e.record, 1, "a region", region))) return;
+    const CellArray* regions = regions_of(e, 6, "OPERNUM");
+    if (regions == nullptr) return;
+    const CellBox all{{0, 0, 0}, {(*e.g.dims)[0] - 1, (*e.g.dims)[1] - 1, (*e.g.dims)[2] - 1}};
+    operate_in(e, 2, all, regions, region);
+}
+
 }  // namespace
 
 bool is_edit(std::string_view keyword) { return std::ranges::find(edits, keyword) != edits.end(); }
@@ -238,6 +275,7 @@ EditResult apply_edit(const Scanner& in, std::string_view keyword, const Record&
     Edit e{in, record, g, box, section, room, {}};
     if (keyword == "COPY") copy_in_box(e);
     else if (keyword == "OPERATE") operate(e);
+    else if (keyword == "OPERATER") operate_in_region(e);
     else if (keyword == "COPYREG") copy_in_region(e);
     else if (keyword.ends_with("REG")) scalar_in_region(e, keyword);
     else scalar_in_box(e, keyword);

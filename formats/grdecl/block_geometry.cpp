@@ -141,6 +141,16 @@ void pillars_of_blocks(GridText& text, const std::vector<double>& x, const std::
     }
 }
 
+/// Radii and angles of pillars into x and y: the sides of SPIDER grids run straight from pillar to pillar.
+void straighten(std::vector<double>& pillars) {
+    for (std::size_t p = 0; p + 2 < pillars.size(); p += 3) {
+        const double point[6] = {pillars[p], pillars[p + 1], pillars[p + 2], pillars[p], pillars[p + 1], pillars[p + 2]};
+        const Vec3 at = pillar_point(point, pillars[p + 2], true);
+        pillars[p] = at[0];
+        pillars[p + 1] = at[1];
+    }
+}
+
 Failure lacking(const Input& input, const std::string& what) {
     return unreadable("F012", {input.name()},
                       "expected " + what + " for a grid of blocks, found none in the text, or none for the first layer");
@@ -151,6 +161,7 @@ Failure lacking(const Input& input, const std::string& what) {
 Trouble make_block_geometry(GridText& text, const Input& input, std::uint32_t layers, std::uint64_t& room, std::vector<Finding>& findings) {
     if (!text.pillars.empty() || !text.depths.empty() || !text.dims) return {};
     const Dims d{(*text.dims)[0], (*text.dims)[1], layers};
+    text.radial = text.radial || (text.grid.cylindrical && (text.find("DR") != nullptr || text.find("DTHETA") != nullptr));
     const bool radii = text.radial && text.inner_radius && text.outer_radius && !has_any(text, {"DX", "DR"}, 0);
     if (!radii && !has_any(text, {"DX", "DR"}, 0)) return {};
     if (!has_any(text, {"DY", "DTHETA"}, 1) || !has_any(text, {"DZ"}, 2)) return {};
@@ -183,7 +194,8 @@ Trouble make_block_geometry(GridText& text, const Input& input, std::uint32_t la
         depths_of_blocks(text, tops, dz, d);
     }
     pillars_of_blocks(text, edges(dx, d, 0, inner), edges(dy, d, 1, 0), d);
-    text.grid.cylindrical = text.radial;
+    if (text.spider) straighten(text.pillars);
+    text.grid.cylindrical = text.radial && !text.spider;
     if (const std::uint64_t odd = irregular(dx, dy, d); odd > 0) {
         findings.push_back(finding("F113", {input.name()},
                                    "blocks of one column or row differ in size: the pillars stand where the first layer has them; the "

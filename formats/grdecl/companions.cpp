@@ -8,7 +8,7 @@ namespace geomend::grdecl {
 namespace {
 
 // The first item behind the keyword of a kept record.
-std::string first_item(std::string_view record) {
+std::string first_item_of(std::string_view record) {
     record.remove_prefix(std::min(record.find_first_of(" \t\r\n"), record.size()));
     record = trimmed(record);
     if (!record.empty() && (record[0] == '\'' || record[0] == '"')) {
@@ -26,7 +26,7 @@ std::vector<DeckCompanion> deck_companions(const Dataset& dataset) {
         for (const Annotation& a : info_of(object).annotations) {
             if (a.key != "grdecl.record") continue;
             const std::string_view word = std::string_view(a.value).substr(0, a.value.find_first_of(" \t\r\n"));
-            if (word == "GDFILE" || word == "IMPORT") companions.push_back({std::string(word), first_item(a.value)});
+            if (word == "GDFILE" || word == "IMPORT") companions.push_back({std::string(word), first_item_of(a.value)});
         }
     }
     return companions;

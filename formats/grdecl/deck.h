@@ -51,6 +51,7 @@ struct GridText {
     std::vector<double> corner_tops;                   ///< DEPTHZ
     std::optional<double> inner_radius, outer_radius;  ///< INRAD, OUTRAD
     bool radial = false;
+    bool spider = false;                                   ///< radial, with straight sides between its pillars
     std::array<std::vector<std::uint32_t>, 3> fine_cells;  ///< NXFIN ...: fine cells of each host cell
     std::array<std::vector<double>, 3> fine_widths;        ///< HXFIN ...: their relative widths
     std::optional<std::string> geometry_file;              ///< GDFILE
@@ -90,15 +91,19 @@ Trouble need_whole(const Scanner& in, const Record& record, std::size_t i, std::
 /// Failure F012 where it is empty or not within the dims (dims 0: not known).
 Trouble take_box(const Scanner& in, const Record& record, std::size_t i, const Dims& dims, CellBox& box);
 
+/// The next record of a keyword, by item_counts(). A '/' that is missing after all its items is taken as read, with a
+/// finding F147. Failure F004, F008, F012.
+Result<Record> take_record(Scanner& in, std::string_view keyword, std::vector<Finding>& findings);
+
 // ---- records of the grid's head, each with the scanner behind its keyword (head_records.cpp) ----
 
-Trouble read_map_axes(Scanner& in, GridText& g);
-Trouble read_map_units(Scanner& in, GridText& g);
-Trouble read_grid_unit(Scanner& in, GridText& g);
-Trouble read_orientation(Scanner& in, GridText& g);
-Trouble read_reservoirs(Scanner& in, GridText& g);
-Trouble read_pinch(Scanner& in, GridText& g);
-Trouble read_least_pore_volume(Scanner& in, GridText& g);
+Trouble read_map_axes(Scanner& in, GridText& g, std::vector<Finding>& findings);
+Trouble read_map_units(Scanner& in, GridText& g, std::vector<Finding>& findings);
+Trouble read_grid_unit(Scanner& in, GridText& g, std::vector<Finding>& findings);
+Trouble read_orientation(Scanner& in, GridText& g, std::vector<Finding>& findings);
+Trouble read_reservoirs(Scanner& in, GridText& g, std::vector<Finding>& findings);
+Trouble read_pinch(Scanner& in, GridText& g, std::vector<Finding>& findings);
+Trouble read_least_pore_volume(Scanner& in, GridText& g, std::vector<Finding>& findings);
 
 // ---- lists (list_records.cpp) ----
 
@@ -109,7 +114,10 @@ Trouble read_list(Scanner& in, std::string_view keyword, std::vector<Finding>& f
 bool list_ends(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, Trouble& trouble);
 
 Trouble read_faults(Scanner& in, GridText& g, std::vector<Finding>& findings);
-Trouble read_fault_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings);
+/// \param in_edit they stand in section EDIT
+Trouble read_fault_multipliers(Scanner& in, GridText& g, bool in_edit, std::vector<Finding>& findings);
+/// EDITNNC.
+Trouble read_connection_factors(Scanner& in, GridText& g, std::vector<Finding>& findings);
 Trouble read_connections(Scanner& in, GridText& g, std::vector<Finding>& findings, std::vector<Loss>& losses);
 Trouble read_region_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings);
 
@@ -117,7 +125,7 @@ template <class Each>
 Trouble read_list(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, const Each& each) {
     Trouble trouble;
     while (!list_ends(in, keyword, findings, trouble)) {
-        auto record = in.record(keyword);
+        auto record = take_record(in, keyword, findings);
         if (!record) return std::move(record).why();
         if (auto failed = each(*record)) return failed;
     }

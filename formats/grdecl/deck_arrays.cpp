@@ -19,6 +19,22 @@ std::size_t axis_of(std::string_view name) {
     return name.starts_with('X') || name.starts_with('R') ? 0 : name.starts_with('Y') || name.starts_with('T') ? 1 : 2;
 }
 
+std::string unquoted(std::string_view word) {
+    const auto is_quote = [](char c) { return c == '\'' || c == '"'; };
+    while (!word.empty() && is_quote(word.front())) word.remove_prefix(1);
+    while (!word.empty() && is_quote(word.back())) word.remove_suffix(1);
+    return std::string(word);
+}
+
+/// A word with letters and a dot or a slash within, as "../grid/COORD.dat".
+bool is_file_name(std::string_view quoted) {
+    const std::string word = unquoted(quoted);
+    const std::size_t dot = word.find_last_of(".");
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    return dot != std::string::npos && dot + 1 < word.size() && is_letter(word[dot + 1]) &&
+           std::ranges::any_of(word.substr(0, dot), is_letter);
+}
+
 std::string_view text_between(const char* begin, const char* end) { return {begin, static_cast<std::size_t>(end - begin)}; }
 
 }  // namespace
@@ -80,7 +96,12 @@ Failure DeckReader::array_failure(const ArrayScan& scan, std::string_view name, 
         case ArrayStatus::bad_repeat:
             return unreadable("F012", at, "expected a repeat count (a whole number from 1) before '*'" + of + ", found " + token);
         case ArrayStatus::malformed: {
+            const std::string plain = item.substr(0, item.find_first_of(" \t\r\n,"));
             const bool word = scan.at != nullptr && is_keyword(item.substr(0, item.find_first_of(" \t\r\n,/")));
+            if (is_file_name(plain))
+                return unreadable("F005", at,
+                                  "expected a number" + of + ", found " + token + ", which looks like the name of a file: INCLUDE '" +
+                                      unquoted(plain) + "' / takes the text of a file in");
             return unreadable("F005", at, "expected a number" + of + (word ? ", or the '/' that ends it" : "") + ", found " + token);
         }
         case ArrayStatus::ok:
@@ -146,7 +167,7 @@ Trouble DeckReader::vector_of_widths() {
     if (auto failed = need_dims(word_at_, word_)) return failed;
     const std::size_t axis = axis_of(word_);
     if (word_ == "DRV" || word_ == "DTHETAV") grid().radial = true;
-    return numbers(word_, (*grid().dims)[axis], false, grid().widths[axis], axis == 2);
+    return numbers(word_, (*grid().dims)[axis], false, grid().widths[axis]);
 }
 
 Trouble DeckReader::corner_tops() {
@@ -195,12 +216,41 @@ Trouble DeckReader::cell_array(std::string_view name, bool whole) {
         return store(name, std::move(values), row);
     }
     std::vector<double> values;
+    const char* at = in().skip() ? in().at() : word_at_;
     if (auto failed = numbers(name, box.count(), true, values, is_block_size(name), half)) return failed;
+    if (is_block_size(name)) {
+        if (auto failed = block_sizes(name, box, at, values)) return failed;
+    }
     if (values.size() < box.count()) {
         if (auto failed = afford(box.count() - values.size(), word_at_, name)) return failed;
         values.resize(static_cast<std::size_t>(box.count()), unset_real);
     }
     return store(name, std::move(values), row);
+}
+
+/// Sizes of blocks for some layers only: those that are not there are like the one above. Defaults stand for no
+/// thickness, as OPM Flow takes them.
+Trouble DeckReader::block_sizes(std::string_view name, const CellBox& box, const char* at, std::vector<double>& values) {
+    const std::uint64_t layer = (std::uint64_t{box.last[0]} - box.first[0] + 1) * (std::uint64_t{box.last[1]} - box.first[1] + 1);
+    const auto unset = static_cast<std::uint64_t>(std::ranges::count(values, unset_real));
+    const std::string of = std::to_string(box.count()) + " values of " + std::string(name);
+    if (values.size() < layer && !box_)
+        return unreadable("F008", where(at), "expected " + of + ", found " + std::to_string(values.size()) + ", less than a layer has");
+    if (name == "TOPS" || probing_) return {};
+    if (values.size() < box.count())
+        findings_.push_back(
+            finding("F145", where(at),
+                    "expected " + of + ", found " + std::to_string(values.size()) + ": cells without one are like those above them",
+                    box.count() - values.size()));
+    if (unset == 0) return {};
+    const bool thickness = name == "DZ";
+    findings_.push_back(
+        finding("F145", where(at),
+                "expected " + of + ", found defaults (N*) among them: " +
+                    (thickness ? "those cells have no thickness, as OPM Flow takes it" : "those cells are like those above them"),
+                unset));
+    if (thickness) std::ranges::replace(values, unset_real, 0.0);
+    return {};
 }
 
 /// Puts values of the current box where they belong. Elements that they leave out stay what they were.
@@ -225,13 +275,17 @@ Trouble DeckReader::store(std::string_view name, std::vector<T>&& values, const 
         array = &g.arrays.back();
     }
     auto& target = std::get<std::vector<T>>(array->values);
+    // Multipliers of connections in EDIT act beside those of GRID; that of pore volumes takes their place.
+    const bool also = section_ == Section::edit && array->section != Section::edit && name.starts_with("MULT") && name != "MULTPV";
     const Dims& d = *g.dims;
     std::size_t next = 0;
     for (std::size_t k = box.first[2]; k <= box.last[2]; ++k) {
         for (std::size_t j = box.first[1]; j <= box.last[1]; ++j) {
             const std::size_t line = d[0] * (j + std::size_t{d[1]} * k);
             for (std::size_t i = box.first[0]; i <= box.last[0]; ++i, ++next) {
-                if (values[next] != unset) target[line + i] = values[next];
+                if (values[next] == unset) continue;
+                const bool multiplies = also && target[line + i] != unset;
+                target[line + i] = multiplies ? static_cast<T>(target[line + i] * values[next]) : values[next];
             }
         }
     }
@@ -240,6 +294,7 @@ Trouble DeckReader::store(std::string_view name, std::vector<T>&& values, const 
 
 /// A keyword that is not known: with one value for each cell it is a property, else it is kept as it stands.
 Trouble DeckReader::unknown(const char* begin, const std::string& name) {
+    if (Trouble failed; section_ != Section::runspec && unknown_below_remark(name, failed)) return failed;
     if (in().skip() && section_ != Section::runspec) {
         const char c = *in().at();
         if ((c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == '*') {
@@ -263,7 +318,14 @@ bool DeckReader::unknown_numbers(const std::string& name, Trouble& failed) {
         in().after_slash(slash);
         return true;
     }
-    if (!grid().dims && !find_dims_ahead()) return false;
+    if (!grid().dims && !find_dims_ahead()) {
+        // A few numbers may be anything; a property says so by having repeats or many of them.
+        std::vector<double> none;
+        const ArrayScan scan = read_numbers(text, 0, none, options_->monitor);
+        if (scan.status != ArrayStatus::ok || (text.find('*') == std::string_view::npos && scan.count < 8)) return false;
+        failed = need_dims(word_at_, name);
+        return true;
+    }
     grid().dims_used = true;
     const std::uint64_t cells = box_.value_or(whole_grid()).count();
     std::vector<double> values;

@@ -42,6 +42,7 @@ DeckReader::Handler DeckReader::handler_of(std::string_view name) {
                                         Row{"FAULTS", &DeckReader::faults},
                                         Row{"MULTFLT", &DeckReader::multflt},
                                         Row{"NNC", &DeckReader::nnc},
+                                        Row{"EDITNNC", &DeckReader::editnnc},
                                         Row{"MULTREGT", &DeckReader::multregt},
                                         Row{"MAPAXES", &DeckReader::header},
                                         Row{"MAPUNITS", &DeckReader::header},
@@ -78,6 +79,7 @@ DeckReader::Handler DeckReader::handler_of(std::string_view name) {
                                         Row{"DUALPORO", &DeckReader::porosity},
                                         Row{"DUALPERM", &DeckReader::porosity},
                                         Row{"RADIAL", &DeckReader::radial},
+                                        Row{"SPIDER", &DeckReader::radial},
                                         Row{"RADFIN", &DeckReader::radial_refinement},
                                         Row{"RADFIN4", &DeckReader::radial_refinement}};
     if (is_edit(name)) return &DeckReader::edits;
@@ -106,7 +108,7 @@ Trouble DeckReader::set_dims(const Dims& dims, std::string_view keyword, const c
 
 Trouble DeckReader::specgrid() {
     const char* at = word_at_;
-    auto record = in().record(word_);
+    auto record = take_record(in(), word_, findings_);
     if (!record) return std::move(record).why();
     Dims dims{1, 1, 1};
     if (auto failed = take_dims(in(), *record, dims)) return failed;
@@ -127,7 +129,7 @@ Trouble DeckReader::specgrid() {
 
 Trouble DeckReader::dimens() {
     const char* at = word_at_;
-    auto record = in().record(word_);
+    auto record = take_record(in(), word_, findings_);
     if (!record) return std::move(record).why();
     Dims dims{1, 1, 1};
     if (auto failed = take_dims(in(), *record, dims)) return failed;
@@ -141,7 +143,7 @@ CellBox DeckReader::whole_grid() const {
 
 Trouble DeckReader::box() {
     const char* at = word_at_;
-    auto record = in().record(word_);
+    auto record = take_record(in(), word_, findings_);
     if (!record) return std::move(record).why();
     if (probing_) return {};
     if (auto failed = need_dims(at, word_)) return failed;
@@ -160,14 +162,21 @@ Trouble DeckReader::faults() { return read_faults(in(), grid(), findings_); }
 
 Trouble DeckReader::multflt() {
     const char* begin = word_at_;
-    if (section_ != Section::none && section_ != Section::grid) {  // those of EDIT multiply what GRID gave
-        const char* at = begin;
-        GridText ignored;
-        auto failed = read_fault_multipliers(in(), ignored, findings_);
-        if (!failed) keep_text(at, in().at());
+    if (section_ != Section::none && section_ != Section::grid) {  // it stays in its section
+        auto failed = read_fault_multipliers(in(), grid(), true, findings_);
+        if (!failed) keep_text(begin, in().at());
         return failed;
     }
-    return read_fault_multipliers(in(), grid(), findings_);
+    return read_fault_multipliers(in(), grid(), false, findings_);
+}
+
+Trouble DeckReader::editnnc() {
+    const char* begin = word_at_;
+    if (probing_) return read_list(in(), word_, findings_, [](const Record&) -> Trouble { return {}; });
+    if (auto failed = need_dims(begin, word_)) return failed;
+    auto failed = read_connection_factors(in(), grid(), findings_);
+    if (!failed) keep_text(begin, in().at());
+    return failed;
 }
 
 Trouble DeckReader::nnc() {
@@ -182,17 +191,17 @@ Trouble DeckReader::multregt() { return read_region_multipliers(in(), grid(), fi
 
 Trouble DeckReader::header() {
     GridText& g = grid();
-    if (word_ == "MAPAXES") return read_map_axes(in(), g);
-    if (word_ == "MAPUNITS") return read_map_units(in(), g);
-    if (word_ == "GRIDUNIT") return read_grid_unit(in(), g);
-    if (word_ == "GDORIENT") return read_orientation(in(), g);
-    if (word_ == "COORDSYS") return read_reservoirs(in(), g);
-    if (word_ == "PINCH") return read_pinch(in(), g);
-    return read_least_pore_volume(in(), g);
+    if (word_ == "MAPAXES") return read_map_axes(in(), g, findings_);
+    if (word_ == "MAPUNITS") return read_map_units(in(), g, findings_);
+    if (word_ == "GRIDUNIT") return read_grid_unit(in(), g, findings_);
+    if (word_ == "GDORIENT") return read_orientation(in(), g, findings_);
+    if (word_ == "COORDSYS") return read_reservoirs(in(), g, findings_);
+    if (word_ == "PINCH") return read_pinch(in(), g, findings_);
+    return read_least_pore_volume(in(), g, findings_);
 }
 
 Trouble DeckReader::radius() {
-    auto record = in().record(word_);
+    auto record = take_record(in(), word_, findings_);
     if (!record) return std::move(record).why();
     double value = 0;
     if (auto failed = need_real(in(), *record, 0, "a radius", value)) return failed;
@@ -202,8 +211,8 @@ Trouble DeckReader::radius() {
 }
 
 Trouble DeckReader::radial() {
-    radial_ = true;
     grid().radial = true;
+    grid().spider = word_ == "SPIDER";
     return {};
 }
 
@@ -226,7 +235,7 @@ Trouble DeckReader::title() {
 }
 
 Trouble DeckReader::gdfile() {
-    auto record = in().record(word_);
+    auto record = take_record(in(), word_, findings_);
     if (!record) return std::move(record).why();
     grid().geometry_file = std::string(trimmed(record->text(0)));
     keep_text(word_at_, in().at());
@@ -234,7 +243,7 @@ Trouble DeckReader::gdfile() {
 }
 
 Trouble DeckReader::import_file() {
-    auto record = in().record(word_);
+    auto record = take_record(in(), word_, findings_);
     if (!record) return std::move(record).why();
     if (probing_) return {};
     keep_text(word_at_, in().at());
@@ -272,7 +281,7 @@ Trouble DeckReader::edits() {
 
 Trouble DeckReader::carfin() {
     const char* at = word_at_;
-    auto record = in().record(word_);
+    auto record = take_record(in(), word_, findings_);
     if (!record) return std::move(record).why();
     if (probing_) return {};
     if (!record->given(0)) return unreadable("F012", where(record->begin), "expected the name of a local grid");
@@ -321,14 +330,14 @@ Trouble DeckReader::radial_refinement() {
         if (next.quoted || next.text != "ENDFIN") continue;
         if (probing_) return {};
         keep_text(begin, in().at());
-        losses_.push_back({LossClass::substance, grid().grid.info.name, "a radial local grid", "it is kept as text only", 1});
+        findings_.push_back(finding("F148", where(begin), word_ + ": a radial local grid is kept as text, it is not judged"));
         return {};
     }
     return unreadable("F004", where(begin), "expected ENDFIN after " + word_ + ", found the end of the file");
 }
 
 Trouble DeckReader::refine() {
-    auto record = in().record(word_);
+    auto record = take_record(in(), word_, findings_);
     if (!record) return std::move(record).why();
     if (probing_) return {};
     const std::string name = upper_case(trimmed(record->text(0)));

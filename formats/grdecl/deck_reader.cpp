@@ -17,18 +17,21 @@ constexpr std::size_t deepest_include = 32;
 constexpr std::uint64_t most_includes = 100'000;
 constexpr std::uint64_t usual_values = std::uint64_t{1} << 28;
 
-/// The word of a line that begins a section: alone on it but for a comment.
-Section section_line(std::string_view line) {
-    line = trimmed(line);
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.find("--"));
-    const std::string_view rest = end == std::string_view::npos ? std::string_view{} : trimmed(line.substr(end));
-    if (!rest.empty() && !rest.starts_with("--")) return Section::none;
-    return section_of(line.substr(0, end));
+/// The word of a line of section `now` that begins a later one: at the front of the line, and no record with it. What
+/// else stands there is a remark.
+Section section_line(std::string_view line, Section now) {
+    const bool indented = !line.empty() && (line[0] == ' ' || line[0] == '\t');
+    line = trimmed(line.substr(0, line.find("--")));
+    const std::size_t end = line.find_first_of(" \t");
+    const Section next = section_of(line.substr(0, end));
+    if (end == std::string_view::npos || next == Section::none) return next;
+    return next > now && !indented && line.find('/') == std::string_view::npos ? next : Section::none;
 }
 
 bool is_end_line(std::string_view line) {
+    const bool indented = !line.empty() && (line[0] == ' ' || line[0] == '\t');
     line = trimmed(line.substr(0, line.find("--")));
-    return line == "END";
+    return line == "END" || (!indented && line.starts_with("END ") && line.find('/') == std::string_view::npos);
 }
 
 }  // namespace
@@ -139,6 +142,7 @@ Trouble DeckReader::keyword(const Item& word) {
     if (text.empty()) return unreadable("F012", where(word.at), "expected a keyword, found an empty name");
     word_ = word.quoted ? std::string(text) : known_name(text);
     word_at_ = word.at;
+    if (word_ != "EXTERNAL_FILE" && !word.quoted) take_line_remark();
     if (word_ == "END") {
         ended_ = true;
         return {};
@@ -152,6 +156,7 @@ Trouble DeckReader::keyword(const Item& word) {
         return {};
     }
     if (word_ == "INCLUDE") return include();
+    if (word_ == "EXTERNAL_FILE") return external_file();
     if (word_ == "PATHS") return paths();
     if (word_ == "SKIP" || word_ == "SKIP100" || word_ == "SKIP300") return skip_block(word_);
     if (word_ == "ENDSKIP") return {};
@@ -165,8 +170,7 @@ Trouble DeckReader::keyword(const Item& word) {
             return {};
         }
         if (word_ == "ADDZCORN" && !probing_)
-            losses_.push_back({LossClass::substance, grid().grid.info.name, "what ADDZCORN adds to the corner depths",
-                               "it is kept as text, not applied (line " + std::to_string(where(word.at).line) + ")", 1});
+            findings_.push_back(finding("F148", where(word.at), "what ADDZCORN adds to the corner depths is kept as text, not applied"));
         return keep(word.at, word_, true);
     }
     if (section_ == Section::runspec) return keep(word.at, word_, true);
@@ -179,7 +183,7 @@ void DeckReader::enter(Section s) {
     if (s == Section::runspec && std::ranges::find(texts_, s, &decltype(texts_)::value_type::first) == texts_.end())
         texts_.emplace_back(s, std::string());
     if (kept_as_text(s)) {
-        in().skip_line();
+        if (in().at() != in().end() && in().at()[-1] != '\n') in().skip_line();
         texts_.emplace_back(s, std::string());
     }
 }
@@ -194,7 +198,7 @@ Trouble DeckReader::section_text() {
         const void* newline = std::memchr(line, '\n', static_cast<std::size_t>(end - line));
         const char* stop = newline == nullptr ? end : static_cast<const char*>(newline);
         const std::string_view text(line, static_cast<std::size_t>(stop - line));
-        next = section_line(text);
+        next = section_line(text, section_);
         ended_ = is_end_line(text);
         if (next != Section::none || ended_) break;
         line = stop == end ? end : stop + 1;
@@ -202,7 +206,9 @@ Trouble DeckReader::section_text() {
     if (!probing_) texts_.back().second.append(begin, line);
     in().jump(line);
     if (next != Section::none) {
-        in().item();
+        word_ = in().item().text;
+        word_at_ = line;
+        take_line_remark();
         enter(next);
     } else if (!ended_) {
         if (frames_.size() == 1) ended_ = true;
@@ -215,7 +221,9 @@ Trouble DeckReader::paths() {
     if (section_ == Section::runspec) keep_text(word_at_, in().at());
     const char* begin = in().at();
     auto failed = read_list(in(), "PATHS", findings_, [&](const Record& record) -> Trouble {
-        aliases_[std::string(trimmed(record.text(0)))] = std::string(trimmed(record.text(1)));
+        std::string path(trimmed(record.text(1)));
+        std::ranges::replace(path, '\\', '/');
+        aliases_[std::string(trimmed(record.text(0)))] = std::move(path);
         return {};
     });
     if (!failed && section_ == Section::runspec) keep_text(begin, in().at());
@@ -244,6 +252,19 @@ Trouble DeckReader::include() {
     if (!in().take_slash())
         return unreadable("F012", in().here(), "expected a '/' after the path of INCLUDE, found " + shown(trimmed(in().rest_of_line())));
     return open_include(name, path.at);
+}
+
+/// How PFLOTRAN includes: the name of a file, without a '/' behind it, beside the file that names it.
+Trouble DeckReader::external_file() {
+    in().skip();
+    const char* at = in().at();
+    std::string_view name = in().rest_of_line();
+    name = trimmed(name.substr(0, name.find("--")));
+    in().skip_line();
+    if (name.ends_with(" /") || name.ends_with("\t/")) name = trimmed(name.substr(0, name.size() - 1));
+    if (name.size() > 1 && (name[0] == '\'' || name[0] == '"') && name.back() == name[0]) name = name.substr(1, name.size() - 2);
+    if (name.empty() || name == "/") return unreadable("F012", where(at), "expected the path of a file after external_file");
+    return open_include(name, at);
 }
 
 Trouble DeckReader::open_include(std::string_view written, const char* at) {

@@ -32,10 +32,12 @@ private:
     // deck_reader.cpp
     Trouble set_options();
     void take_remark();
+    void take_line_remark();  // line_remarks.cpp
     Trouble run();
     Trouble keyword(const Item& word);
     Trouble section_text();
     Trouble include();
+    Trouble external_file();
     Trouble open_include(std::string_view path, const char* at);
     Trouble paths();
     Trouble skip_block(std::string_view word);
@@ -56,6 +58,7 @@ private:
     Trouble faults();
     Trouble multflt();
     Trouble nnc();
+    Trouble editnnc();
     Trouble multregt();
     Trouble header();
     Trouble vector_of_widths();
@@ -82,11 +85,13 @@ private:
     Trouble unknown(const char* begin, const std::string& name);
     bool unknown_numbers(const std::string& name, Trouble& failed);
     bool unknown_words(const std::string& name);
+    bool unknown_below_remark(const std::string& name, Trouble& failed);  // line_remarks.cpp
     template <class T>
     Trouble numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short = false,
                     std::uint64_t or_else = 0);
     template <class T>
     Trouble store(std::string_view name, std::vector<T>&& values, const std::optional<CellKeyword>& row);
+    Trouble block_sizes(std::string_view name, const CellBox& box, const char* at, std::vector<double>& values);
     Trouble afford(std::uint64_t values, const char* at, std::string_view name);
     Failure array_failure(const ArrayScan& scan, std::string_view name, std::string_view text, std::uint64_t expected,
                           const char* slash) const;
@@ -124,7 +129,6 @@ private:
     std::uint64_t includes_ = 0;
     std::map<std::string, std::string, std::less<>> aliases_;
     CornerPointGrid::Porosity porosity_ = CornerPointGrid::Porosity::single;
-    bool radial_ = false;
     std::string unit_system_;
     std::vector<std::pair<Section, std::string>> texts_;  ///< of sections that are kept as they stand
     std::vector<std::string> unknown_;                    ///< keywords that were kept, for F102
@@ -132,6 +136,8 @@ private:
     std::uint64_t unknown_count_ = 0;
     std::uint64_t stray_slashes_ = 0;
     Location first_stray_slash_;
+    std::uint64_t remarks_ = 0;  ///< behind keywords on their lines
+    Location first_remark_;
     std::uint64_t not_applied_ = 0;
     Location first_not_applied_;
     std::string missing_array_;

@@ -41,6 +41,14 @@ Result<Dataset> DeckReader::finish() {
         const CornerPointGrid& g = grid().grid;
         if (g.faults.empty() && g.region_multipliers.empty() && g.info.annotations.empty() && !g.map_axes && texts_.empty())
             return unreadable("F017", {input_->name()}, "nothing in the text is of a grid");
+        const bool follows = std::ranges::any_of(g.info.annotations, [](const Annotation& a) {
+            return a.key == "grdecl.record" && (a.value.starts_with("GDFILE") || a.value.starts_with("IMPORT"));
+        });
+        if (g.faults.empty() && !follows)
+            return unreadable(
+                "F024", {input_->name()},
+                "neither SPECGRID nor DIMENS stands in the text: give the numbers of cells with --option dims=NX,NY,NZ, or read "
+                "the deck that includes this file");
         dims_from_boxes();
     }
     std::deque<GridText>& texts = grids_;
@@ -84,6 +92,8 @@ Result<Dataset> DeckReader::finish() {
         findings_.push_back(
             finding("F102", first_unknown_, "keywords that are not known are kept as they stand: " + names, unknown_count_));
     }
+    if (remarks_ > 0)
+        findings_.push_back(finding("F144", first_remark_, "text behind a keyword on its line is taken as a remark", remarks_));
     if (stray_slashes_ > 0) findings_.push_back(finding("F118", first_stray_slash_, "a '/' ends nothing", stray_slashes_));
     if (not_applied_ > 0) {
         findings_.push_back(finding("F142", first_not_applied_,

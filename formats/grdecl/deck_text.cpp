@@ -96,6 +96,10 @@ const char* find_slash(const char* at, const char* end) {
     return end;
 }
 
+Scanner::Scanner(const Input& input) : input_(&input), at_(input.bytes().data()), end_(at_ + input.bytes().size()) {
+    if (input.bytes().starts_with(byte_order_mark)) at_ += byte_order_mark.size();
+}
+
 bool Scanner::skip() {
     while (at_ != end_) {
         if (is_separator(*at_)) ++at_;
@@ -126,11 +130,40 @@ Item Scanner::item() {
     return {{begin, static_cast<std::size_t>(at_ - begin)}, begin};
 }
 
-Result<Record> Scanner::record(std::string_view keyword) {
+bool Scanner::word_alone_follows(std::string_view& word) {
+    if (!skip() || is_quote(*at_)) return false;
+    const char* begin = at_;
+    while (begin != input_->bytes().data() && begin[-1] != '\n') {
+        if (!is_separator(*--begin)) return false;
+    }
+    Scanner ahead(*this);
+    word = ahead.item().text;
+    const char* end = ahead.at();
+    return !word.empty() && is_letter(word.front()) && (!ahead.skip() || std::find(end, ahead.at(), '\n') != ahead.at());
+}
+
+Result<Record> Scanner::record(std::string_view keyword, const RecordRule& rule) {
     Record record;
     skip();
     record.begin = at_;
-    for (;;) {
+    const char* last = at_;  // the end of the last item
+    for (;; last = at_) {
+        const bool more = skip() && *at_ != '/';
+        if (more && rule.most > 0 && record.items.size() >= rule.most) {
+            if (std::find(last, at_, '\n') == at_)
+                return unreadable("F008", here(),
+                                  "expected '/' after the " + std::to_string(rule.most) + (rule.most == 1 ? " item" : " items") + " of " +
+                                      std::string(keyword) + ", found " + shown(Scanner(*this).item().text));
+            record.slash = at_;
+            record.slash_missing = true;
+            return record;
+        }
+        std::string_view word;
+        if (more && rule.known != nullptr && !record.items.empty() && record.items.size() >= rule.words && word_alone_follows(word) &&
+            rule.known(word)) {
+            return unreadable("F008", here(),
+                              "expected the '/' that ends the record of " + std::string(keyword) + ", found the keyword " + shown(word));
+        }
         Item next = item();
         if (next.at == nullptr) {
             return unreadable("F004", here(),

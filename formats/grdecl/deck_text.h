@@ -13,6 +13,9 @@
 
 namespace geomend::grdecl {
 
+/// What some programs put before the text of a file in UTF-8.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// Blank, tab, comma, line ends, VT, FF and SOH part items.
 bool is_separator(char c);
 /// Letters, digits, '-', '_' and '+', beginning with a letter.
@@ -31,9 +34,17 @@ struct Record {
     std::vector<Item> items;
     const char* begin = nullptr;
     const char* slash = nullptr;
+    bool slash_missing = false;  ///< it has all its items, and the next line goes on with something else: `slash` is there
 
     bool given(std::size_t i) const { return i < items.size() && items[i].given; }
     std::string_view text(std::size_t i) const { return given(i) ? items[i].text : std::string_view{}; }
+};
+
+/// What the record of a keyword may hold.
+struct RecordRule {
+    std::size_t most = 0;                       ///< items; 0: not known
+    std::size_t words = 0;                      ///< so many items at its front may be words that are keywords, too
+    bool (*known)(std::string_view) = nullptr;  ///< tells keywords
 };
 
 /// Where a byte of an input stands. Cost: counts the lines before it.
@@ -46,7 +57,8 @@ const char* find_slash(const char* at, const char* end);
 /// Walks over one input.
 class Scanner {
 public:
-    explicit Scanner(const Input& input) : input_(&input), at_(input.bytes().data()), end_(at_ + input.bytes().size()) {}
+    /// Begins behind a byte-order mark.
+    explicit Scanner(const Input& input);
 
     const Input& input() const { return *input_; }
     const char* at() const { return at_; }
@@ -60,7 +72,10 @@ public:
     /// The next item, or "/" as text for a slash; nothing (at == nullptr) at the end.
     Item item();
     /// The items up to the next '/', which is taken. F004 at the end of the file, F012 for a bad repeat count.
-    Result<Record> record(std::string_view keyword);
+    /// A keyword on a line of its own before the record is complete, and items beyond the most that it may have, are F008.
+    Result<Record> record(std::string_view keyword, const RecordRule& rule = {});
+    /// Whether the next word is unquoted, begins its line and is alone on it.
+    bool word_alone_follows(std::string_view& word);
     /// Goes behind a '/': what follows it in its line is a remark.
     void after_slash(const char* slash);
     /// Takes a lone '/' where it is next.

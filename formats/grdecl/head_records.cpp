@@ -16,30 +16,27 @@ Failure bad_word(const Scanner& in, const Record& record, std::size_t i, const s
 
 }  // namespace
 
-Trouble read_map_axes(Scanner& in, GridText& g) {
-    auto record = in.record("MAPAXES");
+Trouble read_map_axes(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    auto record = take_record(in, "MAPAXES", findings);
     if (!record) return std::move(record).why();
     std::array<double, 6> axes{};
     for (std::size_t i = 0; i < 6; ++i) {
         if (auto failed = need_real(in, *record, i, "six coordinates of MAPAXES", axes[i])) return failed;
     }
-    if (record->items.size() > 6)
-        return unreadable("F008", in.location(record->items[6].at),
-                          "expected '/' after the six numbers of MAPAXES, found " + shown(record->items[6].text));
     g.grid.map_axes = axes;
     g.grid.info.crs.stated = true;
     return {};
 }
 
-Trouble read_map_units(Scanner& in, GridText& g) {
-    auto record = in.record("MAPUNITS");
+Trouble read_map_units(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    auto record = take_record(in, "MAPUNITS", findings);
     if (!record) return std::move(record).why();
     g.grid.map_unit = word(*record, 0);
     return {};
 }
 
-Trouble read_grid_unit(Scanner& in, GridText& g) {
-    auto record = in.record("GRIDUNIT");
+Trouble read_grid_unit(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    auto record = take_record(in, "GRIDUNIT", findings);
     if (!record) return std::move(record).why();
     const std::string unit = record->items.empty() || !record->given(0) ? "METRES" : word(*record, 0);
     g.grid.info.crs.axis_units.fill(unit);
@@ -48,13 +45,10 @@ Trouble read_grid_unit(Scanner& in, GridText& g) {
     return {};
 }
 
-Trouble read_orientation(Scanner& in, GridText& g) {
-    auto record = in.record("GDORIENT");
+Trouble read_orientation(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    auto record = take_record(in, "GDORIENT", findings);
     if (!record) return std::move(record).why();
     const std::array<std::string, 5> usual = {"INC", "INC", "INC", "DOWN", "RIGHT"};
-    if (record->items.size() > 5)
-        return unreadable("F008", in.location(record->items[5].at),
-                          "expected '/' after the five words of GDORIENT, found " + shown(record->items[5].text));
     g.grid.orientation.assign(usual.begin(), usual.end());
     for (std::size_t i = 0; i < 5; ++i) {
         if (record->given(i)) g.grid.orientation[i] = word(*record, i);
@@ -62,11 +56,11 @@ Trouble read_orientation(Scanner& in, GridText& g) {
     return {};
 }
 
-Trouble read_reservoirs(Scanner& in, GridText& g) {
+Trouble read_reservoirs(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     g.grid.reservoirs.clear();
     const std::uint32_t layers = g.dims ? (*g.dims)[2] : 0;
     while (g.grid.reservoirs.size() < g.coordinate_sets) {
-        auto record = in.record("COORDSYS");
+        auto record = take_record(in, "COORDSYS", findings);
         if (!record) return std::move(record).why();
         std::int64_t first = 1, last = layers == 0 ? 1 : layers;
         if (auto failed = take_whole(in, *record, 0, "the first layer", first)) return failed;
@@ -86,8 +80,8 @@ Trouble read_reservoirs(Scanner& in, GridText& g) {
     return {};
 }
 
-Trouble read_pinch(Scanner& in, GridText& g) {
-    auto record = in.record("PINCH");
+Trouble read_pinch(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    auto record = take_record(in, "PINCH", findings);
     if (!record) return std::move(record).why();
     CornerPointGrid::Pinch pinch;
     if (auto failed = take_real(in, *record, 0, "a thickness", pinch.threshold)) return failed;
@@ -106,8 +100,8 @@ Trouble read_pinch(Scanner& in, GridText& g) {
     return {};
 }
 
-Trouble read_least_pore_volume(Scanner& in, GridText& g) {
-    auto record = in.record("MINPV");
+Trouble read_least_pore_volume(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    auto record = take_record(in, "MINPV", findings);
     if (!record) return std::move(record).why();
     double volume = 1e-6;
     if (auto failed = take_real(in, *record, 0, "a pore volume", volume)) return failed;

@@ -45,7 +45,7 @@ const auto& cell_keywords() {
                                     real("THCGAS"),
                                     real("THCWATER"),
                                     real("MINPVV"),
-                                    real("DISPERC"),
+                                    other("DISPERC"),
                                     whole("ACTNUM", grid, 1),
                                     whole("FLUXNUM", grid),
                                     whole("MULTNUM", grid, 1),
@@ -53,35 +53,34 @@ const auto& cell_keywords() {
                                     whole("ROCKNUM", grid),
                                     whole("ISOLNUM", grid, 1),
                                     whole("PINCHNUM", grid),
-                                    other("PERMR"),
-                                    other("PERMTHT"),
+                                    real("PERMR"),
+                                    real("PERMTHT"),
                                     other("PERMXX"),
                                     other("PERMYY"),
                                     other("PERMZZ"),
                                     other("PERMXY"),
                                     other("PERMYZ"),
                                     other("PERMZX"),
-                                    other("MULTR"),
-                                    other("MULTR-"),
-                                    other("MULTTHT"),
-                                    other("MULTTHT-"),
-                                    other("SIGMAV"),
-                                    other("DZNET"),
-                                    other("DZMTRXV"),
-                                    other("DIFFMX"),
-                                    other("DIFFMY"),
-                                    other("DIFFMZ"),
+                                    real("MULTR", grid, 1),
+                                    real("MULTR-", grid, 1),
+                                    real("MULTTHT", grid, 1),
+                                    real("MULTTHT-", grid, 1),
+                                    real("SIGMAV"),
+                                    real("DZNET"),
+                                    real("DZMTRXV"),
+                                    real("DIFFMX"),
+                                    real("DIFFMY"),
+                                    real("DIFFMZ"),
                                     other("DX"),
                                     other("DY"),
                                     other("DZ"),
                                     other("DR"),
                                     other("DTHETA"),
                                     other("TOPS"),
-                                    other("ROCKFRAC"),
-                                    other("LTOSIGMA"),
-                                    other("COALNUM", true),
+                                    real("ROCKFRAC"),
+                                    whole("COALNUM", grid),
                                     other("VISCNUM", true),
-                                    other("RESIDNUM", true),
+                                    whole("RESIDNUM", grid),
                                     real("PORV", edit),
                                     other("DEPTH", false, edit),
                                     other("TRANX", false, edit),
@@ -107,10 +106,10 @@ const auto& cell_keywords() {
                                     whole("IMBNUMY", regions),
                                     whole("IMBNUMZ", regions),
                                     whole("PLMIXNUM", regions),
-                                    other("SURFNUM", true, regions),
+                                    whole("SURFNUM", regions),
                                     other("EOSNUM", true, regions),
-                                    other("WH2NUM", true, regions),
-                                    other("WH3NUM", true, regions),
+                                    whole("WH2NUM", regions),
+                                    whole("WH3NUM", regions),
                                     other("HMFLTNUM", true, regions),
                                     other("ISOLNUMX", true, regions),
                                     real("PRESSURE", solution),
@@ -157,27 +156,29 @@ const auto& cell_keywords() {
 
 // Known, without anything to do with the shape of the grid.
 constexpr auto alone = std::to_array<std::string_view>(
-    {"AIM",      "API",     "BLACKOIL", "BRINE",   "CO2STORE", "CPR",      "DIFFUSE",  "DISGAS",  "DISGASW",  "DPGRID",   "ECHO",
-     "EXTRAPMS", "FMTIN",   "FMTOUT",   "FULLIMP", "GAS",      "GASWAT",   "GRAVDR",   "IMPES",   "IMPLICIT", "INIT",     "MECH",
-     "MONITOR",  "MULTOUT", "MULTOUTS", "NEWTRAN", "NOCASC",   "NODPPM",   "NOECHO",   "NOGGF",   "NOINSPEC", "NONNC",    "NORSSPEC",
-     "NOSIM",    "NOWARN",  "OIL",      "OLDTRAN", "OLDTRANR", "PINCHOUT", "POLYMER",  "PSEUDOS", "PVT-M",    "SALTNODE", "SOLVENT",
-     "SURFACT",  "TEMP",    "THERMAL",  "UNIFIN",  "UNIFINS",  "UNIFOUT",  "UNIFOUTS", "VAPOIL",  "VAPWAT",   "WARN",     "WATER"});
+    {"AIM",      "API",      "BLACKOIL", "BRINE",  "CO2STORE", "CPR",     "DIFFUSE",  "DISGAS",  "DISGASW",  "DPGRID",
+     "ECHO",     "EXTRAPMS", "FMTIN",    "FMTOUT", "FULLIMP",  "GAS",     "GASWAT",   "GRAVDR",  "HALFTRAN", "LGRCOPY",
+     "IMPES",    "IMPLICIT", "INIT",     "MECH",   "MONITOR",  "MULTOUT", "MULTOUTS", "NEWTRAN", "NOCASC",   "NODPPM",
+     "NOECHO",   "NOGGF",    "NOINSPEC", "NONNC",  "NORSSPEC", "NOSIM",   "NOWARN",   "OIL",     "OLDTRAN",  "OLDTRANR",
+     "PINCHOUT", "POLYMER",  "PSEUDOS",  "PVT-M",  "SALTNODE", "SOLVENT", "SURFACT",  "TEMP",    "THERMAL",  "UNIFIN",
+     "UNIFINS",  "UNIFOUT",  "UNIFOUTS", "VAPOIL", "VAPWAT",   "WARN",    "WATER"});
 constexpr auto records = std::to_array<std::string_view>(
-    {"ACTDIMS",  "ADDZCORN", "AMALGAM",  "AQUANCON", "AQUCON",   "AQUDIMS",  "AQUNUM",   "BOUNDARY", "COLLAPSE", "DATUM",    "DEBUG",
-     "EDITNNC",  "EDITNNCR", "ENDSCALE", "EQLDIMS",  "EQLOPTS",  "FAULTDIM", "FLUXREG",  "GRIDFILE", "GRIDOPTS", "JFUNC",    "LGR",
-     "MAXTRANZ", "MEMORY",   "MESSAGES", "MINDZNET", "MINNNCT",  "MINPVFIL", "MINRV",    "MISCIBLE", "MULTREGD", "MULTREGP", "NNCGEN",
-     "NODPCDT",  "NSTACK",   "NUMRES",   "OPTIONS",  "OPTIONS3", "PARALLEL", "PIMTDIMS", "PINCHREG", "PINCHXY",  "QMOBIL",   "REGDIMS",
-     "ROCKCOMP", "RPTGRID",  "RPTINIT",  "RPTPROPS", "RPTREGS",  "RPTRUNSP", "SATOPTS",  "SIGMA",    "SMRYDIMS", "START",    "TABDIMS",
-     "THPRES",   "TRACERS",  "UDADIMS",  "UDQDIMS",  "UDQPARAM", "VFPIDIMS", "VFPPDIMS", "WELLDIMS", "WSEGDIMS"});
+    {"ACTDIMS",  "ADDZCORN", "AMALGAM",  "AQUANCON", "AQUCON",   "AQUDIMS",  "AQUNUM",   "BOUNDARY", "COARSEN",  "COLLAPSE",
+     "DATUM",    "DEBUG",    "EDITNNC",  "EDITNNCR", "ENDSCALE", "EQLDIMS",  "EQLOPTS",  "FAULTDIM", "FLUXREG",  "GRIDFILE",
+     "GRIDOPTS", "JFUNC",    "LGR",      "LTOSIGMA", "MAXTRANZ", "MEMORY",   "MESSAGES", "MINDZNET", "MINNNCT",  "MINPVFIL",
+     "MINRV",    "MISCIBLE", "MULTREGD", "MULTREGP", "NNCGEN",   "NODPCDT",  "NSTACK",   "NUMRES",   "OPTIONS",  "OPTIONS3",
+     "PARALLEL", "PIMTDIMS", "PINCHREG", "PINCHXY",  "QMOBIL",   "REGDIMS",  "ROCKCOMP", "RPTGRID",  "RPTINIT",  "RPTPROPS",
+     "RPTREGS",  "RPTRUNSP", "SATOPTS",  "SIGMA",    "SMRYDIMS", "START",    "TABDIMS",  "THPRES",   "THPRESFT", "TRACERS",
+     "UDADIMS",  "UDQDIMS",  "UDQPARAM", "VFPIDIMS", "VFPPDIMS", "WELLDIMS", "WSEGDIMS"});
 // Those that the reader of decks does something with.
 constexpr auto understood = std::to_array<std::string_view>(
-    {"ADD",      "ADDREG",   "BOX",     "CARFIN",   "COORD",    "COORDSYS", "COPY",     "COPYREG",  "DEPTHZ",  "DIMENS",   "DR",
-     "DRV",      "DTHETA",   "DTHETAV", "DUALPERM", "DUALPORO", "DX",       "DXV",      "DY",       "DYV",     "DZ",       "DZV",
-     "END",      "ENDBOX",   "ENDFIN",  "ENDINC",   "ENDSKIP",  "EQUALREG", "EQUALS",   "FAULTS",   "FIELD",   "GDFILE",   "GDORIENT",
-     "GRIDUNIT", "HXFIN",    "HYFIN",   "HZFIN",    "IMPORT",   "INCLUDE",  "INRAD",    "LAB",      "MAPAXES", "MAPUNITS", "MAXVALUE",
-     "METRIC",   "MINPORV",  "MINPV",   "MINVALUE", "MULTFLT",  "MULTIPLY", "MULTIREG", "MULTREGT", "NNC",     "NXFIN",    "NYFIN",
-     "NZFIN",    "OPERATE",  "OUTRAD",  "PATHS",    "PINCH",    "RADFIN",   "RADFIN4",  "RADIAL",   "REFINE",  "SKIP",     "SKIP100",
-     "SKIP300",  "SPECGRID", "TITLE",   "TOPS",     "ZCORN"});
+    {"ADD",      "ADDREG",  "BOX",      "CARFIN",   "COORD",         "COORDSYS", "COPY",     "COPYREG",  "DEPTHZ",  "DIMENS",   "DR",
+     "DRV",      "DTHETA",  "DTHETAV",  "DUALPERM", "DUALPORO",      "DX",       "DXV",      "DY",       "DYV",     "DZ",       "DZV",
+     "END",      "ENDBOX",  "ENDFIN",   "ENDINC",   "ENDSKIP",       "EQUALREG", "EQUALS",   "FAULTS",   "FIELD",   "GDFILE",   "GDORIENT",
+     "GRIDUNIT", "HXFIN",   "HYFIN",    "HZFIN",    "IMPORT",        "INCLUDE",  "INRAD",    "LAB",      "MAPAXES", "MAPUNITS", "MAXVALUE",
+     "METRIC",   "MINPORV", "MINPV",    "MINVALUE", "MULTFLT",       "MULTIPLY", "MULTIREG", "MULTREGT", "NNC",     "NXFIN",    "NYFIN",
+     "NZFIN",    "OPERATE", "OPERATER", "SPIDER",   "EXTERNAL_FILE", "OUTRAD",   "PATHS",    "PINCH",    "RADFIN",  "RADFIN4",  "RADIAL",
+     "REFINE",   "SKIP",    "SKIP100",  "SKIP300",  "SPECGRID",      "TITLE",    "TOPS",     "ZCORN"});
 
 template <class Words>
 bool among(const Words& words, std::string_view word) {
@@ -207,6 +208,37 @@ std::optional<CellKeyword> cell_keyword(std::string_view name) {
 Shape shape_of(std::string_view name) {
     if (among(alone, name)) return Shape::alone;
     return among(records, name) ? Shape::records : Shape::unknown;
+}
+
+ItemCounts item_counts(std::string_view name) {
+    struct Row {
+        std::string_view name;
+        ItemCounts counts;
+    };
+    static constexpr std::array rows = {
+        Row{"MAPUNITS", {1, 1}}, Row{"GRIDUNIT", {2, 1}},  Row{"MAPAXES", {6, 0}},   Row{"GDORIENT", {5, 5}}, Row{"SPECGRID", {5, 0}},
+        Row{"DIMENS", {3, 0}},   Row{"BOX", {6, 0}},       Row{"PINCH", {5, 0}},     Row{"MINPV", {1, 0}},    Row{"MINPORV", {1, 0}},
+        Row{"INRAD", {1, 0}},    Row{"OUTRAD", {1, 0}},    Row{"COORDSYS", {6, 0}},  Row{"FAULTS", {8, 1}},   Row{"MULTFLT", {3, 1}},
+        Row{"MULTREGT", {6, 0}}, Row{"EQUALS", {8, 2}},    Row{"ADD", {8, 2}},       Row{"MULTIPLY", {8, 2}}, Row{"MINVALUE", {8, 2}},
+        Row{"MAXVALUE", {8, 2}}, Row{"COPY", {8, 2}},      Row{"EQUALREG", {4, 2}},  Row{"ADDREG", {4, 2}},   Row{"MULTIREG", {4, 2}},
+        Row{"COPYREG", {4, 2}},  Row{"OPERATE", {11, 99}}, Row{"OPERATER", {7, 99}}, Row{"CARFIN", {12, 1}},  Row{"GDFILE", {2, 1}},
+        Row{"IMPORT", {2, 1}},   Row{"PATHS", {2, 1}},     Row{"EDITNNC", {11, 0}},  Row{"NNC", {17, 0}}};
+    const auto row = std::ranges::find(rows, name, &Row::name);
+    return row == rows.end() ? ItemCounts{} : row->counts;
+}
+
+FirstItem first_item(std::string_view name) {
+    static constexpr auto nothing =
+        std::to_array<std::string_view>({"END", "ENDINC", "ENDBOX", "ENDFIN", "ENDSKIP", "SKIP", "SKIP100", "SKIP300", "METRIC", "FIELD",
+                                         "LAB", "PVT-M", "DUALPORO", "DUALPERM", "RADIAL", "SPIDER"});
+    static constexpr auto numbers =
+        std::to_array<std::string_view>({"COORD",  "ZCORN",   "DXV",   "DYV",     "DZV",   "DRV",      "DTHETAV", "DEPTHZ",   "INRAD",
+                                         "OUTRAD", "NXFIN",   "NYFIN", "NZFIN",   "HXFIN", "HYFIN",    "HZFIN",   "SPECGRID", "DIMENS",
+                                         "BOX",    "MAPAXES", "MINPV", "MINPORV", "PINCH", "COORDSYS", "NNC",     "MULTREGT", "EDITNNC"});
+    if (among(nothing, name) || section_of(name) != none || among(alone, name)) return FirstItem::nothing;
+    if (among(numbers, name) || cell_keyword(name)) return FirstItem::number;
+    if (name == "INCLUDE" || name == "GDFILE" || name == "IMPORT") return FirstItem::path;
+    return among(understood, name) && name != "TITLE" ? FirstItem::word : FirstItem::any;
 }
 
 bool is_known(std::string_view name) {

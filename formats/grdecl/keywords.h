@@ -36,6 +36,16 @@ Shape shape_of(std::string_view name);
 /// Whether a word is a keyword that this reader knows: of any kind.
 bool is_known(std::string_view name);
 
+/// How many items a record of a keyword has at most, and how many of them may be words; 0: not known.
+struct ItemCounts {
+    std::size_t most = 0, words = 0;
+};
+ItemCounts item_counts(std::string_view name);
+
+/// What may stand right behind a keyword, on its line.
+enum class FirstItem : std::uint8_t { nothing, number, word, path, any };
+FirstItem first_item(std::string_view name);
+
 /// Upper case, without blanks; of a word longer than eight letters that is not known the first eight, if those are.
 std::string known_name(std::string_view word);
 

@@ -21,7 +21,7 @@ std::optional<CellFace> face_of(std::string_view text) {
     return static_cast<CellFace>(2 * (axis % 3) + (minus ? 0 : 1));
 }
 
-Trouble take_fault_box(const Scanner& in, const Record& record, Fault::Box& box) {
+Trouble take_fault_box(const Scanner& in, const Record& record, Fault::Box& box, std::vector<Finding>& findings) {
     constexpr std::array<std::string_view, 6> names = {"I1", "I2", "J1", "J2", "K1", "K2"};
     for (std::size_t n = 0; n < 6; ++n) {
         std::int64_t value = 0;
@@ -36,10 +36,10 @@ Trouble take_fault_box(const Scanner& in, const Record& record, Fault::Box& box)
     if (!face)
         return unreadable("F012", in.location(record.items[7].at),
                           "expected a face (X, X-, Y, I, J-, ...), found " + shown(record.text(7)));
-    if (record.items.size() > 8)
-        return unreadable("F008", in.location(record.items[8].at),
-                          "expected '/' after the face of a fault, found " + shown(record.items[8].text));
     box.face = *face;
+    if (trimmed(record.text(7))[0] > 'Z' && std::ranges::find(findings, "F146", &Finding::code) == findings.end())
+        findings.push_back(
+            finding("F146", in.location(record.items[7].at), "the face " + shown(record.text(7)) + " of a fault is in lower case"));
     return {};
 }
 
@@ -64,6 +64,11 @@ Trouble take_cell(const Scanner& in, const Record& record, std::size_t i, const 
 
 bool list_ends(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, Trouble& trouble) {
     if (in.take_slash()) return true;
+    if (std::string_view word; in.word_alone_follows(word) && is_known(word)) {
+        if (std::ranges::find(findings, "F147", &Finding::code) == findings.end())
+            findings.push_back(finding("F147", in.here(), "the list of " + std::string(keyword) + " has no '/' at its end"));
+        return true;
+    }
     if (in.skip()) return false;
     const std::string_view bytes = in.input().bytes();
     if (!bytes.empty() && bytes.back() == '\n')
@@ -80,16 +85,17 @@ Trouble read_faults(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     return read_list(in, "FAULTS", findings, [&](const Record& record) -> Trouble {
         if (!record.given(0)) return unreadable("F012", in.location(record.begin), "expected the name of a fault");
         Fault::Box box{};
-        if (auto failed = take_fault_box(in, record, box)) return failed;
+        if (auto failed = take_fault_box(in, record, box, findings)) return failed;
         std::string name(trimmed(record.text(0)));
         const auto [place, is_new] = known.emplace(name, g.grid.faults.size());
-        if (is_new) g.grid.faults.push_back({std::move(name), {}, {}});
+        if (is_new) g.grid.faults.push_back({std::move(name), {}, {}, {}});
         g.grid.faults[place->second].boxes.push_back(box);
         return {};
     });
 }
 
-Trouble read_fault_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+Trouble read_fault_multipliers(Scanner& in, GridText& g, bool in_edit, std::vector<Finding>& findings) {
+    const auto set = [&](Fault& fault, double value) { (in_edit ? fault.edit_multiplier : fault.multiplier) = value; };
     std::unordered_map<std::string, std::size_t> known;
     for (std::size_t f = 0; f < g.grid.faults.size(); ++f) known.emplace(g.grid.faults[f].name, f);
     return read_list(in, "MULTFLT", findings, [&](const Record& record) -> Trouble {
@@ -102,15 +108,15 @@ Trouble read_fault_multipliers(Scanner& in, GridText& g, std::vector<Finding>& f
             bool met = false;
             for (Fault& fault : g.grid.faults) {
                 if (!fault.name.starts_with(stem)) continue;
-                fault.multiplier = value;
+                set(fault, value);
                 met = true;
             }
             if (met) return {};
         }
         // A fault that is not here has its faces in another include.
         const auto [place, is_new] = known.emplace(name, g.grid.faults.size());
-        if (is_new) g.grid.faults.push_back({name, {}, {}});
-        g.grid.faults[place->second].multiplier = value;
+        if (is_new) g.grid.faults.push_back({name, {}, {}, {}});
+        set(g.grid.faults[place->second], value);
         return {};
     });
 }
@@ -136,6 +142,17 @@ Trouble read_connections(Scanner& in, GridText& g, std::vector<Finding>& finding
         losses.push_back({LossClass::substance, g.grid.info.name, "further items of stated connections (tables, faces, areas)",
                           "only cells and transmissibility are kept", more});
     return failed;
+}
+
+Trouble read_connection_factors(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    return read_list(in, "EDITNNC", findings, [&](const Record& record) -> Trouble {
+        CornerPointGrid::ConnectionFactor c;
+        if (auto wrong = take_cell(in, record, 0, *g.dims, c.first)) return wrong;
+        if (auto wrong = take_cell(in, record, 3, *g.dims, c.second)) return wrong;
+        if (auto wrong = take_real(in, record, 6, "a multiplier", c.value)) return wrong;
+        g.grid.connection_factors.push_back(c);
+        return {};
+    });
 }
 
 Trouble read_region_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings) {

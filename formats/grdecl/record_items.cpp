@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 
 #include "base/codes.h"
@@ -23,6 +24,15 @@ Finding finding(std::string code, Location where, std::string message, std::uint
     f.message = std::move(message);
     f.count = count;
     return f;
+}
+
+Result<Record> take_record(Scanner& in, std::string_view keyword, std::vector<Finding>& findings) {
+    const ItemCounts counts = item_counts(keyword);
+    auto record = in.record(keyword, {counts.most, counts.words, counts.most > 0 ? is_known : nullptr});
+    if (!record || !record->slash_missing) return record;
+    if (std::ranges::find(findings, "F147", &Finding::code) == findings.end())
+        findings.push_back(finding("F147", in.location(record->slash), "the record of " + std::string(keyword) + " has no '/' at its end"));
+    return record;
 }
 
 Trouble take_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value) {

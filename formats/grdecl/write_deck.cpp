@@ -169,10 +169,12 @@ void write_other_sections_losses(DeckOutput& to) {
 
 /// What the section EDIT did to the grid means something else in GRID: it stands beside, under its own section.
 void write_edit_records(const CornerPointGrid& grid, DeckOutput& to) {
-    const bool any = std::ranges::any_of(grid.info.annotations, [](const Annotation& a) { return a.key == "grdecl.record.edit"; });
+    const bool any = !grid.edit_operations.empty() ||
+                     std::ranges::any_of(grid.info.annotations, [](const Annotation& a) { return a.key == "grdecl.record.edit"; });
     OutputFile* out = any ? to.companion(grid, "records of section EDIT") : nullptr;
     if (out == nullptr) return;
     *out << "EDIT\n\n";
+    write_edit_operations(grid, *out);
     for (const Annotation& a : grid.info.annotations) {
         if (a.key == "grdecl.record.edit") *out << a.value << "\n\n";
     }
@@ -221,6 +223,7 @@ Result<std::vector<Loss>> write_whole_deck(const Dataset& dataset, OutputSet& ou
     to.main << "GRID\n\n";
     write_grids(grids, choices->properties_only, Section::grid, to);
     to.main << "EDIT\n\n";
+    write_edit_operations(*grids[0], to.main);
     write_properties(*grids[0], Section::edit, to);
     write_records(*grids[0], ".edit", to);
     write_section(Section::props, to);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -41,8 +42,10 @@ std::string keyword_text(const std::string& name) {
 /// Where an attribute goes.
 enum class Place : std::uint8_t { here, elsewhere, companion };
 
-Place place_of(const Attribute& a, Section section) {
-    const auto row = cell_keyword(a.name);
+Place place_of(const Attribute& a, Section section, bool from_deck) {
+    auto row = cell_keyword(a.name);
+    // What a deck states in EDIT stays there; what a simulator has computed would take the place of what it computes anew.
+    if (row && row->section == Section::edit && from_deck) row->simulated = true;
     if (!row || !row->simulated || holds_words(a) || row->section == Section::solution || row->section == Section::props)
         return Place::companion;
     if (section == Section::none) return row->section == Section::edit ? Place::companion : Place::here;
@@ -143,7 +146,7 @@ void write_properties(const CornerPointGrid& grid, Section section, DeckOutput& 
     std::set<std::string> names;
     for (const Attribute& a : all) {
         if (to.monitor != nullptr && to.monitor->stopped()) return;
-        const Place place = place_of(a, section);
+        const Place place = place_of(a, section, to.dataset.format == "grdecl");
         // In a deck of several sections the companion is filled with the grid section.
         if (place == Place::elsewhere || (place == Place::companion && section != Section::none && section != Section::grid)) continue;
         if (a.location != AttributeLocation::cell || value_count(a) != cells * a.components) {
@@ -200,13 +203,29 @@ void write_properties(const CornerPointGrid& grid, Section section, DeckOutput& 
     }
 }
 
+void write_edit_operations(const CornerPointGrid& grid, OutputFile& out) {
+    constexpr std::array<std::string_view, 4> words = {"ADD", "MULTIPLY", "MINVALUE", "MAXVALUE"};
+    for (const auto& op : grid.edit_operations) {
+        out << words[static_cast<std::size_t>(op.kind)] << "\n " << op.array << ' ';
+        out.number(op.value);
+        for (std::size_t a = 0; a < 3; ++a) {
+            out << ' ';
+            out.number(op.first[a] + 1) << ' ';
+            out.number(op.last[a] + 1);
+        }
+        out << " /\n/\n\n";
+    }
+}
+
 void write_records(const CornerPointGrid& grid, std::string_view suffix, DeckOutput& to) {
     const std::string key = "grdecl.record" + std::string(suffix);
     for (const Annotation& a : grid.info.annotations) {
         if (a.key != key) continue;
         const std::string_view word = std::string_view(a.value).substr(0, a.value.find_first_of(" \t\r\n/"));
         if (word == "GDFILE" && !grid.depths.empty()) continue;  // the geometry stands here now
-        OutputFile* out = is_known(known_name(word)) ? &to.main : to.companion(grid, "record " + std::string(word));
+        // A deck keeps what stood in it, known or not.
+        const bool stays = is_known(known_name(word)) || (to.deck && to.dataset.format == "grdecl");
+        OutputFile* out = stays ? &to.main : to.companion(grid, "record " + std::string(word));
         if (out != nullptr) *out << a.value << "\n\n";
     }
 }

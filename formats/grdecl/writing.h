@@ -42,6 +42,9 @@ std::string_view unit_word(std::string_view unit);
 /// and the rest into the companion file.
 void write_properties(const CornerPointGrid& grid, Section section, DeckOutput& to);
 
+/// What section EDIT does to arrays that simulators compute, in its order.
+void write_edit_operations(const CornerPointGrid& grid, OutputFile& out);
+
 /// Records that were kept as text. `suffix` is "", ".edit" or ".regions".
 void write_records(const CornerPointGrid& grid, std::string_view suffix, DeckOutput& to);
 

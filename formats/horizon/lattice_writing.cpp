@@ -84,11 +84,11 @@ void mark_missing(FileGrid& grid, const Attribute& height, const GridRules& rule
     }
 }
 
-/// Whether the last node of each axis is finite and behind the first one, as limits in a file have to be.
+/// Whether the last node of each axis is finite and apart from the first one, as limits in a file have to be.
 bool has_extent(const GridFrame& frame) {
     const auto grows = [](double first, double step, std::uint32_t count) {
         const double last = first + step * (count - 1.0);
-        return std::isfinite(last) && (count < 2 || last > first);
+        return std::isfinite(last) && (count < 2 || last != first);
     };
     return grows(frame.x0, frame.xinc, frame.nx) && grows(frame.y0, frame.yinc, frame.ny);
 }

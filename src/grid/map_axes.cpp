@@ -25,6 +25,7 @@ double metres(std::string_view unit) {
     if (unit == "METRES" || unit == "METERS" || unit == "M" || unit == "m") return 1;
     if (unit == "FEET" || unit == "FT" || unit == "ft") return 0.3048;
     if (unit == "CM" || unit == "cm") return 0.01;
+    if (unit.starts_with("US_SURV") || unit == "FTUS" || unit == "ftUS") return 1200.0 / 3937;  // the survey foot of the United States
     return 0;
 }
 
@@ -37,7 +38,12 @@ Result<void> apply_map_axes(CornerPointGrid& grid) {
     const double ux = (x3 - x2) / length_x, uy = (y3 - y2) / length_x, vx = (x1 - x2) / length_y, vy = (y1 - y2) / length_y;
     if (std::abs(ux * vy - uy * vx) < 1e-9) return cannot(grid, "F012", "the axes are parallel");
     const double scale = scale_to_map(grid);
-    if (scale == 0) return cannot(grid, "F012", "unit '" + grid.map_unit + "' or '" + grid.info.crs.axis_units[0] + "' is not known");
+    if (scale == 0) {
+        const bool of_map = metres(grid.map_unit) == 0;
+        return cannot(grid, "F012",
+                      "unit '" + (of_map ? grid.map_unit : grid.info.crs.axis_units[0]) + "' of " + (of_map ? "MAPUNITS" : "GRIDUNIT") +
+                          " is not known: state METRES, FEET or CM there");
+    }
     const double origin_x = x2, origin_y = y2;
     for (std::size_t p = 0; p + 2 < grid.pillars.size(); p += 3) {
         const double x = grid.pillars[p] * scale, y = grid.pillars[p + 1] * scale;

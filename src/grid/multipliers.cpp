@@ -44,11 +44,12 @@ Multipliers::Multipliers(const CornerPointGrid& grid) {
 
 void Multipliers::take_faults(const CornerPointGrid& grid) {
     for (const auto& fault : grid.faults) {
-        if (!fault.multiplier || *fault.multiplier == 1.0) continue;
+        const std::optional<double> multiplier = fault.edit_multiplier ? fault.edit_multiplier : fault.multiplier;
+        if (!multiplier || *multiplier == 1.0) continue;
         for (const auto& box : fault.boxes) {
             std::vector<double>& values = faces_[static_cast<std::size_t>(box.face)];
             if (values.empty()) values.assign(grid.cell_count(), 1.0);
-            each_cell(grid, box, [&](std::size_t cell) { values[cell] *= *fault.multiplier; });
+            each_cell(grid, box, [&](std::size_t cell) { values[cell] *= *multiplier; });
         }
     }
 }

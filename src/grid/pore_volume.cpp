@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/cell_geometry.h"
+#include "grid/edits.h"
 #include "grid/map_axes.h"
 #include "grid/transmissibility.h"
 
@@ -50,6 +51,8 @@ std::vector<double> pore_volumes(const CornerPointGrid& grid) {
     }
     const std::vector<double> stated = fitting_values(grid, "PORV", NAN);
     if (volumes.empty()) volumes.assign(grid.cell_count(), 0);
+    apply_edits(
+        grid, "PORV", [](std::size_t) { return true; }, volumes);
     for (std::size_t c = 0; c < stated.size(); ++c) {
         if (!std::isnan(stated[c])) volumes[c] = stated[c];
     }

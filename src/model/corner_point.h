@@ -59,7 +59,8 @@ struct CornerPointGrid {
         };
         std::string name;
         std::vector<Box> boxes;
-        std::optional<double> multiplier;  ///< of transmissibility (MULTFLT)
+        std::optional<double> multiplier;       ///< of transmissibility (MULTFLT)
+        std::optional<double> edit_multiplier;  ///< MULTFLT of section EDIT, which OPM Flow takes instead
     };
     std::vector<Fault> faults;
 
@@ -70,6 +71,22 @@ struct CornerPointGrid {
         std::optional<double> transmissibility;
     };
     std::vector<Connection> connections;
+    /// What section EDIT does to an array that simulators compute (TRANX, TRANY, TRANZ, PORV), in a box of cells from 0,
+    /// inclusive. Values that an attribute of that name holds are those that are left when all was done.
+    struct EditOperation {
+        enum class Kind : std::uint8_t { add, multiply, at_least, at_most };
+        std::string array;
+        Kind kind = Kind::multiply;
+        double value = 1;
+        std::array<std::uint32_t, 3> first{0, 0, 0}, last{0, 0, 0};
+    };
+    std::vector<EditOperation> edit_operations;  ///< in their order
+    /// A factor on the connections of two cells, computed or stated (EDITNNC).
+    struct ConnectionFactor {
+        std::uint64_t first = 0, second = 0;
+        double value = 1;
+    };
+    std::vector<ConnectionFactor> connection_factors;
     /// Stated connections with another grid of the same file: `first` is a cell of this grid, `second` one of that.
     struct Link {
         std::string grid;

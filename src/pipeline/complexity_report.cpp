@@ -14,9 +14,9 @@ namespace geomend {
 
 namespace {
 
-using topology::ByKind;
-using topology::Complexity;
-using topology::ComplexityTerms;
+using complexity::ByKind;
+using complexity::Complexity;
+using complexity::ComplexityTerms;
 
 constexpr double most_sites = 1e6;
 
@@ -70,8 +70,8 @@ Json terms_json(const ComplexityTerms& t) {
 
 }  // namespace
 
-Result<topology::ComplexityOptions> complexity_options(const FormatOptions& options, const Monitor* monitor) {
-    topology::ComplexityOptions o;
+Result<complexity::ComplexityOptions> complexity_options(const FormatOptions& options, const Monitor* monitor) {
+    complexity::ComplexityOptions o;
     o.monitor = monitor;
     double sites = o.sites;
     if (auto good = take_number(options, "sites", 0, most_sites, sites); !good) return good.why();
@@ -126,7 +126,7 @@ PointSet complexity_sites(const Complexity& c, const std::string& name) {
     PointSet set;
     set.info.name = name;
     set.points = c.cells->sites;
-    using Counts = topology::CellComplexity::Counts;
+    using Counts = complexity::CellComplexity::Counts;
     const auto add = [&](const char* what, auto number) {
         std::vector<std::int32_t> values;
         for (const Counts& counts : c.cells->counts) values.push_back(static_cast<std::int32_t>(number(counts)));

@@ -4,21 +4,21 @@
 #include <span>
 #include <string>
 
+#include "complexity/complexity.h"
 #include "model/dataset.h"
 #include "pipeline/load.h"
-#include "topology/complexity.h"
 
 namespace geomend {
 
 /// What --option sites=N, size=L and angle=A ask of the complexity measures. Failure (usage) for values out of bounds.
-Result<topology::ComplexityOptions> complexity_options(const FormatOptions& options, const Monitor* monitor);
+Result<complexity::ComplexityOptions> complexity_options(const FormatOptions& options, const Monitor* monitor);
 
 /// A short table for people.
-std::string complexity_text(const topology::Complexity& complexity);
+std::string complexity_text(const complexity::Complexity& complexity);
 
 /// The cells' sites as points of an object named `name`, with the attributes corners, lines, surfaces, regions and elements
 /// (their sum). \pre complexity.cells
-PointSet complexity_sites(const topology::Complexity& complexity, const std::string& name);
+PointSet complexity_sites(const complexity::Complexity& complexity, const std::string& name);
 
 /// Writes objects with the format that the path's ending asks for. Failure (usage) where none does, (unwritable) where it
 /// cannot, (cannot_hold) where that format cannot hold them.

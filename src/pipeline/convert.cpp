@@ -8,6 +8,7 @@
 #include "formats/options.h"
 #include "formats/registry.h"
 #include "pipeline/command_options.h"
+#include "pipeline/deck_parts.h"
 #include "pipeline/grid_origin.h"
 #include "pipeline/grids.h"
 #include "pipeline/merge.h"
@@ -42,22 +43,40 @@ Result<void> refuse_unterminated(const Dataset& dataset, const ConvertRequest& r
     return why;
 }
 
-Result<Dataset> load_one(OpenedInput opened, const LoadOptions& options, const ConvertRequest& request) {
+Result<Dataset> load_one(const OpenedInput& opened, const LoadOptions& options, const ConvertRequest& request) {
     auto dataset = load(opened, options);
     if (!dataset) return dataset;
     if (auto ended = refuse_unterminated(*dataset, request); !ended) return std::move(ended).why();
     return dataset;
 }
 
+// A file of properties or faults that does not state the numbers of cells has those of the grid that was read.
+Result<Dataset> load_beside(const Dataset& all, const OpenedInput& opened, const LoadOptions& options, const ConvertRequest& request) {
+    Result<Dataset> read = load_one(opened, options, request);
+    const bool unknown = read ? has_guessed_dims(*read) : read.why().error.code == "F024";
+    const std::string dims = unknown && option_value(options.options, "dims").empty() ? dims_option_of(all) : std::string();
+    if (dims.empty()) return read;
+    LoadOptions with_dims = options;
+    with_dims.options.emplace_back("dims", dims);
+    return load_one(opened, with_dims, request);
+}
+
 Result<Dataset> load_all(std::vector<OpenedInput> opened, const LoadOptions& options, const ConvertRequest& request) {
     const bool ignore_crs = option_value(options.options, "crs") == "ignore";
-    Result<Dataset> all = load_one(std::move(opened.front()), options, request);
+    std::vector<std::string> inputs = request.inputs;
+    Result<Dataset> all = load_one(opened.front(), options, request);
+    if (!all && all.why().error.code == "F024" && inputs.size() > 1) {  // properties: the grid's file may come after them
+        std::ranges::rotate(inputs, inputs.begin() + 1);
+        std::ranges::rotate(opened, opened.begin() + 1);
+        Result<Dataset> next = load_one(opened.front(), options, request);
+        if (!next || dims_option_of(*next).empty()) return all;
+        all = std::move(next);
+    }
     for (std::size_t i = 1; all && i < opened.size(); ++i) {
-        Result<Dataset> more = load_one(std::move(opened[i]), options, request);
+        Result<Dataset> more = load_beside(*all, opened[i], options, request);
         if (!more) return more;
         if (!ignore_crs) {
-            if (auto agreed = check_agreement(*all, request.inputs.front(), *more, request.inputs[i]); !agreed)
-                return std::move(agreed).why();
+            if (auto agreed = check_agreement(*all, inputs.front(), *more, inputs[i]); !agreed) return std::move(agreed).why();
         }
         merge(*all, std::move(*more));
     }
@@ -132,8 +151,10 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Cha
         if (auto changed = change(*dataset); !changed) return std::move(changed).why();
     }
     if (auto made = make_like(*dataset, **format, request); !made) return std::move(made).why();
-    if (auto done = apply_grid_options(*dataset, options.options); !done) return std::move(done).why();
+    if (auto done = apply_grid_options(*dataset, **format, options.options); !done) return std::move(done).why();
+    if ((*format)->name == "init" || (*format)->name == "finit") complete_pore_volumes(*dataset);
     if (auto moved = move_grid_origins(*dataset, **format, options.options); !moved) return std::move(moved).why();
+    list_text_losses(*dataset, **format);
     if (auto shaped = shape_grids(*dataset, **format, options.options); !shaped) return std::move(shaped).why();
     shape_for(*dataset, **format);
 

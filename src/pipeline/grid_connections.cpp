@@ -2,10 +2,14 @@
 #include "pipeline/grid_connections.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
 
+#include "grid/edits.h"
+#include "grid/pore_volume.h"
 #include "grid/transmissibility.h"
 
 namespace geomend {
@@ -33,6 +37,35 @@ void add_connection(CornerPointGrid& grid, std::map<std::pair<std::uint64_t, std
     }
 }
 
+// What section EDIT says of transmissibilities of neighbours: operations on the computed ones, then those that are stated.
+void apply_section_edit(const CornerPointGrid& grid, const grid::Connections& found, bool from_deck, grid::Transmissibilities& values) {
+    constexpr std::array names = {"TRANX", "TRANY", "TRANZ"};
+    constexpr std::array bits = {grid::Connections::east, grid::Connections::south, grid::Connections::below};
+    const std::array arrays = {&values.x, &values.y, &values.z};
+    for (std::size_t d = 0; d < 3; ++d) {
+        std::vector<double>& array = *arrays[d];
+        const auto joined = [&](std::size_t cell) { return array[cell] != 0 || (d < 2 && (found.neighbours[cell] & bits[d]) != 0); };
+        grid::apply_edits(grid, names[d], joined, array);
+        if (!from_deck) continue;
+        const std::vector<double> stated = grid::fitting_values(grid, names[d], NAN);
+        for (std::size_t cell = 0; cell < stated.size(); ++cell) {
+            if (!std::isnan(stated[cell]) && joined(cell)) array[cell] = stated[cell];
+        }
+    }
+}
+
+// Factors of EDITNNC, which are in the transmissibilities then.
+void apply_factors(CornerPointGrid& grid) {
+    std::map<std::pair<std::uint64_t, std::uint64_t>, double> factors;
+    for (const auto& factor : grid.connection_factors)
+        factors.try_emplace(std::minmax(factor.first, factor.second), 1.0).first->second *= factor.value;
+    for (auto& c : grid.connections) {
+        const auto factor = factors.find(std::minmax(c.first, c.second));
+        if (c.transmissibility && factor != factors.end()) *c.transmissibility *= factor->second;
+    }
+    grid.connection_factors.clear();
+}
+
 // Cells that simulators leave out for their pore volume.
 void tell_left_out(const CornerPointGrid& grid, const grid::SimulatedCells& cells, std::vector<Finding>& findings) {
     const std::size_t count = cells.without_pores.size() + cells.below_minpv.size();
@@ -57,7 +90,7 @@ void tell_left_out(const CornerPointGrid& grid, const grid::SimulatedCells& cell
 
 }  // namespace
 
-Result<void> compute_connections(CornerPointGrid& grid, std::vector<Finding>& findings) {
+Result<void> compute_connections(CornerPointGrid& grid, bool from_deck, std::vector<Finding>& findings) {
     constexpr double negligible = 1e-6;
     grid::SimulatedCells cells = grid::simulated_cells(grid);
     tell_left_out(grid, cells, findings);
@@ -77,6 +110,8 @@ Result<void> compute_connections(CornerPointGrid& grid, std::vector<Finding>& fi
         if (values->others[c] < negligible) ++left_out;
         else add_connection(grid, known, found.others[c].first, found.others[c].second, values->others[c]);
     }
+    apply_section_edit(grid, found, from_deck, *values);
+    apply_factors(grid);
     set_attribute(grid, "TRANX", std::move(values->x));
     set_attribute(grid, "TRANY", std::move(values->y));
     set_attribute(grid, "TRANZ", std::move(values->z));

@@ -12,6 +12,7 @@ namespace geomend {
 /// of grid::simulated_cells) become connections of the grid; where it has PERMX, they and TRANX, TRANY, TRANZ get
 /// transmissibilities, which are added to those that are stated. Pairs below 1e-6 are left out then and told (F151), as
 /// are cells without enough pore volume (F153).
-Result<void> compute_connections(CornerPointGrid& grid, std::vector<Finding>& findings);
+/// \param from_deck what the grid has as TRANX, TRANY, TRANZ is stated in section EDIT, and takes the place of what is computed
+Result<void> compute_connections(CornerPointGrid& grid, bool from_deck, std::vector<Finding>& findings);
 
 }  // namespace geomend

@@ -52,6 +52,17 @@ void list_losses(const CornerPointGrid& grid, const grid::Cells& cells, std::vec
     if (pillars > 0) lose(losses, LossClass::substance, grid, "attributes of pillars", "a mesh has no pillars", pillars);
 }
 
+// The sides of radial cells are arcs; straight ones between the same pillars hold less.
+void lose_round_sides(const CornerPointGrid& grid, std::span<const double> volumes, const CellMesh& mesh, std::vector<Loss>& losses) {
+    if (!grid.cylindrical) return;
+    double round = 0, straight = 0;
+    for (std::size_t c = 0; c < volumes.size(); ++c) round += grid.is_active(c) ? std::abs(volumes[c]) : 0;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) straight += std::abs(cell_volume(mesh, c));
+    if (std::abs(round - straight) <= 1e-6 * round) return;
+    lose(losses, LossClass::substance, grid, "volume of radial cells: " + number_text(round) + " becomes " + number_text(straight),
+         "their sides are arcs, and those of the cells written are straight between the same pillars");
+}
+
 // Cells with the same value of an attribute become an entity of that name.
 Result<void> group_by(const std::string& name, const CornerPointGrid& grid, CellMesh& mesh) {
     const Attribute* values = find_attribute(mesh.info.attributes, name, AttributeLocation::cell);
@@ -127,6 +138,7 @@ Result<void> to_boundary_models(Dataset& dataset, const FormatOptions& options) 
     if (grids.empty()) return {};
     std::erase_if(dataset.objects, [](const Object& o) { return std::holds_alternative<CornerPointGrid>(o); });
     for (const CornerPointGrid& grid : grids) {
+        if (grid.cylindrical) lose_round_sides(grid, grid::cell_volumes(grid), grid::plain_cells(grid).mesh, dataset.losses);
         auto model = grid::boundary_model(grid, *request);
         if (!model) return std::move(model).why();
         lose(dataset.losses, LossClass::substance, grid, "cells", "a boundary representation holds surfaces and regions",
@@ -159,9 +171,10 @@ Result<void> shape_grids(Dataset& dataset, const Format& target, const FormatOpt
         auto* grid = std::get_if<CornerPointGrid>(&object);
         if (grid == nullptr) continue;
         const bool conformal = faces == "conformal";
-        const std::vector<double> volumes = conformal ? grid::cell_volumes(*grid) : std::vector<double>();
+        const std::vector<double> volumes = conformal || grid->cylindrical ? grid::cell_volumes(*grid) : std::vector<double>();
         grid::Cells cells = conformal ? grid::take_conforming_cells(*grid) : grid::plain_cells(*grid);
         list_losses(*grid, cells, dataset.losses);
+        lose_round_sides(*grid, volumes, cells.mesh, dataset.losses);
         if (conformal) tell_volumes(grid->info.name, volumes, cells, regions, dataset.findings);
         if (!regions.empty()) {
             if (auto grouped = group_by(std::string(regions), *grid, cells.mesh); !grouped) return grouped;

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <set>
 
+#include "grid/connections.h"
 #include "grid/from_cells.h"
 #include "grid/map_axes.h"
 #include "grid/quality.h"
+#include "grid/simulated_cells.h"
 #include "pipeline/grid_connections.h"
 
 namespace geomend {
@@ -32,10 +35,38 @@ void give(CornerPointGrid& bare, CornerPointGrid& to) {
     std::ranges::move(bare.faults, std::back_inserter(to.faults));
     std::ranges::move(bare.connections, std::back_inserter(to.connections));
     std::ranges::move(bare.info.annotations, std::back_inserter(to.info.annotations));
+    std::ranges::move(bare.edit_operations, std::back_inserter(to.edit_operations));
+    std::ranges::move(bare.connection_factors, std::back_inserter(to.connection_factors));
     std::ranges::move(bare.region_multipliers, std::back_inserter(to.region_multipliers));
     if (to.unit_system.empty()) to.unit_system = bare.unit_system;
     if (bare.least_pore_volume) to.least_pore_volume = bare.least_pore_volume;
     if (bare.pinch) to.pinch = bare.pinch;
+}
+
+bool is_same_grid(const CornerPointGrid& a, const CornerPointGrid& b) {
+    return a.dims == b.dims && a.host.has_value() == b.host.has_value() && a.pillars == b.pillars && a.depths == b.depths;
+}
+
+// INIT and restart files bring their grid along. Given beside it they belong to the one grid, which has the cells that
+// are active in both.
+void join_same_grids(std::vector<Object>& objects) {
+    for (std::size_t n = 1; n < objects.size(); ++n) {
+        auto* later = std::get_if<CornerPointGrid>(&objects[n]);
+        if (later == nullptr || is_bare(*later)) continue;
+        for (std::size_t m = 0; m < n; ++m) {
+            auto* first = std::get_if<CornerPointGrid>(&objects[m]);
+            if (first == nullptr || !is_same_grid(*first, *later)) continue;
+            const bool apart = std::ranges::any_of(later->info.attributes, [&](const Attribute& a) {
+                return find_attribute(first->info.attributes, a.name, a.location) != nullptr;
+            });
+            if (apart || (!first->faults.empty() && !later->faults.empty())) continue;
+            if (!later->activity.empty() && active_count(*later) < active_count(*first)) first->activity = std::move(later->activity);
+            if (first->connections.size() == later->connections.size()) first->connections.clear();  // they list the same
+            give(*later, *first);
+            objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(n--));
+            break;
+        }
+    }
 }
 
 CornerPointGrid* grid_like(std::vector<Object>& objects, const CornerPointGrid& bare) {
@@ -44,6 +75,29 @@ CornerPointGrid* grid_like(std::vector<Object>& objects, const CornerPointGrid& 
         if (grid != nullptr && !is_bare(*grid) && grid->dims == bare.dims) return grid;
     }
     return nullptr;
+}
+
+// Connections that whoever reads a deck makes of its geometry again.
+void leave_to_simulators(CornerPointGrid& grid, bool asked, Dataset& dataset) {
+    if (is_bare(grid)) return;
+    std::uint64_t count = 0;
+    if (dataset.format == "eclipse" && std::ranges::any_of(grid.connections, [](const auto& c) { return c.transmissibility > 0.0; })) {
+        const grid::Connections found = grid::connections(grid, grid::simulated_cells(grid));
+        std::set<std::pair<std::uint64_t, std::uint64_t>> own;
+        for (const auto& pair : found.others) own.insert(std::minmax<std::uint64_t>(pair.first, pair.second));
+        for (const auto& pair : found.bridges) own.insert(std::minmax<std::uint64_t>(pair[0], pair[1]));
+        count = std::erase_if(grid.connections, [&](const auto& c) { return own.contains(std::minmax(c.first, c.second)); });
+    }
+    if (count == 0 && !asked) return;
+    Finding told;
+    told.code = "F155";
+    told.severity = asked ? Severity::warning : Severity::info;
+    told.count = std::max<std::uint64_t>(1, count);
+    told.message =
+        "what reads a deck finds the connections of COORD and ZCORN itself and adds those of NNC to them: " +
+        (count > 0 ? std::to_string(count) + " that are of the geometry are not written" : std::string("none are computed for it"));
+    told.entities.push_back({"grid", grid.info.name, -1});
+    dataset.findings.push_back(std::move(told));
 }
 
 // What stands on points and lines of a mesh has no place in a grid of cells.
@@ -88,7 +142,7 @@ Result<void> put_on_like(Dataset& dataset, const Dataset& like) {
 }  // namespace
 
 Result<void> join_properties(Dataset& dataset) {
-    std::vector<Object> kept;
+    join_same_grids(dataset.objects);
     for (Object& object : dataset.objects) {
         auto* bare = std::get_if<CornerPointGrid>(&object);
         if (bare == nullptr || !is_bare(*bare)) continue;
@@ -107,7 +161,18 @@ Result<void> join_properties(Dataset& dataset) {
     return {};
 }
 
-Result<void> apply_grid_options(Dataset& dataset, const FormatOptions& options) {
+bool has_guessed_dims(const Dataset& dataset) {
+    return std::ranges::any_of(dataset.findings, [](const Finding& f) { return f.code == "F141"; });
+}
+
+std::string dims_option_of(const Dataset& dataset) {
+    const CornerPointGrid* grid = first_grid(dataset);
+    if (grid == nullptr) return {};
+    const std::uint32_t layers = grid->dims[2] * (grid->porosity == CornerPointGrid::Porosity::single ? 1 : 2);
+    return std::to_string(grid->dims[0]) + "," + std::to_string(grid->dims[1]) + "," + std::to_string(layers);
+}
+
+Result<void> apply_grid_options(Dataset& dataset, const Format& target, const FormatOptions& options) {
     const std::string_view map = option_value(options, "map"), connections = option_value(options, "connections");
     if (!map.empty() && map != "apply" && map != "keep") return usage("--option map=" + std::string(map) + ": expected apply or keep");
     if (!connections.empty() && connections != "compute" && connections != "keep")
@@ -123,8 +188,10 @@ Result<void> apply_grid_options(Dataset& dataset, const FormatOptions& options) 
         if (map == "apply") {
             if (auto moved = grid::apply_map_axes(*grid); !moved) return moved;
         }
-        if (connections == "compute") {
-            if (auto computed = compute_connections(*grid, dataset.findings); !computed) return computed;
+        if (target.family == "grdecl") {
+            leave_to_simulators(*grid, connections == "compute", dataset);
+        } else if (connections == "compute") {
+            if (auto computed = compute_connections(*grid, dataset.format == "grdecl", dataset.findings); !computed) return computed;
         }
     }
     return {};

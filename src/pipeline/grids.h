@@ -18,7 +18,15 @@ Result<void> join_properties(Dataset& dataset);
 /// neighbours become connections of the grid and, where it has PERMX, they and TRANX, TRANY, TRANZ get
 /// transmissibilities; pairs below 1e-6 are left out then, as simulators do, and told. quality=add gives each cell
 /// figures of its shape (grid::quality_attributes). Failure (usage) for other values.
-Result<void> apply_grid_options(Dataset& dataset, const FormatOptions& options);
+/// Decks get no computed connections (F155): what reads COORD and ZCORN finds them itself, and would have them twice. For the
+/// same reason those are taken away that a simulator's own file lists with their transmissibilities.
+Result<void> apply_grid_options(Dataset& dataset, const Format& target, const FormatOptions& options);
+
+/// Whether a dataset holds a grid whose numbers of cells are not stated, so that those of another input may be them.
+bool has_guessed_dims(const Dataset& dataset);
+
+/// Numbers of cells of the first grid with geometry, as the option dims takes them; empty: there is none.
+std::string dims_option_of(const Dataset& dataset);
 
 /// For targets that hold corner-point grids: structured grids and cells with attributes I, J, K become such grids where
 /// columns allow it. With `like`, the attributes of every mesh go onto its first grid instead, which takes the place of

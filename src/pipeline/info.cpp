@@ -217,7 +217,7 @@ FileSummary summarise(const std::string& path, const Dataset& dataset) {
     return summary;
 }
 
-FileSummary summarise(const std::string& path, const LoadOptions& options, const topology::ComplexityOptions* complexity) {
+FileSummary summarise(const std::string& path, const LoadOptions& options, const complexity::ComplexityOptions* complexity) {
     FileSummary failed;
     failed.file = path;
     LoadOptions reading = options;
@@ -231,7 +231,7 @@ FileSummary summarise(const std::string& path, const LoadOptions& options, const
         topology::build_breps(*dataset);
         FileSummary summary = summarise(path, *dataset);
         for (std::size_t b = 0; complexity != nullptr && b < dataset->breps.size(); ++b)
-            summary.breps[b].complexity = topology::complexity(*dataset->breps[b], *complexity);
+            summary.breps[b].complexity = complexity::measure(*dataset->breps[b], *complexity);
         if (complexity != nullptr && complexity->monitor != nullptr && complexity->monitor->stopped())
             summary.error = failure(FailureKind::cancelled, "F022", {path}, "measuring was stopped");
         return summary;

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "complexity/complexity.h"
 #include "model/dataset.h"
 #include "pipeline/load.h"
-#include "topology/complexity.h"
 
 namespace geomend {
 
@@ -54,7 +54,7 @@ struct BrepSummary {
     };
     std::vector<RegionRow> region_volumes;
     std::optional<double> universe_volume;
-    std::optional<topology::Complexity> complexity;  ///< where it was asked for
+    std::optional<geomend::complexity::Complexity> complexity;  ///< where it was asked for
 };
 
 /// What it tells of one file; `error` where it cannot be read.
@@ -75,7 +75,7 @@ struct FileSummary {
 
 /// Reads a file, builds its boundary representations at zero distance and measures them.
 /// \param complexity measures how complex they are, too; nullptr: does not
-FileSummary summarise(const std::string& path, const LoadOptions& options, const topology::ComplexityOptions* complexity = nullptr);
+FileSummary summarise(const std::string& path, const LoadOptions& options, const complexity::ComplexityOptions* complexity = nullptr);
 
 /// The same of a Dataset whose breps have been built.
 FileSummary summarise(const std::string& path, const Dataset& dataset);

@@ -10,10 +10,10 @@
 
 namespace geomend {
 
-namespace topology {
+namespace complexity {
 struct Complexity;
 }
-Json complexity_json(const topology::Complexity& complexity);
+Json complexity_json(const complexity::Complexity& complexity);
 Json losses_json(std::span<const Loss> losses);
 
 }  // namespace geomend

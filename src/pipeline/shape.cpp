@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "exchange/model_from_brep.h"
 #include "topology/brep_from_dataset.h"
 #include "topology/flat_objects.h"
-#include "topology/model_from_brep.h"
 #include "topology/region_surfaces.h"
 
 namespace geomend {
@@ -105,13 +105,13 @@ void replace_models(Dataset& dataset, const Add& add) {
 }
 
 void to_faced_models(Dataset& dataset) {
-    replace_models(dataset, [&](const Brep& brep) { append(dataset, topology::faced_model(brep, dataset.losses)); });
+    replace_models(dataset, [&](const Brep& brep) { append(dataset, exchange::faced_model(brep, dataset.losses)); });
 }
 
 void to_tagged_meshes(Dataset& dataset, const Format& target) {
     replace_models(dataset, [&](const Brep& brep) {
-        if (target.statements) append(dataset, topology::tagged_model(brep, dataset.losses));
-        else dataset.objects.emplace_back(topology::tagged_mesh(brep, dataset.losses));
+        if (target.statements) append(dataset, exchange::tagged_model(brep, dataset.losses));
+        else dataset.objects.emplace_back(exchange::tagged_mesh(brep, dataset.losses));
     });
 }
 

@@ -38,30 +38,50 @@ bool same_nodes(std::span<const std::uint32_t> a, std::span<const std::uint32_t>
     return a.size() == b.size() && std::is_permutation(a.begin(), a.end(), b.begin());
 }
 
+/// Calls with the lower node and the use of each edge, polygon by polygon.
+template <class Body>
+void for_each_use(const Polygons& polygons, const std::vector<std::uint8_t>& skip, const Body& body) {
+    std::size_t corner = 0;
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+        const auto polygon = polygons[p];
+        const std::size_t n = polygon.size();
+        if (skip.empty() || skip[p] == 0) {
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::uint32_t a = polygon[i], b = polygon[i + 1 == n ? 0 : i + 1];
+                body(std::min(a, b), Use{std::max(a, b), static_cast<std::uint32_t>(corner + i)});
+            }
+        }
+        corner += n;
+    }
+}
+
+/// By their higher node, then by corner. They come with ascending corners, mostly a handful: insertion keeps equal ones in order.
+void sort_uses(std::span<Use> uses) {
+    if (uses.size() > 32) {
+        std::stable_sort(uses.begin(), uses.end(), [](const Use& x, const Use& y) { return x.other < y.other; });
+        return;
+    }
+    for (std::size_t i = 1; i < uses.size(); ++i) {
+        const Use use = uses[i];
+        std::size_t k = i;
+        for (; k > 0 && uses[k - 1].other > use.other; --k) uses[k] = uses[k - 1];
+        uses[k] = use;
+    }
+}
+
 /// Uses of all edges, grouped by their lower node and sorted by the higher one inside each group.
 struct EdgeTable {
     std::vector<std::uint32_t> first;  // per node, into uses
     std::vector<Use> uses;
 
-    EdgeTable(const BrepData::Surface& surface, const PolygonEdges& edges, const std::vector<std::uint8_t>& skip) {
-        const auto corner_count = surface.polygons.corners.size();
+    EdgeTable(const BrepData::Surface& surface, const std::vector<std::uint8_t>& skip) {
         first.assign(surface.nodes.size() + 1, 0);
-        const auto lower = [&](std::size_t c) { return std::min(edges.start_node(c), edges.end_node(c)); };
-        for (std::size_t c = 0; c < corner_count; ++c) {
-            if (skip.empty() || skip[edges.polygon(c)] == 0) ++first[lower(c) + 1];
-        }
+        for_each_use(surface.polygons, skip, [&](std::uint32_t low, const Use&) { ++first[low + 1]; });
         for (std::size_t n = 1; n < first.size(); ++n) first[n] += first[n - 1];
         uses.resize(first.back());
         std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-        for (std::size_t c = 0; c < corner_count; ++c) {
-            if (!skip.empty() && skip[edges.polygon(c)] != 0) continue;
-            const std::uint32_t a = edges.start_node(c), b = edges.end_node(c);
-            uses[next[std::min(a, b)]++] = {std::max(a, b), static_cast<std::uint32_t>(c)};
-        }
-        for (std::size_t n = 0; n + 1 < first.size(); ++n) {
-            std::sort(uses.begin() + first[n], uses.begin() + first[n + 1],
-                      [](const Use& x, const Use& y) { return x.other != y.other ? x.other < y.other : x.corner < y.corner; });
-        }
+        for_each_use(surface.polygons, skip, [&](std::uint32_t low, const Use& use) { uses[next[low]++] = use; });
+        for (std::size_t n = 0; n + 1 < first.size(); ++n) sort_uses(std::span(uses).subspan(first[n], first[n + 1] - first[n]));
     }
 
     template <class Body>
@@ -135,12 +155,12 @@ FaceEdges connect_polygons(BrepData::Surface& surface) {
         skip.resize(surface.polygons.size());
         skip[p] = 1;
     }
-    EdgeTable table(surface, edges, skip);
+    EdgeTable table(surface, skip);
     result.duplicate = repeats(surface, edges, table);
     if (!result.duplicate.empty()) {
         skip.resize(surface.polygons.size());
         for (const std::uint32_t p : result.duplicate) skip[p] = 1;
-        table = EdgeTable(surface, edges, skip);
+        table = EdgeTable(surface, skip);
     }
     table.for_each_edge([&](std::span<const Use> around) {
         if (around.size() != 2) {

@@ -20,12 +20,14 @@ USES = {
     "report": ("model",),
     "grid": ("geometry",),
     "topology": ("grid",),
+    "exchange": ("topology",),
+    "complexity": ("topology",),
     "validators": ("topology",),
-    "repair": ("validators",),
-    "remesh": ("validators",),
+    "repair": ("validators", "exchange"),
+    "remesh": ("validators", "exchange"),
     "volume": ("repair", "remesh"),
     "gridding": ("repair", "remesh"),
-    "pipeline": ("formats", "report", "volume", "gridding"),
+    "pipeline": ("formats", "report", "volume", "gridding", "complexity"),
     "cli": ("pipeline",),
 }
 FAMILIES = ("gocad", "vtk", "gmsh", "horizon", "grdecl", "eclipse", "roff", "resqml")

@@ -7,7 +7,7 @@
 #include "model/attribute.h"
 #include "model/loss.h"
 
-namespace geomend::topology {
+namespace geomend::exchange {
 
 /// Puts attributes of several pieces together into attributes of one whole: same name, location, components and type
 /// become one. What a piece does not have is filled with the no-data value (or NaN, zero, an empty text).
@@ -39,4 +39,4 @@ private:
     std::vector<std::pair<AttributeLocation, std::size_t>> sizes_;
 };
 
-}  // namespace geomend::topology
+}  // namespace geomend::exchange

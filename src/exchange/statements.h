@@ -6,7 +6,7 @@
 #include "model/brep.h"
 #include "model/stated_model.h"
 
-namespace geomend::topology {
+namespace geomend::exchange {
 
 /// Where the face of a B-Rep surface stands in a Dataset.
 struct FacePlace {
@@ -19,4 +19,4 @@ struct FacePlace {
 /// \pre every surface has one place
 StatedModel stated_model(const BrepData& brep, const std::vector<FacePlace>& places);
 
-}  // namespace geomend::topology
+}  // namespace geomend::exchange

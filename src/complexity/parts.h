@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "complexity/complexity.h"
 #include "geometry/principal_axes.h"
 #include "geometry/vectors.h"
-#include "topology/complexity.h"
 
 // What the files complexity_*.cpp share.
 
-namespace geomend::topology {
+namespace geomend::complexity {
 
 /// A surface as triangles over model vertices; larger polygons are fans.
 struct SurfaceTriangles {
@@ -68,4 +68,4 @@ std::vector<Vec3> volume_sites(const MeasuredModel& model, const ComplexityOptio
 /// What lies in the cell of each site.
 std::vector<CellComplexity::Counts> counts_in_cells(const MeasuredModel& model, std::span<const Vec3> sites, const Monitor* monitor);
 
-}  // namespace geomend::topology
+}  // namespace geomend::complexity

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "topology/attribute_merge.h"
+#include "exchange/attribute_merge.h"
 
 #include <algorithm>
 #include <bit>
 #include <limits>
 #include <type_traits>
 
-namespace geomend::topology {
+namespace geomend::exchange {
 
 namespace {
 
@@ -132,4 +132,4 @@ std::vector<Attribute> AttributeMerge::finish(const std::string& entity, std::ve
     return result;
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::exchange

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <map>
 
-#include "topology/attribute_merge.h"
+#include "exchange/attribute_merge.h"
+#include "exchange/model_from_brep.h"
+#include "exchange/statements.h"
 #include "topology/corner_values.h"
-#include "topology/model_from_brep.h"
-#include "topology/statements.h"
 #include "topology/twin_nodes.h"
 
-namespace geomend::topology {
+namespace geomend::exchange {
 
 namespace {
 
@@ -209,14 +209,15 @@ private:
     /// What shared points and entities do not say: values of the surfaces' own nodes, and which of them are twins.
     void add_statements() {
         std::vector<std::int64_t> tags;
-        Twins twins;
+        topology::Twins twins;
         for (std::uint32_t s = 0; s < b_.surfaces.size(); ++s) {
             tags.push_back(tag_of(s));
-            if (auto own = twins_of(b_.surfaces[s]); !own.empty()) twins.emplace(tag_of(s), std::move(own));
+            if (auto own = topology::twins_of(b_.surfaces[s]); !own.empty()) twins.emplace(tag_of(s), std::move(own));
             lose_loose_nodes(b_.surfaces[s]);
         }
-        out_.info.annotations.push_back(twins_annotation(twins));
-        for (Attribute& a : shared_node_attributes(b_, first_cell_, tags, out_.cell_count())) out_.info.attributes.push_back(std::move(a));
+        out_.info.annotations.push_back(topology::twins_annotation(twins));
+        for (Attribute& a : topology::shared_node_attributes(b_, first_cell_, tags, out_.cell_count()))
+            out_.info.attributes.push_back(std::move(a));
     }
 
     void lose_loose_nodes(const BrepData::Surface& surface) {
@@ -237,7 +238,7 @@ private:
         lose(b_.layers.size(), "layers");
         lose(b_.fault_blocks.size(), "fault blocks");
         lose(b_.features.size(), "geological features");
-        if (const auto twins = count_twins(b_); twins > 0) {
+        if (const auto twins = topology::count_twins(b_); twins > 0) {
             add_loss(losses_, {LossClass::identity, b_.name, "twin nodes that cut a surface", "a mesh has one node for them", twins});
         }
     }
@@ -274,4 +275,4 @@ Dataset tagged_model(const Brep& brep, std::vector<Loss>& losses) {
     return result;
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::exchange

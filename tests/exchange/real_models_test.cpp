@@ -4,11 +4,11 @@
 #include <ostream>
 
 #include "base/input.h"
+#include "exchange/model_from_brep.h"
 #include "formats/gmsh/gmsh.h"
 #include "formats/gocad/gocad.h"
 #include "support/real_data.h"
 #include "topology/brep_from_dataset.h"
-#include "topology/model_from_brep.h"
 
 namespace geomend {
 namespace {
@@ -65,11 +65,11 @@ TEST_P(RealModels, HaveTheirKnownCountsAndKeepThemOnTheWayBack) {
     }
     EXPECT_NEAR(sum, b.universe_volume, 1e-10 * sum);
     std::vector<Loss> losses;
-    Dataset faced = topology::faced_model(data->breps[0], losses);
+    Dataset faced = exchange::faced_model(data->breps[0], losses);
     topology::build_breps(faced);
     expect_counts(*faced.breps.at(0), "from surfaces");
     losses.clear();
-    Dataset tagged = topology::tagged_model(data->breps[0], losses);
+    Dataset tagged = exchange::tagged_model(data->breps[0], losses);
     for (const Loss& loss : losses) EXPECT_EQ(loss.loss_class, LossClass::style) << loss.entity << ": " << loss.what;
     topology::build_breps(tagged);
     const BrepData& t = *tagged.breps.at(0);

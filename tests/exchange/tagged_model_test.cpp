@@ -5,9 +5,9 @@
 #include <map>
 
 #include "base/parallel.h"
+#include "exchange/model_from_brep.h"
 #include "gmsh/gmsh_support.h"
 #include "topology/brep_from_dataset.h"
-#include "topology/model_from_brep.h"
 #include "topology/model_maker.h"
 
 namespace geomend {
@@ -26,7 +26,7 @@ const BrepData& built(Dataset& data) {
 /// Through a tagged mesh in memory (no way) or a written MSH.
 Dataset through(const Brep& brep, const FormatOptions* way) {
     std::vector<Loss> losses;
-    Dataset model = topology::tagged_model(brep, losses);
+    Dataset model = exchange::tagged_model(brep, losses);
     EXPECT_TRUE(losses.empty()) << losses[0].what;
     if (way == nullptr) return model;
     const auto written = test::write_text(model, *way);
@@ -154,7 +154,7 @@ TEST(TaggedModel, SurfacesKeepTheirOwnValuesAtSharedPoints) {
     }
     expect_all_ways_back(m);
     std::vector<Loss> losses;
-    const Dataset model = topology::tagged_model(m.data.breps[0], losses);
+    const Dataset model = exchange::tagged_model(m.data.breps[0], losses);
     const auto& attributes = info_of(model.objects[0]).attributes;
     EXPECT_NE(find_attribute(attributes, "depth", AttributeLocation::point), nullptr) << "all surfaces agree";
     EXPECT_NE(find_attribute(attributes, "throw", AttributeLocation::cell), nullptr);
@@ -219,7 +219,7 @@ TEST(TaggedModel, JoinedTwinsAreListedWhereNothingTellsOfThem) {
     auto cut = floor_and_wall(true);
     built(cut.data);
     std::vector<Loss> losses;
-    topology::tagged_mesh(cut.data.breps[0], losses);
+    exchange::tagged_mesh(cut.data.breps[0], losses);
     const auto twins = std::ranges::find(losses, "twin nodes that cut a surface", &Loss::what);
     ASSERT_NE(twins, losses.end());
     EXPECT_EQ(twins->loss_class, LossClass::identity);
@@ -254,7 +254,7 @@ TEST(TaggedModel, ValuesThatJumpWithinASurfaceStayWithItsPolygons) {
     auto m = two_blocks();
     built(m.data);
     std::vector<Loss> losses;
-    Dataset model = topology::tagged_model(m.data.breps[0], losses);
+    Dataset model = exchange::tagged_model(m.data.breps[0], losses);
     auto& mesh = std::get<CellMesh>(model.objects[0]);
     Attribute jump;
     jump.name = "jump";
@@ -278,7 +278,7 @@ TEST(TaggedModel, DamagedStatementsOfTwinsDoNoHarm) {
         auto m = two_blocks();
         built(m.data);
         std::vector<Loss> losses;
-        Dataset model = topology::tagged_model(m.data.breps[0], losses);
+        Dataset model = exchange::tagged_model(m.data.breps[0], losses);
         for (Annotation& a : info_of(model.objects[0]).annotations) {
             if (a.key == "geomend.twin_nodes") a.value = text;
         }
@@ -294,7 +294,7 @@ TEST(Threads, GiveTheSameModelWhateverTheirNumber) {
         give(m.surface(0), "throw", std::vector<double>{1, 2, 3, 4});
         topology::build_breps(m.data);
         std::vector<Loss> losses;
-        Dataset model = topology::tagged_model(m.data.breps.at(0), losses);
+        Dataset model = exchange::tagged_model(m.data.breps.at(0), losses);
         return std::pair{std::move(m.data), test::write_text(model, {}).bytes};
     };
     const auto [one, bytes_of_one] = once(1);

@@ -12,7 +12,7 @@
 // How complex a structural model is, before anything is meshed: J. Pellerin, PhD thesis, Universite de Lorraine 2014,
 // chapter 3. Elements are regions, surfaces, lines and corners; those of the box around the model are left out.
 
-namespace geomend::topology {
+namespace geomend::complexity {
 
 struct ComplexityOptions {
     double size = 100;              ///< characteristic size h, in the model's unit of length
@@ -67,6 +67,6 @@ struct Complexity {
 /// Measures a boundary representation. What needs closed regions is left out where there are none, and told in
 /// `undefined`. Deterministic, whatever the number of threads. Cost: n log n in triangles, and with sites linear in
 /// 20 to 100 samples a site and iteration. Stopped by the monitor it returns what it has.
-Complexity complexity(const BrepData& brep, const ComplexityOptions& options);
+Complexity measure(const BrepData& brep, const ComplexityOptions& options);
 
-}  // namespace geomend::topology
+}  // namespace geomend::complexity

@@ -5,13 +5,13 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "complexity/parts.h"
 #include "geometry/site_grid.h"
-#include "topology/complexity_parts.h"
 
 // What lies in each Voronoi cell: surfaces and lines are clipped by the planes between sites, and pieces of one surface
 // are joined where the edge between them passes through the cell, too.
 
-namespace geomend::topology {
+namespace geomend::complexity {
 
 namespace {
 
@@ -289,4 +289,4 @@ std::vector<CellComplexity::Counts> counts_in_cells(const MeasuredModel& model, 
     return counts;
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::complexity

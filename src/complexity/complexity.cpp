@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "topology/complexity.h"
+#include "complexity/complexity.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "topology/complexity_parts.h"
+#include "complexity/parts.h"
 
-namespace geomend::topology {
+namespace geomend::complexity {
 
 namespace {
 
@@ -115,7 +115,7 @@ void count_locally(const MeasuredModel& model, const ComplexityOptions& o, Compl
 
 }  // namespace
 
-Complexity complexity(const BrepData& brep, const ComplexityOptions& options) {
+Complexity measure(const BrepData& brep, const ComplexityOptions& options) {
     Complexity out;
     out.size = options.size;
     out.angle = options.angle;
@@ -136,4 +136,4 @@ Complexity complexity(const BrepData& brep, const ComplexityOptions& options) {
     return out;
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::complexity

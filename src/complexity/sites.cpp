@@ -5,12 +5,12 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "complexity/parts.h"
 #include "geometry/site_grid.h"
-#include "topology/complexity_parts.h"
 
 // Sites whose Voronoi cells divide a model's volume evenly: Lloyd's iterations over points that fill it.
 
-namespace geomend::topology {
+namespace geomend::complexity {
 
 namespace {
 
@@ -177,4 +177,4 @@ std::vector<Vec3> volume_sites(const MeasuredModel& model, const ComplexityOptio
     return sites;
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::complexity

@@ -4,11 +4,11 @@
 #include <unordered_map>
 #include <variant>
 
-#include "topology/attribute_merge.h"
-#include "topology/model_from_brep.h"
-#include "topology/statements.h"
+#include "exchange/attribute_merge.h"
+#include "exchange/model_from_brep.h"
+#include "exchange/statements.h"
 
-namespace geomend::topology {
+namespace geomend::exchange {
 
 namespace {
 
@@ -125,4 +125,4 @@ Dataset faced_model(const Brep& brep, std::vector<Loss>& losses) {
     return result;
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::exchange

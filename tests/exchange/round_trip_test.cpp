@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <random>
 
+#include "exchange/model_from_brep.h"
 #include "geometry/predicates.h"
 #include "topology/brep_from_dataset.h"
-#include "topology/model_from_brep.h"
 #include "topology/model_maker.h"
 #include "topology/weld.h"
 
@@ -41,7 +41,7 @@ TEST(WayBack, SurfacesOfAModelGiveTheSameModel) {
     auto m = two_blocks();
     topology::build_breps(m.data);
     std::vector<Loss> losses;
-    Dataset again = topology::faced_model(m.data.breps.at(0), losses);
+    Dataset again = exchange::faced_model(m.data.breps.at(0), losses);
     EXPECT_TRUE(losses.empty());
     topology::build_breps(again);
     expect_same_model(*m.data.breps[0], *again.breps.at(0));
@@ -53,7 +53,7 @@ TEST(WayBack, NodesOfOneInterfaceAtOneVertexAreTwins) {
     auto m = two_blocks();
     topology::build_breps(m.data);
     std::vector<Loss> losses;
-    const Dataset again = topology::faced_model(m.data.breps.at(0), losses);
+    const Dataset again = exchange::faced_model(m.data.breps.at(0), losses);
     const auto& south = std::get<Surface>(again.objects.at(3));
     ASSERT_EQ(south.points.size(), 8u);
     ASSERT_EQ(south.alias.size(), 8u);
@@ -69,7 +69,7 @@ TEST(WayBack, ATaggedMeshGivesTheSameModel) {
     topology::build_breps(m.data);
     std::vector<Loss> losses;
     Dataset again;
-    again.objects.emplace_back(topology::tagged_mesh(m.data.breps.at(0), losses));
+    again.objects.emplace_back(exchange::tagged_mesh(m.data.breps.at(0), losses));
     topology::build_breps(again);
     expect_same_model(*m.data.breps[0], *again.breps.at(0));
     const auto& mesh = std::get<CellMesh>(again.objects[0]);
@@ -89,7 +89,7 @@ TEST(WayBack, ValuesThatDifferAtASharedPointAreListedAsLost) {
     }
     topology::build_breps(m.data);
     std::vector<Loss> losses;
-    const CellMesh mesh = topology::tagged_mesh(m.data.breps.at(0), losses);
+    const CellMesh mesh = exchange::tagged_mesh(m.data.breps.at(0), losses);
     ASSERT_EQ(mesh.info.attributes.size(), 1u);
     EXPECT_EQ(value_count(mesh.info.attributes[0]), mesh.points.size());
     const auto lost = std::find_if(losses.begin(), losses.end(), [](const Loss& l) { return l.loss_class == LossClass::substance; });
@@ -148,7 +148,7 @@ TEST(Cells, ATaggedMeshOfAFilledModelKeepsCellsAndValues) {
     topology::build_breps(data);
     std::vector<Loss> losses;
     Dataset again;
-    again.objects.emplace_back(topology::tagged_mesh(data.breps.at(0), losses));
+    again.objects.emplace_back(exchange::tagged_mesh(data.breps.at(0), losses));
     topology::build_breps(again);
     expect_same_model(*data.breps[0], *again.breps.at(0));
     EXPECT_EQ(value_as_double(again.breps[0]->regions[1].attributes.at(0), 0), 0.5);

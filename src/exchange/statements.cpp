@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "topology/statements.h"
+#include "exchange/statements.h"
 
 #include <optional>
 
-namespace geomend::topology {
+namespace geomend::exchange {
 
 namespace {
 
@@ -96,4 +96,4 @@ StatedModel stated_model(const BrepData& brep, const std::vector<FacePlace>& pla
     return model;
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::exchange

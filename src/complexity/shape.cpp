@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "topology/complexity_parts.h"
+#include "complexity/parts.h"
 
 // Shape: how much of an element's size is left when it is projected on its mean line or plane.
 
-namespace geomend::topology {
+namespace geomend::complexity {
 
 namespace {
 
@@ -78,4 +78,4 @@ double line_shape(const MeasuredModel& model, std::size_t line) {
     return std::max(0.0, 1 - projected / whole);
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::complexity

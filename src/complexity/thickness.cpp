@@ -5,12 +5,12 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "complexity/parts.h"
 #include "geometry/triangle_tree.h"
-#include "topology/complexity_parts.h"
 
 // Thickness: how far it is from the boundary of a region or surface, straight inwards, to the boundary again.
 
-namespace geomend::topology {
+namespace geomend::complexity {
 
 namespace {
 
@@ -188,4 +188,4 @@ std::vector<double> thin_parts_of_surfaces(const MeasuredModel& model, double h)
     return parts;
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::complexity

@@ -3,7 +3,7 @@
 
 #include "model/dataset.h"
 
-namespace geomend::topology {
+namespace geomend::exchange {
 
 /// The same model as surfaces with a StatedModel over them (what Gocad Model3d holds): one Surface per
 /// interface, one part per B-Rep surface, region sides, layers, fault blocks. Exact; what has no place
@@ -21,4 +21,4 @@ CellMesh tagged_mesh(const Brep& brep, std::vector<Loss>& losses);
 /// an annotation tells of twin nodes (twin_nodes.h), so that build_breps() gives the same model.
 Dataset tagged_model(const Brep& brep, std::vector<Loss>& losses);
 
-}  // namespace geomend::topology
+}  // namespace geomend::exchange

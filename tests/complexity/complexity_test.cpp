@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "topology/complexity.h"
+#include "complexity/complexity.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 
 #include "base/input.h"
 #include "base/parallel.h"
+#include "complexity/parts.h"
 #include "formats/gocad/gocad.h"
 #include "support/real_data.h"
 #include "topology/brep_from_dataset.h"
-#include "topology/complexity_parts.h"
 #include "topology/model_maker.h"
 
 // Answers: J. Pellerin, PhD thesis, Universite de Lorraine 2014, chapter 3, and arithmetic.
@@ -20,11 +20,11 @@
 namespace geomend {
 namespace {
 
+using complexity::Complexity;
+using complexity::ComplexityOptions;
+using complexity::MeasuredModel;
 using test::ModelMaker;
 using test::quad;
-using topology::Complexity;
-using topology::ComplexityOptions;
-using topology::MeasuredModel;
 
 BrepData brep_of(ModelMaker m) {
     topology::build_breps(m.data);
@@ -70,7 +70,7 @@ ComplexityOptions with_sites(std::uint32_t sites, double size = 100) {
 
 TEST(Complexity, CountsElementsWithoutTheBox) {
     for (int horizons : {0, 1, 3}) {
-        const Complexity c = topology::complexity(layered(1000, 900, horizons), with_sites(0));
+        const Complexity c = complexity::measure(layered(1000, 900, horizons), with_sites(0));
         EXPECT_TRUE(c.box_by_role);
         EXPECT_EQ(c.m1.regions, horizons + 1);
         EXPECT_EQ(c.m1.surfaces, horizons);
@@ -83,7 +83,7 @@ TEST(Complexity, CountsElementsWithoutTheBox) {
 }
 
 TEST(Complexity, OfACellIsOddWhereThereAreFlatLayersOnly) {
-    const Complexity c = topology::complexity(layered(1000, 900, 3), with_sites(300));
+    const Complexity c = complexity::measure(layered(1000, 900, 3), with_sites(300));
     ASSERT_TRUE(c.cells.has_value());
     ASSERT_EQ(c.cells->counts.size(), 300u);
     for (std::size_t s = 0; s < 300; ++s) {
@@ -97,15 +97,15 @@ TEST(Complexity, OfACellIsOddWhereThereAreFlatLayersOnly) {
     }
     EXPECT_NEAR(c.cells->resolution, std::cbrt(9e8 / 300), 1e-9);
     EXPECT_GE(c.cells->q90, c.cells->q50);
-    EXPECT_EQ(topology::complexity(layered(1000, 900, 3), with_sites(1)).cells->counts[0].total(), 7u);
+    EXPECT_EQ(complexity::measure(layered(1000, 900, 3), with_sites(1)).cells->counts[0].total(), 7u);
 }
 
 // One cell holds everything; many small ones mostly nothing but a region.
 TEST(Complexity, OfCellsFallsWithTheirSize) {
     const BrepData brep = layered(1000, 900, 2);
-    EXPECT_EQ(topology::complexity(brep, with_sites(1)).cells->mean, 5);
-    const double coarse = topology::complexity(brep, with_sites(50)).cells->mean;
-    const double fine = topology::complexity(brep, with_sites(2000)).cells->mean;
+    EXPECT_EQ(complexity::measure(brep, with_sites(1)).cells->mean, 5);
+    const double coarse = complexity::measure(brep, with_sites(50)).cells->mean;
+    const double fine = complexity::measure(brep, with_sites(2000)).cells->mean;
     EXPECT_LT(coarse, 5);
     EXPECT_LT(fine, coarse);
     EXPECT_GT(fine, 1);
@@ -114,12 +114,12 @@ TEST(Complexity, OfCellsFallsWithTheirSize) {
 TEST(Complexity, CellsDivideTheVolumeEvenly) {
     const BrepData brep = layered(1000, 1000, 0);
     const MeasuredModel model(brep);
-    const auto sites = topology::volume_sites(model, with_sites(64));
+    const auto sites = complexity::volume_sites(model, with_sites(64));
     ASSERT_EQ(sites.size(), 64u);
     // In an even cover no two sites are much nearer than the cell's size, and none is far from the walls' first layer.
     double nearest = 1e9;
     for (std::size_t a = 0; a < sites.size(); ++a) {
-        for (std::size_t b = 0; b < a; ++b) nearest = std::min(nearest, topology::length(minus(sites[a], sites[b])));
+        for (std::size_t b = 0; b < a; ++b) nearest = std::min(nearest, complexity::length(minus(sites[a], sites[b])));
     }
     EXPECT_GT(nearest, 0.6 * 250);
 }
@@ -151,11 +151,11 @@ TEST(Complexity, DoesNotDependOnThreads) {
     Complexity one, two;
     {
         const ThreadBudget budget(1);
-        one = topology::complexity(brep, with_sites(200));
+        one = complexity::measure(brep, with_sites(200));
     }
     {
         const ThreadBudget budget(2);
-        two = topology::complexity(brep, with_sites(200));
+        two = complexity::measure(brep, with_sites(200));
     }
     EXPECT_EQ(one.cells->sites, two.cells->sites);
     for (std::size_t s = 0; s < 200; ++s) EXPECT_EQ(one.cells->counts[s].total(), two.cells->counts[s].total());
@@ -163,10 +163,10 @@ TEST(Complexity, DoesNotDependOnThreads) {
 }
 
 TEST(Complexity, OfSizeIsOneBelowTheCharacteristicSize) {
-    EXPECT_EQ(topology::complexity(layered(99, 99, 0), with_sites(0)).regions->size, 1);
-    EXPECT_EQ(topology::complexity(layered(101, 101, 0), with_sites(0)).regions->size, 0);
+    EXPECT_EQ(complexity::measure(layered(99, 99, 0), with_sites(0)).regions->size, 1);
+    EXPECT_EQ(complexity::measure(layered(101, 101, 0), with_sites(0)).regions->size, 0);
     // Horizons of 99 by 99, in layers of 33.
-    const Complexity c = topology::complexity(layered(99, 99, 2), with_sites(0));
+    const Complexity c = complexity::measure(layered(99, 99, 2), with_sites(0));
     EXPECT_EQ(c.regions->size, 3);
     EXPECT_EQ(c.surfaces->size, 2);
 }
@@ -175,9 +175,9 @@ TEST(Complexity, OfThicknessIsThePartOfTheBoundaryThatIsThin) {
     // Layers of 50 under a size of 60: tops and bases are thin, and sides (1000 wide) are not.
     const BrepData brep = layered(1000, 150, 2);
     const double thin = 2e6 / (2e6 + 4 * 1000 * 50.);
-    const Complexity c = topology::complexity(brep, with_sites(0, 60));
+    const Complexity c = complexity::measure(brep, with_sites(0, 60));
     EXPECT_NEAR(c.regions->thickness, 3 * thin, 1e-9);
-    EXPECT_EQ(topology::complexity(brep, with_sites(0, 40)).regions->thickness, 0);
+    EXPECT_EQ(complexity::measure(brep, with_sites(0, 40)).regions->thickness, 0);
     EXPECT_EQ(c.surfaces->thickness, 0);
 }
 
@@ -197,9 +197,9 @@ ModelMaker strip() {
 TEST(Complexity, OfThicknessOfSurfacesGoesAlongThem) {
     const BrepData model_brep = brep_of(strip());
     const MeasuredModel model(model_brep);
-    EXPECT_NEAR(topology::thin_parts_of_surfaces(model, 31)[0], 800. / 860, 1e-12);
-    EXPECT_NEAR(topology::thin_parts_of_surfaces(model, 29)[0], 0, 1e-12);
-    EXPECT_NEAR(topology::thin_parts_of_surfaces(model, 401)[0], 1, 1e-12);
+    EXPECT_NEAR(complexity::thin_parts_of_surfaces(model, 31)[0], 800. / 860, 1e-12);
+    EXPECT_NEAR(complexity::thin_parts_of_surfaces(model, 29)[0], 0, 1e-12);
+    EXPECT_NEAR(complexity::thin_parts_of_surfaces(model, 401)[0], 1, 1e-12);
     // Bent at right angles along its middle it is as wide as before.
     ModelMaker bent;
     bent.add(
@@ -207,8 +207,8 @@ TEST(Complexity, OfThicknessOfSurfacesGoesAlongThem) {
         test::joined({quad({0, 0, 0}, {400, 0, 0}, {400, 15, 0}, {0, 15, 0}), quad({0, 15, 0}, {400, 15, 0}, {400, 15, 15}, {0, 15, 15})}));
     const BrepData folded_brep = brep_of(std::move(bent));
     const MeasuredModel folded(folded_brep);
-    EXPECT_NEAR(topology::thin_parts_of_surfaces(folded, 31)[0], 800. / 860, 1e-12);
-    EXPECT_NEAR(topology::thin_parts_of_surfaces(folded, 29)[0], 0, 1e-12);
+    EXPECT_NEAR(complexity::thin_parts_of_surfaces(folded, 31)[0], 800. / 860, 1e-12);
+    EXPECT_NEAR(complexity::thin_parts_of_surfaces(folded, 29)[0], 0, 1e-12);
 }
 
 TEST(Complexity, OfShapeIsHalfForAHemisphereAndNoneForAPlane) {
@@ -228,11 +228,11 @@ TEST(Complexity, OfShapeIsHalfForAHemisphereAndNoneForAPlane) {
     m.add("dome", FeatureRole::horizon, dome);
     const BrepData model_brep = brep_of(std::move(m));
     const MeasuredModel model(model_brep);
-    EXPECT_NEAR(topology::surface_shape(model, 0), 0.5, 1e-3);
+    EXPECT_NEAR(complexity::surface_shape(model, 0), 0.5, 1e-3);
     const BrepData flat_brep = brep_of(strip());
     const MeasuredModel flat(flat_brep);
-    EXPECT_NEAR(topology::surface_shape(flat, 0), 0, 1e-12);
-    EXPECT_NEAR(topology::line_shape(flat, 0), 1 - 800. / 860, 1e-6);  // the border goes round, its mean line lengthwise
+    EXPECT_NEAR(complexity::surface_shape(flat, 0), 0, 1e-12);
+    EXPECT_NEAR(complexity::line_shape(flat, 0), 1 - 800. / 860, 1e-6);  // the border goes round, its mean line lengthwise
 }
 
 TEST(Complexity, OfShapeOfASemicircle) {
@@ -249,7 +249,7 @@ TEST(Complexity, OfShapeOfASemicircle) {
     const MeasuredModel model(model_brep);
     double arc = 0;
     for (std::size_t l = 0; l < model.brep.lines.size(); ++l) {
-        if (model.brep.lines[l].vertices.size() > n) arc = topology::line_shape(model, l);
+        if (model.brep.lines[l].vertices.size() > n) arc = complexity::line_shape(model, l);
     }
     EXPECT_NEAR(arc, 1 - 2 / std::numbers::pi, 1e-4);
 }
@@ -273,25 +273,25 @@ TEST(Complexity, OfAngleFindsWedges) {
     ASSERT_EQ(brep.regions.size(), 1u);
     const double l = std::hypot(1000, 1000 * std::tan(16 * std::numbers::pi / 180)), z = 1000 * std::tan(16 * std::numbers::pi / 180);
     const double lines = 3 * 1000 + 2 * 1000 + 2 * l + 2 * z;
-    EXPECT_NEAR(topology::sharp_parts_of_regions(model, 20)[0], 1000 / lines, 1e-12);
-    EXPECT_EQ(topology::sharp_parts_of_regions(model, 15)[0], 0);
+    EXPECT_NEAR(complexity::sharp_parts_of_regions(model, 20)[0], 1000 / lines, 1e-12);
+    EXPECT_EQ(complexity::sharp_parts_of_regions(model, 15)[0], 0);
     // The ends are triangles with one corner of 16 degrees; all other corners have more.
-    const auto corners = topology::sharp_parts_of_surfaces(model, 20);
+    const auto corners = complexity::sharp_parts_of_surfaces(model, 20);
     EXPECT_NEAR(corners[3], 1. / 3, 1e-12);
     EXPECT_NEAR(corners[4], 1. / 3, 1e-12);
     EXPECT_EQ(corners[0], 0);
-    EXPECT_EQ(topology::sharp_parts_of_surfaces(model, 15)[3], 0);
+    EXPECT_EQ(complexity::sharp_parts_of_surfaces(model, 15)[3], 0);
 }
 
 TEST(Complexity, OfVariationNeedsTwoElements) {
-    const Complexity one = topology::complexity(layered(1000, 900, 1), with_sites(0));
+    const Complexity one = complexity::measure(layered(1000, 900, 1), with_sites(0));
     EXPECT_FALSE(one.m3.surfaces.has_value());
     EXPECT_FALSE(one.m3.lines.has_value());
     EXPECT_NEAR(one.m3.regions.value(), 0, 1e-12);
 }
 
 TEST(Complexity, SaysWhatIsNotDefinedWithoutClosedRegions) {
-    const Complexity c = topology::complexity(brep_of(strip()), with_sites(100));
+    const Complexity c = complexity::measure(brep_of(strip()), with_sites(100));
     EXPECT_EQ(c.m1.surfaces, 1);
     EXPECT_FALSE(c.m1.regions.has_value());
     EXPECT_FALSE(c.regions.has_value());
@@ -299,17 +299,17 @@ TEST(Complexity, SaysWhatIsNotDefinedWithoutClosedRegions) {
     ASSERT_EQ(c.undefined.size(), 1u);
     BrepData mixed = layered(1000, 900, 1);
     mixed.crs.axis_units = {"km", "km", "m"};
-    EXPECT_FALSE(topology::complexity(mixed, with_sites(10)).surfaces.has_value());
+    EXPECT_FALSE(complexity::measure(mixed, with_sites(10)).surfaces.has_value());
 }
 
 TEST(Complexity, IsTheSameForAModelMovedAndScaledWithItsSize) {
     const BrepData brep = layered(1000, 900, 3);
-    const Complexity here = topology::complexity(brep, with_sites(0, 400));
+    const Complexity here = complexity::measure(brep, with_sites(0, 400));
     for (const double factor : {1e-3, 1e3}) {
         BrepData other = brep;
         for (Vec3& p : other.vertices) p = {factor * p[0] + 500000, factor * p[1] + 4e6, factor * p[2] - 3000};
         for (auto& r : other.regions) r.volume *= factor * factor * factor;
-        const Complexity there = topology::complexity(other, with_sites(0, 400 * factor));
+        const Complexity there = complexity::measure(other, with_sites(0, 400 * factor));
         EXPECT_NEAR(there.m2(), here.m2(), 1e-6) << factor;
         EXPECT_NEAR(there.m3.total(), here.m3.total(), 1e-9) << factor;
     }
@@ -332,7 +332,7 @@ Dataset real_model(const char* name) {
 TEST(ComplexityOfRealModels, AgreesWithThePublishedFigures) {
     const Dataset simple = real_model("gocad/modelA1.ml"), faulted = real_model("gocad/modelA4.ml");
     if (simple.breps.empty() || faulted.breps.empty()) GTEST_SKIP() << "no real data: set GEOMEND_REAL_DATA";
-    const Complexity a1 = topology::complexity(*simple.breps[0], with_sites(1000));
+    const Complexity a1 = complexity::measure(*simple.breps[0], with_sites(1000));
     EXPECT_EQ(a1.m1.regions, 4);
     EXPECT_EQ(a1.m1.surfaces, 3);
     EXPECT_EQ(a1.m1.total(), 7);
@@ -349,7 +349,7 @@ TEST(ComplexityOfRealModels, AgreesWithThePublishedFigures) {
     EXPECT_EQ(a1.cells->q90, 5u);
     EXPECT_EQ(a1.cells->most, 7u);
 
-    const Complexity a4 = topology::complexity(*faulted.breps[0], with_sites(1000));
+    const Complexity a4 = complexity::measure(*faulted.breps[0], with_sites(1000));
     EXPECT_EQ(a4.m1.regions, 8);
     EXPECT_EQ(a4.m1.surfaces, 23);
     EXPECT_EQ(a4.m1.lines, 22);
@@ -371,12 +371,12 @@ TEST(ComplexityOfRealModels, CellsHoldWhatIsSeenInThem) {
     const Dataset data = real_model("gocad/modelA4.ml");
     if (data.breps.empty()) GTEST_SKIP() << "no real data: set GEOMEND_REAL_DATA";
     const MeasuredModel model(*data.breps[0]);
-    const auto sites = topology::volume_sites(model, with_sites(150));
-    const auto counts = topology::counts_in_cells(model, sites, nullptr);
+    const auto sites = complexity::volume_sites(model, with_sites(150));
+    const auto counts = complexity::counts_in_cells(model, sites, nullptr);
     const auto nearest = [&](const Vec3& p) {
         std::size_t best = 0;
         for (std::size_t s = 1; s < sites.size(); ++s) {
-            if (topology::length(minus(sites[s], p)) < topology::length(minus(sites[best], p))) best = s;
+            if (complexity::length(minus(sites[s], p)) < complexity::length(minus(sites[best], p))) best = s;
         }
         return best;
     };
@@ -385,8 +385,8 @@ TEST(ComplexityOfRealModels, CellsHoldWhatIsSeenInThem) {
     for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
         for (const auto& t : model.surfaces[s].triangles) {
             const Vec3 middle =
-                topology::moved(topology::moved({}, model.points[t[0]], 1. / 3),
-                                topology::moved(topology::moved({}, model.points[t[1]], 1. / 3), model.points[t[2]], 1. / 3));
+                complexity::moved(complexity::moved({}, model.points[t[0]], 1. / 3),
+                                  complexity::moved(complexity::moved({}, model.points[t[1]], 1. / 3), model.points[t[2]], 1. / 3));
             const std::size_t site = nearest(middle);
             if (model.surface_in_box[s] == 0) surfaces[site].insert(s);
             for (const RegionId r : model.brep.surfaces[s].regions) {

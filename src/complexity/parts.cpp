@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "topology/complexity_parts.h"
+#include "complexity/parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace geomend::topology {
+namespace geomend::complexity {
 
 double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 Vec3 moved(const Vec3& a, const Vec3& b, double t) { return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]}; }
@@ -103,4 +103,4 @@ Vec3 MeasuredModel::area_vector(const std::array<std::uint32_t, 3>& t) const {
 
 double MeasuredModel::area(const std::array<std::uint32_t, 3>& t) const { return length(area_vector(t)); }
 
-}  // namespace geomend::topology
+}  // namespace geomend::complexity

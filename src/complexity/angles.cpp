@@ -4,11 +4,11 @@
 #include <numbers>
 #include <tuple>
 
-#include "topology/complexity_parts.h"
+#include "complexity/parts.h"
 
 // Angles between surfaces around lines, and between lines at the corners of surfaces.
 
-namespace geomend::topology {
+namespace geomend::complexity {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::vector<double> sharp_parts_of_surfaces(const MeasuredModel& model, double d
     return parts;
 }
 
-}  // namespace geomend::topology
+}  // namespace geomend::complexity
