@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/wording.h"
 #include "grid/pore_volume.h"
 #include "repair/grid_steps.h"
 #include "validators/corner_point.h"
@@ -13,7 +14,6 @@ namespace geomend::repair {
 
 namespace {
 
-using validators::counted;
 using validators::FoundCells;
 using validators::GridScope;
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/wording.h"
 #include "repair/grid_steps.h"
 #include "validators/found_cells.h"
 
@@ -11,10 +12,8 @@ namespace geomend::repair {
 
 namespace {
 
-using validators::counted;
 using validators::FoundCells;
 using validators::GridScope;
-using validators::rounded;
 
 double& depth(CornerPointGrid& grid, std::size_t cell, unsigned c) {
     const auto [i, j, k] = grid.ijk(cell);

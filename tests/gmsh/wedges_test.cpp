@@ -4,7 +4,7 @@
 
 #include "gmsh/gmsh_support.h"
 
-namespace geomend {
+namespace geomend::test {
 namespace {
 
 /// A prism of volume 1/2 as Gmsh numbers it, of first order (type 6) or with the nodes of its edges (type 18).
@@ -78,4 +78,4 @@ TEST(Wedges, OfOtherProgramsAreTurnedByTheirOwnSign) {
 }
 
 }  // namespace
-}  // namespace geomend
+}  // namespace geomend::test
