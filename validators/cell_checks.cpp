@@ -6,7 +6,6 @@
 #include <map>
 
 #include "geometry/cell_volume.h"
-#include "geometry/intersections.h"
 #include "topology/near_weld.h"
 #include "validators/corner_frames.h"
 #include "validators/found_cells.h"
@@ -18,15 +17,52 @@ namespace {
 
 bool polyhedron(const CellScope& scope, std::uint32_t cell) { return scope.mesh().types[cell] == CellType::polyhedron; }
 
-/// +1 or -1: the sign that most cells have whose corner order tells one; by type, since conventions differ by type.
+/// Least part of the cube over its longest side that a cell must fill for its sign to say anything.
+constexpr double least_share = 1e-9;
+
+/// The largest distance of a node of a cell from its first one.
+double extent(const CellMesh& mesh, std::uint32_t cell) {
+    const auto nodes = mesh.cell_nodes(cell);
+    double square = 0;
+    for (const std::uint32_t node : nodes) {
+        const Vec3 d = minus(mesh.points[node], mesh.points[nodes[0]]);
+        square = std::max(square, dot(d, d));
+    }
+    return std::sqrt(square);
+}
+
+/// +1 or -1: the sign that most cells have whose corner order tells one; by type, since conventions differ by type. Cells next to
+/// without volume have no say: their sign is chance. Where as many have either, the sign is +1.
 std::map<CellType, double> majority_signs(const CellScope& scope, std::span<const double> volumes) {
     std::map<CellType, std::int64_t> votes;
     for (std::size_t i = 0; i < volumes.size(); ++i) {
-        votes[scope.mesh().types[scope.volume_cells()[i]]] += volumes[i] > 0 ? 1 : volumes[i] < 0 ? -1 : 0;
+        const std::uint32_t cell = scope.volume_cells()[i];
+        const double size = extent(scope.mesh(), cell);
+        const bool counts = std::abs(volumes[i]) > least_share * size * size * size;
+        votes[scope.mesh().types[cell]] += !counts ? 0 : volumes[i] > 0 ? 1 : -1;
     }
     std::map<CellType, double> signs;
     for (const auto& [type, vote] : votes) signs[type] = vote < 0 ? -1 : 1;
     return signs;
+}
+
+/// Types whose cells are inside out as a whole: programs that go by the order of nodes take their volumes for negative.
+void tell_turned_types(const CellScope& scope, const std::map<CellType, double>& signs, std::vector<Finding>& findings) {
+    std::vector<std::uint32_t> cells;
+    std::string types;
+    for (const auto& [type, sign] : signs) {
+        if (sign > 0 || type == CellType::polyhedron) continue;
+        types += (types.empty() ? "" : ", ") + std::string(to_string(type));
+    }
+    if (types.empty()) return;
+    for (const std::uint32_t cell : scope.volume_cells()) {
+        const CellType type = scope.mesh().types[cell];
+        if (type != CellType::polyhedron && signs.at(type) < 0) cells.push_back(cell);
+    }
+    findings.push_back(cells_of_mesh_finding(scope, "M35",
+                                             "all or most cells" + in_mesh(scope) + " of one type are inside out: " + types +
+                                                 "; their volumes are negative in VTK's order of nodes",
+                                             cells));
 }
 
 /// Three times the edges from a corner, as rows; six volumes of their tetrahedron.
@@ -34,11 +70,6 @@ double corner_jacobian(const CellMesh& mesh, std::span<const std::uint32_t> node
     const Vec3& o = mesh.points[nodes[corner[0]]];
     return dot(minus(mesh.points[nodes[corner[1]]], o),
                cross(minus(mesh.points[nodes[corner[2]]], o), minus(mesh.points[nodes[corner[3]]], o)));
-}
-
-std::string in_mesh(const CellScope& scope) {
-    const std::string& name = scope.mesh().info.name;
-    return name.empty() ? "" : " of " + quoted(name);
 }
 
 }  // namespace
@@ -56,6 +87,7 @@ void check_cell_volumes(const CellScope& scope, std::vector<Finding>& findings) 
         wrong.push_back(cell);
         empty += std::abs(v) <= least ? 1 : 0;
     }
+    tell_turned_types(scope, signs, findings);
     if (wrong.empty()) return;
     std::string message = counted(wrong.size(), "cell", "cells") + in_mesh(scope) + ": ";
     if (empty < wrong.size()) message += std::to_string(wrong.size() - empty) + " turned inside out against the others";
@@ -120,48 +152,6 @@ void check_cell_faces(const CellScope& scope, std::vector<Finding>& findings) {
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     findings.push_back(cells_of_mesh_finding(
         scope, "M23", counted(faces, "face", "faces") + in_mesh(scope) + (faces == 1 ? " is" : " are") + " on more than two cells", cells));
-}
-
-void check_cell_matching(const CellScope& scope, std::vector<Finding>& findings) {
-    // Outer faces, as triangles: where two of them have an area in common, cells lie face to face without matching.
-    std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> face_of;
-    for (std::size_t g = 0; g + 1 < scope.group_first().size(); ++g) {
-        if (scope.group_first()[g + 1] - scope.group_first()[g] != 1) continue;
-        const std::uint32_t f = scope.grouped()[scope.group_first()[g]];
-        const auto nodes = scope.nodes_of(scope.faces()[f]);
-        // Bent faces by the rule of all of us: the fan of the lowest corner.
-        std::size_t lowest = 0;
-        for (std::size_t i = 1; i < nodes.size(); ++i) {
-            if (scope.vertex_of()[nodes[i]] < scope.vertex_of()[nodes[lowest]]) lowest = i;
-        }
-        const auto at = [&](std::size_t i) { return scope.vertex_of()[nodes[(lowest + i) % nodes.size()]]; };
-        for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
-            const Triangle t{at(0), at(i), at(i + 1)};
-            if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2]) continue;
-            triangles.push_back(t);
-            face_of.push_back(f);
-        }
-    }
-    std::vector<std::uint32_t> cells;
-    std::uint64_t pairs = 0;
-    for (const auto& pair : intersections(scope.mesh().points, triangles, scope.monitor())) {
-        const VolumeFace& a = scope.faces()[face_of[pair.a]];
-        const VolumeFace& b = scope.faces()[face_of[pair.b]];
-        if (pair.how.kind != Meeting::overlap || a.cell == b.cell) continue;
-        ++pairs;
-        cells.push_back(a.cell);
-        cells.push_back(b.cell);
-    }
-    if (cells.empty()) return;
-    std::ranges::sort(cells);
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    Finding finding = cells_of_mesh_finding(scope, "M24",
-                                            counted(cells.size(), "cell", "cells") + in_mesh(scope) +
-                                                (cells.size() == 1 ? " lies" : " lie") + " face to face with others without matching faces",
-                                            cells);
-    finding.measures = {{"pairs_of_triangles", static_cast<double>(pairs)}};
-    findings.push_back(std::move(finding));
 }
 
 void check_polyhedra(const CellScope& scope, std::vector<Finding>& findings) {

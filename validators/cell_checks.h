@@ -7,14 +7,15 @@
 
 namespace geomend::validators {
 
-void check_cell_volumes(const CellScope&, std::vector<Finding>&);    // M20
+void check_cell_volumes(const CellScope&, std::vector<Finding>&);    // M20 M35
 void check_cell_jacobians(const CellScope&, std::vector<Finding>&);  // M21
 void check_cell_nodes(const CellScope&, std::vector<Finding>&);      // M22
 void check_cell_faces(const CellScope&, std::vector<Finding>&);      // M23
-void check_cell_matching(const CellScope&, std::vector<Finding>&);   // M24
+void check_cell_contacts(const CellScope&, std::vector<Finding>&);   // M24 M36
 void check_polyhedra(const CellScope&, std::vector<Finding>&);       // M25
 void check_cell_repeats(const CellScope&, std::vector<Finding>&);    // M26
 void check_cell_points(const CellScope&, std::vector<Finding>&);     // M27 M28
+void check_cell_overlaps(const CellScope&, std::vector<Finding>&);   // M29
 void check_face_planes(const CellScope&, std::vector<Finding>&);     // Q10
 
 }  // namespace geomend::validators

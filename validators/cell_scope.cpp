@@ -2,54 +2,17 @@
 #include "validators/cell_scope.h"
 
 #include <algorithm>
-#include <initializer_list>
 
 #include <tbb/parallel_sort.h>
 
 #include "base/parallel.h"
 #include "geometry/measures.h"
+#include "model/cell_faces.h"
 #include "topology/weld.h"
 #include "validators/found_cells.h"
 #include "validators/model_scope.h"
 
 namespace geomend::validators {
-
-namespace {
-
-using CornerNumbers = std::initializer_list<std::uint8_t>;
-
-/// Calls with the corner numbers of each face of a cell type, wound so that normals point out of a cell in VTK's order.
-template <class Visit>
-void each_face(CellType type, const Visit& visit) {
-    const auto all = [&](std::initializer_list<CornerNumbers> faces) {
-        for (const CornerNumbers& face : faces) visit(std::span<const std::uint8_t>(face.begin(), face.size()));
-    };
-    switch (type) {
-        case CellType::tetrahedron:
-            return all({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
-        case CellType::pyramid:
-            return all({{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
-        case CellType::wedge:
-            return all({{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}});
-        case CellType::hexahedron:
-            return all({{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
-        case CellType::pentagonal_prism:
-            return all({{0, 4, 3, 2, 1}, {5, 6, 7, 8, 9}, {0, 1, 6, 5}, {1, 2, 7, 6}, {2, 3, 8, 7}, {3, 4, 9, 8}, {4, 0, 5, 9}});
-        case CellType::hexagonal_prism:
-            return all({{0, 5, 4, 3, 2, 1},
-                        {6, 7, 8, 9, 10, 11},
-                        {0, 1, 7, 6},
-                        {1, 2, 8, 7},
-                        {2, 3, 9, 8},
-                        {3, 4, 10, 9},
-                        {4, 5, 11, 10},
-                        {5, 0, 6, 11}});
-        default:
-            return;
-    }
-}
-
-}  // namespace
 
 CellScope::CellScope(const CellMesh& mesh, const Lengths& lengths, const CheckOptions& options)
     : mesh_(mesh), lengths_(lengths), monitor_(options.monitor) {
@@ -90,8 +53,9 @@ void CellScope::collect_faces() {
             }
         } else {
             const auto nodes = mesh_.cell_nodes(c);
-            each_face(linear_type(mesh_.types[c]),
-                      [&](std::span<const std::uint8_t> face) { add(face.size(), [&](std::size_t i) { return nodes[face[i]]; }); });
+            for (const LocalFace& face : faces_of(mesh_.types[c])) {
+                add(face.corners().size(), [&](std::size_t i) { return nodes[face.corners()[i]]; });
+            }
         }
     }
 }
@@ -142,6 +106,11 @@ void CellScope::group_faces() {
         i = j;
     }
     group_first_.push_back(static_cast<std::uint32_t>(grouped_.size()));
+}
+
+std::string in_mesh(const CellScope& scope) {
+    const std::string& name = scope.mesh().info.name;
+    return name.empty() ? "" : " of " + quoted(name);
 }
 
 Finding cells_of_mesh_finding(const CellScope& scope, std::string_view code, std::string message, std::span<const std::uint32_t> cells) {

@@ -58,4 +58,7 @@ private:
 /// A finding about some cells of a mesh: they are listed by the file's own numbers, and counted.
 Finding cells_of_mesh_finding(const CellScope& scope, std::string_view code, std::string message, std::span<const std::uint32_t> cells);
 
+/// " of 'name'", or nothing where the mesh has no name.
+std::string in_mesh(const CellScope& scope);
+
 }  // namespace geomend::validators

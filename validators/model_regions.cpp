@@ -8,6 +8,7 @@
 #include "validators/each_surface.h"
 #include "validators/found_cells.h"
 #include "validators/model_checks.h"
+#include "validators/region_volumes.h"
 
 namespace geomend::validators {
 
@@ -185,11 +186,16 @@ void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
     if (found.region_of_side.empty()) return;
     const auto stated = stated_sides(scope);
     std::map<std::uint32_t, std::vector<std::uint32_t>> leaking;  // per region
+    // Cells part their regions where surfaces do not.
+    const bool has_cells = std::ranges::any_of(brep.regions, [](const auto& region) { return !region.cell_types.empty(); });
+    const auto bare = has_cells ? regions_with_bare_facets(scope) : std::vector<std::uint8_t>(brep.regions.size(), 0);
+    const auto is_bare = [&](std::uint32_t region) { return region < bare.size() && bare[region] != 0; };
     std::vector<std::uint32_t> internal;
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
         const auto& surface = brep.surfaces[s];
         const std::uint32_t region = found.region_of_side[2 * s];
         if (surface.polygons.size() == 0 || region != found.region_of_side[2 * s + 1]) continue;
+        if (is_bare(stated[s][0]) || is_bare(stated[s][1])) continue;
         const bool lists_differ = stated[s][0] != stated[s][1] && stated[s][0] != no_index && stated[s][1] != no_index &&
                                   !are_of_one_group(brep, stated[s][0], stated[s][1]);
         const bool separates =
@@ -219,10 +225,23 @@ void check_stated_regions(const ModelScope& scope, std::vector<Finding>& finding
     const auto stated = stated_sides(scope);
     std::vector<std::vector<std::uint32_t>> found_single;
     for (const auto& sides : found.regions) found_single.push_back(single_sides(sides));
+    const bool has_cells = std::ranges::any_of(brep.regions, [](const auto& region) { return !region.cell_types.empty(); });
+    const auto bare = has_cells ? regions_with_bare_facets(scope) : std::vector<std::uint8_t>(brep.regions.size(), 0);
+    const auto volumes = volumes_of_regions(scope);
     for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
         const auto& region = brep.regions[r];
         const auto single = single_sides(region.sides);
-        if (single.empty() || (!region.volume_known && region.cell_types.empty())) continue;
+        if (single.empty() || bare[r] != 0 || (!region.volume_known && region.cell_types.empty())) continue;
+        if (region.cell_types.empty() && volumes[r] > 1) {
+            Finding finding =
+                finding_of("B13", "region " + quoted(region.name) + " is stated as one, but surfaces inside of it part it into " +
+                                      std::to_string(volumes[r]) + " volumes");
+            finding.entities.push_back(region_ref(scope, r));
+            finding.count = volumes[r];
+            finding.element_kind = "volume";
+            findings.push_back(std::move(finding));
+            continue;
+        }
         std::set<std::uint32_t> touched;
         for (const std::uint32_t side : single) touched.insert(found.region_of_side[side]);
         if (touched.size() == 1 && *touched.begin() != no_index && found_single[*touched.begin()] == single) continue;
@@ -315,9 +334,14 @@ void check_outside_surfaces(const ModelScope& scope, std::vector<Finding>& findi
     const BrepData& brep = scope.brep();
     const auto& found = scope.model().found;
     if (found.regions.empty() || found.region_of_side.empty()) return;
+    std::vector<std::uint8_t> is_beside_cells(brep.surfaces.size(), 0);
+    for (const auto& region : brep.regions) {
+        if (region.cell_types.empty()) continue;
+        for (const auto& side : region.sides) is_beside_cells[side.surface.value] = 1;
+    }
     Finding finding;
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
-        if (brep.surfaces[s].polygons.size() == 0) continue;
+        if (brep.surfaces[s].polygons.size() == 0 || is_beside_cells[s] != 0) continue;
         if (found.region_of_side[2 * s] != no_index || found.region_of_side[2 * s + 1] != no_index) continue;
         if (finding.code.empty()) finding = finding_of("B16", {});
         ++finding.count;

@@ -93,6 +93,30 @@ std::map<std::uint32_t, std::uint64_t> sizes_of(const std::vector<std::uint32_t>
     return polygons_of;
 }
 
+/// Per line whether it is one that the file states inside of a surface, with the same nodes on both of its sides: nothing is open there.
+std::vector<std::uint8_t> embedded_lines(const ModelScope& scope) {
+    const topology::LineGraph& graph = scope.model().graph;
+    const BrepData& brep = scope.brep();
+    std::vector<topology::PolygonEdges> edges_of;
+    for (const auto& surface : brep.surfaces) edges_of.emplace_back(surface.polygons);
+    std::vector<std::uint8_t> embedded(brep.lines.size(), 0), is_apart(brep.lines.size(), 0);
+    for (const auto& edge : graph.edges) {
+        std::pair<std::uint32_t, std::uint32_t> first{no_index, no_index};
+        for (const auto& use : graph.edge_uses(edge)) {
+            if (use.surface == no_index) {
+                embedded[edge.line] = 1;
+                continue;
+            }
+            const auto& edges = edges_of[use.surface];
+            const std::pair<std::uint32_t, std::uint32_t> nodes = std::minmax({edges.start_node(use.corner), edges.end_node(use.corner)});
+            if (first.first == no_index) first = nodes;
+            else if (first != nodes) is_apart[edge.line] = 1;
+        }
+    }
+    for (std::size_t l = 0; l < embedded.size(); ++l) embedded[l] &= static_cast<std::uint8_t>(is_apart[l] == 0);
+    return embedded;
+}
+
 }  // namespace
 
 void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
@@ -138,8 +162,9 @@ void check_seams(const ModelScope& scope, std::vector<Finding>& findings) {
         }
     }
     std::map<std::uint32_t, Finding> of_surface;
+    const auto embedded = embedded_lines(scope);
     for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
-        if (shared[l] != 0 || uses[l] < 2) continue;
+        if (shared[l] != 0 || uses[l] < 2 || embedded[l] != 0) continue;
         Finding& finding = of_surface[owner[l]];
         ++finding.count;
         finding.entities.push_back(line_ref(scope, l));

@@ -42,10 +42,12 @@ constexpr std::array mesher_burdens = {
 constexpr std::array cell_burdens = {
     TargetBurden{"M24", "the cells on both sides are not connected"},
     TargetBurden{"M27", "the cells on both sides are not connected"},
+    TargetBurden{"M35", "it takes their volumes for negative"},
 };
 constexpr std::array openfoam_burdens = {
     TargetBurden{"M24", "the cells on both sides are not connected"},
     TargetBurden{"M27", "the cells on both sides are not connected"},
+    TargetBurden{"M35", "it takes their volumes for negative"},
     TargetBurden{"M28", "checkMesh tells unused points"},
 };
 

@@ -10,7 +10,8 @@ namespace {
 // Gmsh numbers the edges of a cell by their end nodes, VTK goes around the bottom, the top, then upwards.
 constexpr std::uint8_t tetrahedron10[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 constexpr std::uint8_t hexahedron27[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
-constexpr std::uint8_t wedge18[] = {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16};
+// The first triangle of a wedge looks out of the cell in VTK (9.1: vtkCellSizeFilter gives a positive volume) and into it in Gmsh.
+constexpr std::uint8_t wedge18[] = {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10, 16, 17, 15};
 constexpr std::uint8_t pyramid13[] = {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12};
 
 constexpr int last_number = 140;
@@ -26,7 +27,7 @@ constexpr std::array<ElementType, last_number + 1> make_rows() {
     exact(3, quad, 4, 2);
     exact(4, tetrahedron, 4, 3);
     exact(5, hexahedron, 8, 3);
-    exact(6, wedge, 6, 3);
+    exact(6, wedge, 6, 3, wedge18);
     exact(7, pyramid, 5, 3);
     exact(8, quadratic_edge, 3, 1);
     exact(9, quadratic_triangle, 6, 2);
@@ -42,11 +43,11 @@ constexpr std::array<ElementType, last_number + 1> make_rows() {
     rows[14] = {14, quadratic_pyramid, 14, 13, pyramid13, 3};  // without the node in the middle of its base
 
     // Higher orders are read by their corners; the reader lists the rest as lost.
-    const auto corners_of = [&](CellType cell, std::uint32_t kept, int dimension) {
-        return [&rows, cell, kept, dimension](int first, std::initializer_list<std::uint32_t> node_counts) {
+    const auto corners_of = [&](CellType cell, std::uint32_t kept, int dimension, const std::uint8_t* order = nullptr) {
+        return [&rows, cell, kept, dimension, order](int first, std::initializer_list<std::uint32_t> node_counts) {
             int number = first;
             for (const std::uint32_t nodes : node_counts) {
-                rows[static_cast<std::size_t>(number)] = {number, cell, nodes, kept, nullptr, dimension};
+                rows[static_cast<std::size_t>(number)] = {number, cell, nodes, kept, order, dimension};
                 ++number;
             }
         };
@@ -68,7 +69,7 @@ constexpr std::array<ElementType, last_number + 1> make_rows() {
     tetrahedra(79, {34, 40, 46, 52, 58});
     const auto hexahedra = corners_of(hexahedron, 8, 3);
     hexahedra(92, {64, 125, 216, 343, 512, 729, 1000, 32, 44, 56, 68, 80, 92, 104});
-    const auto wedges = corners_of(wedge, 6, 3);
+    const auto wedges = corners_of(wedge, 6, 3, wedge18);
     wedges(90, {40, 75});
     wedges(106, {126, 196, 288, 405, 550, 24, 33, 42, 51, 60, 69, 78});
     const auto pyramids = corners_of(pyramid, 5, 3);

@@ -149,6 +149,7 @@ void tell_twice(Reading& r, const std::string& name, std::uint64_t count) {
     f.message = "data '" + name + "' give values twice for the same node or element: the first ones are kept";
     f.where.file = r.input.name();
     f.count = count;
+    f.element_kind = "value";
     r.findings.push_back(std::move(f));
 }
 

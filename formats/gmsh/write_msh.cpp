@@ -164,7 +164,8 @@ Result<std::vector<Loss>> write_mesh_file(const Dataset& dataset, OutputFile& ou
         return failure(FailureKind::cannot_hold, "F021", {named.string()}, "there is not one point to write into a mesh");
     }
     constexpr std::int64_t largest_tag = std::numeric_limits<std::int32_t>::max();
-    WritePlan plan = plan_mesh(*mesh, combined.left_out, combined.left_out_points, choices->second_order, largest_tag, losses);
+    WritePlan plan =
+        plan_mesh(*mesh, combined.left_out, combined.left_out_points, choices->second_order, dataset.format != "gmsh", largest_tag, losses);
     if (hollow != nullptr) *hollow = {take_hollow_volumes(plan), plan.groups};
     const std::vector<Attribute> described = describe_attributes(*mesh, losses);
     tell_boundaries(plan, *mesh, choices->v41, losses);

@@ -2,6 +2,7 @@
 #include "formats/gmsh/write_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -310,10 +311,38 @@ private:
     std::map<std::pair<int, std::int64_t>, std::size_t> renamed_;
 };
 
+/// Six volumes of the tetrahedron between the first triangle of a wedge and the middle of the second one; positive where the first
+/// one looks out of the cell, as we number wedges.
+double wedge_sign(std::span<const Vec3> points, std::span<const std::uint32_t> n) {
+    const Vec3& o = points[n[0]];
+    std::array<double, 3> a{}, b{}, up{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        a[k] = points[n[1]][k] - o[k];
+        b[k] = points[n[2]][k] - o[k];
+        up[k] = (points[n[3]][k] + points[n[4]][k] + points[n[5]][k] - 3 * o[k]) / 3;
+    }
+    return -(up[0] * (a[1] * b[2] - a[2] * b[1]) + up[1] * (a[2] * b[0] - a[0] * b[2]) + up[2] * (a[0] * b[1] - a[1] * b[0]));
+}
+
+/// Files of VTK number wedges both ways. Those that Gmsh would take for turned inside out are turned, each by its own sign.
+void turn_wedges(WritePlan& plan) {
+    constexpr std::array<std::uint8_t, 18> turned{0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13, 17, 16, 15};
+    for (std::size_t i = 0; i < plan.cell_count(); ++i) {
+        if (linear_type(plan.types[i]) != CellType::wedge || wedge_sign(plan.points, plan.cell_nodes(i)) >= 0) continue;
+        if (plan.nodes.data() != plan.storage.nodes.data()) {
+            plan.storage.nodes.assign(plan.nodes.begin(), plan.nodes.end());
+            plan.nodes = plan.storage.nodes;
+        }
+        const std::span<std::uint32_t> cell(plan.storage.nodes.data() + plan.offsets[i], plan.cell_nodes(i).size());
+        const std::vector<std::uint32_t> before(cell.begin(), cell.end());
+        for (std::size_t k = 0; k < cell.size(); ++k) cell[k] = before[turned[k]];
+    }
+}
+
 }  // namespace
 
 WritePlan plan_mesh(const CellMesh& mesh, std::span<const std::uint8_t> left_out, std::span<const std::uint8_t> left_out_points,
-                    bool second_order, std::int64_t largest_tag, std::vector<Loss>& losses) {
+                    bool second_order, bool wedges_by_sign, std::int64_t largest_tag, std::vector<Loss>& losses) {
     WritePlan plan;
     const bool unchanged = goes_out_unchanged(mesh, second_order) && left_out.empty() && left_out_points.empty();
     if (unchanged) {
@@ -327,6 +356,7 @@ WritePlan plan_mesh(const CellMesh& mesh, std::span<const std::uint8_t> left_out
         plan.offsets = plan.storage.offsets;
         plan.nodes = plan.storage.nodes;
     }
+    if (wedges_by_sign) turn_wedges(plan);
     plan.point_tags = tags_from(mesh.point_labels, mesh.points.size(), plan.points.size(), plan.point_source, largest_tag);
     plan.cell_tags = tags_from(mesh.cell_labels, mesh.cell_count(), plan.cell_count(), plan.cell_source, largest_tag);
     if (plan.point_tags.renumbered)

@@ -44,8 +44,9 @@ struct WritePlan {
 /// \param mesh lives as long as the plan
 /// \param left_out cells and points that do not go out (see Combined); may be empty
 /// \param second_order whether second-order cells go out as they are; else by their corners (a substance loss)
+/// \param wedges_by_sign wedges that Gmsh would take for turned inside out are turned; false: where MSH numbered them already
 /// \param largest_tag of nodes and elements
 WritePlan plan_mesh(const CellMesh& mesh, std::span<const std::uint8_t> left_out, std::span<const std::uint8_t> left_out_points,
-                    bool second_order, std::int64_t largest_tag, std::vector<Loss>& losses);
+                    bool second_order, bool wedges_by_sign, std::int64_t largest_tag, std::vector<Loss>& losses);
 
 }  // namespace geomend::gmsh

@@ -28,6 +28,7 @@ Finding& ObjectLog::start(std::string_view code, std::uint64_t line, std::uint32
     finding.severity = info != nullptr ? info->severity : Severity::error;
     finding.message = std::move(text);
     finding.where = {file_, line, column};
+    if (code == "F107" && subject.empty()) finding.element_kind = "value";  // of a point or element, not of a header
     has_error_ |= finding.severity == Severity::error;
     findings_.push_back(std::move(finding));
     subjects_.emplace_back(subject);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One object goes out as one dataset.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "base/number_text.h"
 #include "formats/vtk/legacy.h"
 #include "formats/vtk/legacy_arrays_out.h"
 #include "formats/vtk/vtk_cells.h"
@@ -19,12 +21,58 @@ constexpr std::uint8_t hidden_cell = 32;
 
 struct Settings {
     bool binary = false;
+    bool encoding_is_stated = false;
     int major = 5;
 };
+
+/// True where an array holds a number that is not finite: VTK's reader of text stops there, and takes garbage for what follows.
+bool has_no_text(const Attribute& a) {
+    return std::visit(
+        [](const auto& values) {
+            using T = typename std::decay_t<decltype(values)>::value_type;
+            if constexpr (std::is_floating_point_v<T>) return !std::ranges::all_of(values, [](T x) { return std::isfinite(x); });
+            else return false;
+        },
+        a.values);
+}
+
+/// A number of the type that no value of an array is near: -99999, or more nines.
+template <class T>
+T unused_number(const std::vector<T>& values) {
+    const auto mark = [](int nines) { return static_cast<T>(1 - std::pow(10.0, nines)); };
+    int nines = 5;
+    while (nines < 30 && std::ranges::any_of(values, [&](T x) { return x <= mark(nines); })) ++nines;
+    return mark(nines);
+}
+
+/// Puts the no-data value in place of numbers that are not finite; where none is stated, one is made up and stated.
+void give_text(Attribute& a, std::vector<Loss>& losses) {
+    std::visit(
+        [&](auto& values) {
+            using T = typename std::decay_t<decltype(values)>::value_type;
+            if constexpr (std::is_floating_point_v<T>) {
+                const bool is_usable = a.no_data && std::isfinite(static_cast<T>(*a.no_data));
+                const T mark = is_usable ? static_cast<T>(*a.no_data) : unused_number(values);
+                std::uint64_t missing = 0, infinite = 0;
+                for (T& x : values) {
+                    if (std::isfinite(x)) continue;
+                    ++(std::isnan(x) ? missing : infinite);
+                    x = mark;
+                }
+                const std::string why = "VTK reads no such numbers from text: " + number_text(double{mark}) + " stands for them";
+                const std::string what = "attribute '" + a.name + "'";
+                if (missing > 0) add_loss(losses, {LossClass::identity, a.name, "NaN of " + what, why, missing});
+                if (infinite > 0) add_loss(losses, {LossClass::substance, a.name, "infinite values of " + what, why, infinite});
+                a.no_data = double{mark};
+            }
+        },
+        a.values);
+}
 
 Result<Settings> settings_of(const FormatOptions& options) {
     Settings settings;
     for (const auto& [key, value] : options) {
+        if (key == "encoding") settings.encoding_is_stated = true;
         if (key == "encoding" && (value == "text" || value == "ascii")) settings.binary = false;
         else if (key == "encoding" && value == "binary") settings.binary = true;
         else if (key == "encoding") return failure(FailureKind::usage, "F018", {}, "encoding=" + value + ": text or binary is expected");
@@ -70,6 +118,9 @@ public:
     Writer(const Dataset& dataset, OutputFile& out, Settings settings, const Monitor* monitor)
         : dataset_(dataset), out_(out), settings_(settings), monitor_(monitor), arrays_(out, settings.binary, settings.major, losses_) {}
 
+    void add_losses(const std::vector<Loss>& more) {
+        for (const Loss& loss : more) add_loss(losses_, loss);
+    }
     Result<std::vector<Loss>> run();
 
 private:
@@ -360,6 +411,19 @@ Result<std::vector<Loss>> write_legacy(const Dataset& dataset, OutputSet& output
         return failure(FailureKind::cannot_hold, "F021", {output.main_path().string()},
                        "a legacy VTK file holds one dataset, and there are " + std::to_string(dataset.objects.size()) +
                            " objects: write them as .vtm, which holds any number");
+    if (!settings->binary && std::ranges::any_of(info_of(dataset.objects.front()).attributes, has_no_text)) {
+        if (settings->encoding_is_stated) {
+            Dataset readable = dataset;
+            std::vector<Loss> losses;
+            for (Attribute& a : info_of(readable.objects.front()).attributes) {
+                if (has_no_text(a)) give_text(a, losses);
+            }
+            Writer writer(readable, output.main_file(), *settings, options.monitor);
+            writer.add_losses(losses);
+            return writer.run();
+        }
+        settings->binary = true;
+    }
     return Writer(dataset, output.main_file(), *settings, options.monitor).run();
 }
 

@@ -42,6 +42,7 @@
 #include <vtkZLibDataCompressor.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <new>
 
@@ -220,6 +221,20 @@ void face_streams(const CellMesh& mesh, vtkIdTypeArray& locations, vtkIdTypeArra
 
 // ---- running a writer ----
 
+/// True where an array holds a number that is not finite: VTK reads none from text.
+bool has_no_text(vtkFieldData* arrays) {
+    for (int i = 0; arrays != nullptr && i < arrays->GetNumberOfArrays(); ++i) {
+        vtkDataArray* array = arrays->GetArray(i);
+        if (array == nullptr || (array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE)) continue;
+        for (vtkIdType t = 0; t < array->GetNumberOfTuples(); ++t) {
+            for (int c = 0; c < array->GetNumberOfComponents(); ++c) {
+                if (!std::isfinite(array->GetComponent(t, c))) return true;
+            }
+        }
+    }
+    return false;
+}
+
 Result<std::string> run(vtkXMLWriter& writer, vtkDataSet& data, const XmlWriteSettings& settings) {
     vtkNew<ErrorListener> listener;
     writer.AddObserver(vtkCommand::ErrorEvent, listener);
@@ -229,9 +244,11 @@ Result<std::string> run(vtkXMLWriter& writer, vtkDataSet& data, const XmlWriteSe
     writer.SetInputDataObject(&data);
     writer.SetHeaderTypeToUInt64();
     writer.SetEncodeAppendedData(0);
-    if (settings.ascii) writer.SetDataModeToAscii();
+    const bool is_text =
+        settings.ascii && !has_no_text(data.GetPointData()) && !has_no_text(data.GetCellData()) && !has_no_text(data.GetFieldData());
+    if (is_text) writer.SetDataModeToAscii();
     else writer.SetDataModeToAppended();
-    if (settings.compress && !settings.ascii) writer.SetCompressorTypeToZLib();
+    if (settings.compress && !is_text) writer.SetCompressorTypeToZLib();
     else writer.SetCompressorTypeToNone();
     writer.WriteToOutputStringOn();
     const int done = writer.Write();

@@ -7,6 +7,7 @@
 #include "formats/options.h"
 #include "formats/registry.h"
 #include "pipeline/deck_companions.h"
+#include "pipeline/dropped.h"
 
 namespace geomend {
 
@@ -42,6 +43,7 @@ Result<Dataset> load(const OpenedInput& opened, const LoadOptions& options, std:
         if (dataset && format->deck_companions) {
             if (auto followed = follow_deck_companions(*dataset, input, options); !followed) return std::move(followed).why();
         }
+        if (dataset) list_what_was_dropped(*dataset);
         if (companions != nullptr) *companions = input.companions();
         return dataset;
     } catch (const std::bad_alloc&) {

@@ -7,6 +7,7 @@
 #include "exchange/model_from_brep.h"
 #include "topology/brep_from_dataset.h"
 #include "topology/flat_objects.h"
+#include "topology/region_surfaces.h"
 
 namespace geomend {
 
@@ -131,9 +132,21 @@ void to_flat_objects(Dataset& dataset) {
     dataset.objects = std::move(objects);
 }
 
+// Surfaces around volumes that the file bounds by their cells alone, for targets that hold regions by their surfaces.
+void surround_regions(Dataset& dataset, const Format& target) {
+    const bool needs_surfaces = target.wants == WriterWants::brep || target.wants == WriterWants::faced_model ||
+                                (target.wants == WriterWants::tagged_mesh && (target.family != "gmsh" || target.name == "geo"));
+    if (!needs_surfaces || !dataset.models.empty() || (dataset.format == target.family && target.name != "geo")) return;
+    for (Object& object : dataset.objects) {
+        auto* mesh = std::get_if<CellMesh>(&object);
+        if (mesh != nullptr && has_entities(*mesh)) topology::add_region_surfaces(*mesh);
+    }
+}
+
 }  // namespace
 
 void shape_for(Dataset& dataset, const Format& target) {
+    surround_regions(dataset, target);
     const bool stated = states_a_model(dataset);
     switch (target.wants) {
         case WriterWants::objects:

@@ -64,6 +64,32 @@ Dataset beside_a_cube(bool matching) {
     return of(mesh);
 }
 
+/// Two rows of cubes; the second one by nodes of its own, moved along x and turned around z.
+Dataset two_rows(double along, double angle) {
+    CellMesh mesh = cubes(3), other = cubes(3);
+    const auto shift = static_cast<std::uint32_t>(mesh.points.size());
+    for (Vec3 p : other.points) mesh.points.push_back({p[0] + along, p[1], p[2]});
+    for (std::size_t c = 0; c < other.cell_count(); ++c) {
+        std::vector<std::uint32_t> nodes;
+        for (const std::uint32_t node : other.cell_nodes(c)) nodes.push_back(node + shift);
+        mesh.add_cell(CellType::hexahedron, nodes);
+    }
+    for (Vec3& p : mesh.points) {
+        p = {std::cos(angle) * p[0] - std::sin(angle) * p[1], std::sin(angle) * p[0] + std::cos(angle) * p[1], p[2]};
+    }
+    return of(mesh);
+}
+
+/// Two tetrahedra with an edge in common, and where asked others that join them.
+Dataset around_an_edge(bool joined) {
+    CellMesh mesh;
+    mesh.points = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {0.5, 1, 0.5}, {-1, 0.5, 0.5}, {-0.5, -1, 0.5}};
+    add_tetrahedron(mesh, {0, 2, 3, 1});
+    add_tetrahedron(mesh, {0, 4, 5, 1});
+    if (joined) add_tetrahedron(mesh, {0, 3, 4, 1});
+    return of(mesh);
+}
+
 /// A cube as a polyhedron; without its last face, or with a corner pulled out, where asked.
 Dataset polyhedron(bool open, bool bent) {
     CellMesh mesh = cubes(1);
@@ -221,6 +247,7 @@ constexpr Fixture fixtures[] = {
     {"M28", [] { return changed_cubes([](CellMesh& m) {
                      m.points.push_back({1, 1, 3});
                  }); }, sound_cubes},
+    {"M29", [] { return two_rows(2.7, 0.3); }, [] { return two_rows(3, 0.3); }},
     {"M30", [] { return well([](Well& w) { w.measured_depth[3] = 150; }); }, sound_well},
     {"M31", [] { return well([](Well& w) { w.path[3] = w.path[2]; }); }, sound_well},
     {"M32", [] { return well([](Well& w) { w.markers[0].measured_depth = 750; }); }, sound_well},
@@ -232,6 +259,16 @@ constexpr Fixture fixtures[] = {
          });
      }},
     {"M34", [] { return well([](Well& w) { w.curves[0].measured_depth[2] = 150; }); }, sound_well},
+    {"M35",
+     [] {
+         return changed_cubes([](CellMesh& m) {
+             for (std::size_t c = 0; c < 3; ++c) {
+                 for (std::size_t k = 0; k < 4; ++k) std::swap(m.nodes[8 * c + k], m.nodes[8 * c + 4 + k]);
+             }
+         });
+     },
+     sound_cubes},
+    {"M36", [] { return around_an_edge(false); }, [] { return around_an_edge(true); }},
     {"M40",
      [] {
          return raster({50, 0, 0}, {1, 2, 3, 4});

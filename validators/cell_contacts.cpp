@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What parts of a mesh of cells have in common where no face joins them: faces that lie on each other, edges and corners.
+#include <algorithm>
+#include <cmath>
+
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "base/wording.h"
+#include "geometry/triangle_tree.h"
+#include "geometry/vectors.h"
+#include "topology/near_weld.h"
+#include "validators/cell_checks.h"
+#include "validators/triangle_overlap.h"
+
+namespace geomend::validators {
+
+namespace {
+
+/// A triangle of an outer face.
+struct OuterTriangle {
+    std::uint32_t face;
+    Vec3 normal;  ///< points out of the cell
+};
+
+struct OuterFaces {
+    std::vector<Triangle> triangles;
+    std::vector<OuterTriangle> of;  ///< per triangle
+};
+
+Vec3 middle_of(const CellMesh& mesh, std::uint32_t cell) {
+    Vec3 sum{};
+    const auto nodes = mesh.cell_nodes(cell);
+    const Vec3& o = mesh.points[nodes[0]];
+    for (const std::uint32_t node : nodes) sum = plus(sum, minus(mesh.points[node], o));
+    return plus(o, times(1.0 / static_cast<double>(nodes.size()), sum));
+}
+
+/// The faces that only one cell has, as triangles: bent ones by the rule of all of us, the fan of the lowest corner.
+OuterFaces outer_faces(const CellScope& scope) {
+    OuterFaces outer;
+    const auto& points = scope.mesh().points;
+    for (std::size_t g = 0; g + 1 < scope.group_first().size(); ++g) {
+        if (scope.group_first()[g + 1] - scope.group_first()[g] != 1) continue;
+        const std::uint32_t f = scope.grouped()[scope.group_first()[g]];
+        const auto nodes = scope.nodes_of(scope.faces()[f]);
+        std::size_t lowest = 0;
+        for (std::size_t i = 1; i < nodes.size(); ++i) {
+            if (scope.vertex_of()[nodes[i]] < scope.vertex_of()[nodes[lowest]]) lowest = i;
+        }
+        const auto at = [&](std::size_t i) { return scope.vertex_of()[nodes[(lowest + i) % nodes.size()]]; };
+        const Vec3 inside = middle_of(scope.mesh(), scope.faces()[f].cell);
+        for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+            const Triangle t{at(0), at(i), at(i + 1)};
+            if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2]) continue;
+            Vec3 normal = cross(minus(points[t[1]], points[t[0]]), minus(points[t[2]], points[t[0]]));
+            if (dot(normal, minus(inside, points[t[0]])) > 0) normal = times(-1, normal);
+            outer.triangles.push_back(t);
+            outer.of.push_back({f, normal});
+        }
+    }
+    return outer;
+}
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Pairs of triangles of different cells that lie on each other from both sides, ascending. Faces whose nodes are the same within the
+/// tolerance match: that their nodes are not one is M27.
+std::vector<Pair> facing_pairs(const CellScope& scope, const OuterFaces& outer) {
+    const auto& points = scope.mesh().points;
+    const double tolerance = scope.lengths().tolerance;
+    const auto near = tolerance > 0 ? topology::clusters_within(points, tolerance) : std::vector<std::uint32_t>{};
+    const auto vertices_of = [&](std::uint32_t face) {
+        std::vector<std::uint32_t> vertices;
+        for (const std::uint32_t node : scope.nodes_of(scope.faces()[face])) {
+            const std::uint32_t v = scope.vertex_of()[node];
+            vertices.push_back(near.empty() ? v : near[v]);
+        }
+        std::ranges::sort(vertices);
+        return vertices;
+    };
+    const auto corners = [&](const Triangle& t) { return std::array{points[t[0]], points[t[1]], points[t[2]]}; };
+    const TriangleTree tree(points, outer.triangles);
+    std::vector<std::vector<Pair>> parts((tree.size() + 1023) / 1024);
+    parallel_for_each_index(parts.size(), [&](std::size_t part) {
+        for (std::size_t i = 1024 * part; i < std::min(tree.size(), 1024 * (part + 1)) && !scope.stopped(); ++i) {
+            const auto a = corners(tree.triangle(i));
+            const OuterTriangle& own = outer.of[tree.number(i)];
+            Vec3 low = a[0], high = a[0];
+            for (const Vec3& p : a) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    low[k] = std::min(low[k], p[k]);
+                    high[k] = std::max(high[k], p[k]);
+                }
+            }
+            tree.visit_triangles(tree.box(low, high, tolerance), [&](std::size_t j) {
+                const OuterTriangle& other = outer.of[tree.number(j)];
+                if (j <= i || scope.faces()[own.face].cell == scope.faces()[other.face].cell) return;
+                if (dot(own.normal, other.normal) >= 0 || !lie_on_each_other(a, corners(tree.triangle(j)), tolerance)) return;
+                if (vertices_of(own.face) == vertices_of(other.face)) return;
+                parts[part].push_back(std::minmax(tree.number(i), tree.number(j)));
+            });
+        }
+    });
+    std::vector<Pair> pairs;
+    for (const auto& part : parts) pairs.insert(pairs.end(), part.begin(), part.end());
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+void tell_unmatched(const CellScope& scope, const OuterFaces& outer, const std::vector<Pair>& pairs, std::vector<Finding>& findings) {
+    std::vector<std::uint32_t> cells;
+    for (const auto& [a, b] : pairs) {
+        cells.push_back(scope.faces()[outer.of[a].face].cell);
+        cells.push_back(scope.faces()[outer.of[b].face].cell);
+    }
+    if (cells.empty()) return;
+    std::ranges::sort(cells);
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    Finding finding = cells_of_mesh_finding(scope, "M24",
+                                            counted(cells.size(), "cell", "cells") + in_mesh(scope) +
+                                                (cells.size() == 1 ? " lies" : " lie") + " face to face with others without matching faces",
+                                            cells);
+    finding.measures = {{"pairs_of_triangles", static_cast<double>(pairs.size())}};
+    findings.push_back(std::move(finding));
+}
+
+/// Cells at nodes at which parts meet that neither faces nor pairs of facing triangles join.
+void tell_loose_contacts(const CellScope& scope, const OuterFaces& outer, const std::vector<Pair>& pairs, std::vector<Finding>& findings) {
+    DisjointSets parts(scope.mesh().cell_count());
+    const auto groups = scope.group_first();
+    for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
+        for (std::uint32_t k = groups[g] + 1; k < groups[g + 1]; ++k) {
+            parts.join(scope.faces()[scope.grouped()[groups[g]]].cell, scope.faces()[scope.grouped()[k]].cell);
+        }
+    }
+    for (const auto& [a, b] : pairs) parts.join(scope.faces()[outer.of[a].face].cell, scope.faces()[outer.of[b].face].cell);
+    std::vector<std::uint32_t> part_at(scope.mesh().points.size(), no_index);
+    std::vector<std::uint8_t> meets(scope.mesh().points.size(), 0);
+    const auto each_corner = [&](std::uint32_t cell, const auto& visit) {
+        const auto nodes = scope.mesh().cell_nodes(cell);
+        const std::uint32_t corners = node_count(linear_type(scope.mesh().types[cell]));
+        for (const std::uint32_t node : corners == 0 ? nodes : nodes.first(corners)) visit(scope.vertex_of()[node]);
+    };
+    for (const std::uint32_t cell : scope.volume_cells()) {
+        const std::uint32_t part = parts.root(cell);
+        each_corner(cell, [&](std::uint32_t v) {
+            if (part_at[v] == no_index) part_at[v] = part;
+            else if (part_at[v] != part) meets[v] = 1;
+        });
+    }
+    std::vector<std::uint32_t> cells;
+    bool has_tetrahedra = false;
+    for (const std::uint32_t cell : scope.volume_cells()) {
+        bool is_there = false;
+        each_corner(cell, [&](std::uint32_t v) { is_there |= meets[v] != 0; });
+        if (!is_there) continue;
+        cells.push_back(cell);
+        has_tetrahedra |= linear_type(scope.mesh().types[cell]) == CellType::tetrahedron;
+    }
+    if (cells.empty()) return;
+    Finding finding = cells_of_mesh_finding(
+        scope, "M36",
+        counted(cells.size(), "cell", "cells") + in_mesh(scope) + " meet others at edges or corners only: no face joins their parts",
+        cells);
+    if (!has_tetrahedra) finding.severity = Severity::info;
+    const auto nodes = static_cast<double>(std::ranges::count(meets, 1));
+    finding.measures = {{"nodes", nodes}};
+    findings.push_back(std::move(finding));
+}
+
+}  // namespace
+
+void check_cell_contacts(const CellScope& scope, std::vector<Finding>& findings) {
+    const OuterFaces outer = outer_faces(scope);
+    const auto pairs = facing_pairs(scope, outer);
+    tell_unmatched(scope, outer, pairs, findings);
+    tell_loose_contacts(scope, outer, pairs, findings);
+}
+
+}  // namespace geomend::validators

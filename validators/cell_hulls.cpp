@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/cell_hulls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/cell_volume.h"
+#include "geometry/vectors.h"
+
+namespace geomend::validators {
+
+namespace {
+
+/// True where, along a direction, two sets of points have no more than the tolerance in common.
+bool parted_along(const Vec3& direction, std::span<const Vec3> a, std::span<const Vec3> b, double tolerance) {
+    const double length = std::sqrt(dot(direction, direction));
+    if (!(length > 0)) return false;
+    const auto range = [&](std::span<const Vec3> points) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (const Vec3& p : points) {
+            const double x = dot(p, direction);
+            low = std::min(low, x);
+            high = std::max(high, x);
+        }
+        return std::array{low, high};
+    };
+    const auto [low_a, high_a] = range(a);
+    const auto [low_b, high_b] = range(b);
+    return std::min(high_a, high_b) - std::max(low_a, low_b) <= tolerance * length;
+}
+
+Vec3 mean(std::span<const Vec3> points) {
+    Vec3 sum{};
+    for (const Vec3& p : points) sum = plus(sum, p);
+    return times(1.0 / static_cast<double>(points.size()), sum);
+}
+
+/// Whether two tetrahedra have a body in common: no normal of a face and no direction at right angles to an edge of each parts them.
+bool tetrahedra_overlap(const std::array<Vec3, 4>& a, const std::array<Vec3, 4>& b, double tolerance) {
+    constexpr std::array<std::array<unsigned, 3>, 4> faces{{{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}}};
+    constexpr std::array<std::array<unsigned, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+    for (const auto* t : {&a, &b}) {
+        for (const auto& f : faces) {
+            const Vec3 normal = cross(minus((*t)[f[1]], (*t)[f[0]]), minus((*t)[f[2]], (*t)[f[0]]));
+            if (parted_along(normal, a, b, tolerance)) return false;
+        }
+    }
+    for (const auto& e : edges) {
+        const Vec3 u = minus(a[e[1]], a[e[0]]);
+        for (const auto& f : edges) {
+            const Vec3 v = minus(b[f[1]], b[f[0]]);
+            const Vec3 normal = cross(u, v);
+            if (dot(normal, normal) <= 1e-20 * dot(u, u) * dot(v, v)) continue;  // parallel: a normal of a face does it
+            if (parted_along(normal, a, b, tolerance)) return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+CellHulls::CellHulls(const CellScope& scope) : scope_(scope) {
+    const auto cells = scope.volume_cells();
+    const auto faces = scope.faces();
+    std::size_t f = 0;
+    for (const std::uint32_t cell : cells) {
+        first_face_.push_back(static_cast<std::uint32_t>(f));
+        while (f < faces.size() && faces[f].cell == cell) ++f;
+    }
+    first_face_.push_back(static_cast<std::uint32_t>(f));
+}
+
+void CellHulls::points_of(std::uint32_t i, const Vec3& origin, std::vector<Vec3>& points) const {
+    const CellMesh& mesh = scope_.mesh();
+    const std::uint32_t cell = scope_.volume_cells()[i];
+    auto nodes = mesh.cell_nodes(cell);
+    const std::uint32_t corners = node_count(linear_type(mesh.types[cell]));
+    if (corners != 0 && corners < nodes.size()) nodes = nodes.first(corners);
+    points.clear();
+    for (const std::uint32_t node : nodes) points.push_back(minus(mesh.points[node], origin));
+}
+
+void CellHulls::normals_of(std::uint32_t i, std::vector<Vec3>& normals) const {
+    normals.clear();
+    const auto& points = scope_.mesh().points;
+    for (const VolumeFace& face : faces_of(i)) {
+        const auto n = scope_.nodes_of(face);
+        if (n.size() < 3) continue;
+        // Of quadrangles the diagonals span the middle plane.
+        const Vec3 u = minus(points[n[n.size() == 4 ? 2 : 1]], points[n[0]]);
+        const Vec3 v = n.size() == 4 ? minus(points[n[3]], points[n[1]]) : minus(points[n[2]], points[n[0]]);
+        normals.push_back(cross(u, v));
+    }
+}
+
+std::vector<CellHulls::Tetrahedron> CellHulls::tetrahedra_of(std::uint32_t i, const Vec3& origin) const {
+    const CellMesh& mesh = scope_.mesh();
+    const CellType type = mesh.types[scope_.volume_cells()[i]];
+    std::vector<Vec3> own;
+    points_of(i, origin, own);
+    if (linear_type(type) == CellType::tetrahedron) return {{own[0], own[1], own[2], own[3]}};
+    const Vec3 middle = mean(own);
+    const auto at = [&](std::uint32_t node) { return minus(mesh.points[node], origin); };
+    std::vector<Tetrahedron> pieces;
+    std::vector<double> volumes;
+    double sum = 0;
+    for (const VolumeFace& face : faces_of(i)) {
+        const auto nodes = scope_.nodes_of(face);
+        std::size_t lowest = 0;
+        for (std::size_t k = 1; k < nodes.size(); ++k) {
+            if (scope_.vertex_of()[nodes[k]] < scope_.vertex_of()[nodes[lowest]]) lowest = k;
+        }
+        for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
+            const auto corner = [&](std::size_t step) { return at(nodes[(lowest + step) % nodes.size()]); };
+            pieces.push_back({middle, corner(0), corner(k), corner(k + 1)});
+            volumes.push_back(tetrahedron_volume(pieces.back()[0], pieces.back()[1], pieces.back()[2], pieces.back()[3]));
+            sum += volumes.back();
+        }
+    }
+    if (type == CellType::polyhedron) return pieces;  // faces may be wound any way
+    // Where the middle does not see a face, its tetrahedron is to be taken away from the others: it counts for nothing here.
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        if (volumes[k] * sum > 0) pieces[kept++] = pieces[k];
+    }
+    pieces.resize(kept);
+    return pieces;
+}
+
+std::array<Vec3, 2> CellHulls::box(std::uint32_t i) const {
+    const std::uint32_t cell = scope_.volume_cells()[i];
+    const auto nodes = scope_.mesh().cell_nodes(cell);
+    std::array<Vec3, 2> box{scope_.mesh().points[nodes[0]], scope_.mesh().points[nodes[0]]};
+    for (const std::uint32_t node : nodes) {
+        const Vec3& p = scope_.mesh().points[node];
+        for (std::size_t k = 0; k < 3; ++k) {
+            box[0][k] = std::min(box[0][k], p[k]);
+            box[1][k] = std::max(box[1][k], p[k]);
+        }
+    }
+    return box;
+}
+
+bool CellHulls::overlap(std::uint32_t i, std::uint32_t j, double tolerance, Scratch& scratch) const {
+    const Vec3 origin = scope_.mesh().points[scope_.mesh().cell_nodes(scope_.volume_cells()[i])[0]];
+    auto& [a, b, normals] = scratch;
+    points_of(i, origin, a);
+    points_of(j, origin, b);
+    if (parted_along(minus(mean(b), mean(a)), a, b, tolerance)) return false;
+    for (const std::uint32_t cell : {i, j}) {
+        normals_of(cell, normals);
+        for (const Vec3& normal : normals) {
+            if (parted_along(normal, a, b, tolerance)) return false;
+        }
+    }
+    const auto of_b = tetrahedra_of(j, origin);
+    for (const auto& s : tetrahedra_of(i, origin)) {
+        const Vec3 normal = cross(minus(s[2], s[1]), minus(s[3], s[1]));  // of its face of the cell
+        if (parted_along(normal, s, b, tolerance)) continue;
+        for (const auto& t : of_b) {
+            if (tetrahedra_overlap(s, t, tolerance)) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace geomend::validators

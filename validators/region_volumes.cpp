@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/region_volumes.h"
+
+#include <algorithm>
+#include <set>
+
+#include "topology/face_edges.h"
+#include "topology/face_volume.h"
+#include "topology/frontiers.h"
+#include "topology/line_graph.h"
+#include "topology/pieces.h"
+#include "topology/regions.h"
+#include "validators/cell_scope.h"
+
+namespace geomend::validators {
+
+namespace {
+
+/// The cells of all regions over the vertices of the model; \param region_of per cell
+CellMesh cells_of_regions(const BrepData& brep, std::vector<std::uint32_t>& region_of) {
+    CellMesh mesh;
+    mesh.points = brep.vertices;
+    const bool has_faces = std::ranges::any_of(brep.regions, [](const auto& r) { return !r.cell_faces.empty(); });
+    if (has_faces) {
+        mesh.cell_faces.push_back(0);
+        mesh.face_offsets.push_back(0);
+    }
+    std::vector<std::uint32_t> nodes;
+    for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+        const auto& region = brep.regions[r];
+        for (std::size_t c = 0; c < region.cell_types.size(); ++c) {
+            nodes.clear();
+            for (std::uint64_t k = region.cell_offsets[c]; k < region.cell_offsets[c + 1]; ++k) {
+                nodes.push_back(region.nodes[region.cell_nodes[k]].value);
+            }
+            mesh.add_cell(region.cell_types[c], nodes);
+            region_of.push_back(r);
+            if (region.cell_faces.empty()) continue;
+            for (std::uint64_t f = region.cell_faces[c]; f < region.cell_faces[c + 1]; ++f) {
+                for (std::uint64_t k = region.face_offsets[f]; k < region.face_offsets[f + 1]; ++k) {
+                    mesh.face_nodes.push_back(region.nodes[region.face_nodes[k]].value);
+                }
+                mesh.face_offsets.push_back(mesh.face_nodes.size());
+            }
+            mesh.cell_faces.back() = mesh.face_offsets.size() - 1;
+        }
+    }
+    return mesh;
+}
+
+using Corners = std::vector<std::uint32_t>;
+
+/// The vertices of each polygon of all surfaces, sorted; the polygons ascend.
+std::vector<Corners> polygons_of(const BrepData& brep) {
+    std::vector<Corners> polygons;
+    for (const auto& surface : brep.surfaces) {
+        for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+            Corners corners;
+            for (const std::uint32_t node : surface.polygons[p]) corners.push_back(surface.nodes[node].value);
+            std::ranges::sort(corners);
+            polygons.push_back(std::move(corners));
+        }
+    }
+    std::ranges::sort(polygons);
+    return polygons;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> regions_with_bare_facets(const ModelScope& scope) {
+    const BrepData& brep = scope.brep();
+    std::vector<std::uint8_t> bare(brep.regions.size(), 0);
+    std::vector<std::uint32_t> region_of;
+    const CellMesh mesh = cells_of_regions(brep, region_of);
+    if (region_of.empty()) return bare;
+    const CellScope cells(mesh, Lengths{}, {});
+    const auto polygons = polygons_of(brep);
+    const auto groups = cells.group_first();
+    for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
+        const auto group = cells.grouped().subspan(groups[g], groups[g + 1] - groups[g]);
+        std::set<std::uint32_t> regions;
+        for (const std::uint32_t f : group) regions.insert(region_of[cells.faces()[f].cell]);
+        if (group.size() > 1 && regions.size() == 1) continue;
+        Corners corners;
+        for (const std::uint32_t node : cells.nodes_of(cells.faces()[group.front()])) corners.push_back(node);
+        std::ranges::sort(corners);
+        if (std::ranges::binary_search(polygons, corners)) continue;
+        for (const std::uint32_t r : regions) bare[r] = 1;
+    }
+    return bare;
+}
+
+std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope) {
+    const BrepData& brep = scope.brep();
+    std::vector<std::uint32_t> volumes(brep.regions.size(), 0);
+    using Stated = std::pair<std::uint32_t, bool>;  // surface and side
+    std::vector<std::set<Stated>> sides(brep.regions.size());
+    bool has_inner = false;
+    for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+        for (const auto& side : brep.regions[r].sides) sides[r].emplace(side.surface.value, side.front);
+        const bool inner = std::ranges::any_of(sides[r], [&](const Stated& s) { return sides[r].contains({s.first, !s.second}); });
+        if (!inner) sides[r].clear();
+        has_inner |= inner;
+    }
+    if (!has_inner) return volumes;
+
+    BrepData parts;
+    parts.vertices = brep.vertices;
+    std::vector<std::uint32_t> source;  // per part its surface
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (auto& piece : topology::pieces_of(brep.surfaces[s], scope.model().faces[s])) {
+            piece.surface.lines.clear();
+            piece.surface.neighbours.clear();
+            parts.surfaces.push_back(std::move(piece.surface));
+            source.push_back(s);
+        }
+    }
+    std::vector<topology::FaceEdges> faces;
+    for (auto& part : parts.surfaces) faces.push_back(topology::connect_polygons(part));
+    const auto graph = topology::build_lines(parts, faces, {});
+    const auto cones = topology::cone_volumes(parts, faces);
+    std::vector<double> tolerances;
+    for (const std::uint32_t s : source) tolerances.push_back(s < scope.model().tolerances.size() ? scope.model().tolerances[s] : 0);
+    const auto found = topology::find_regions(parts, graph, cones, tolerances);
+    for (const auto& volume : found.regions) {
+        for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+            if (sides[r].empty()) continue;
+            const bool is_inside = std::ranges::all_of(volume, [&](const auto& side) {
+                return sides[r].contains({source[side.surface.value], side.front});
+            });
+            volumes[r] += is_inside ? 1 : 0;
+        }
+    }
+    return volumes;
+}
+
+}  // namespace geomend::validators

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "validators/model_scope.h"
+
+namespace geomend::validators {
+
+/// Per region 1 where cells fill it and a facet of theirs, between them and another region or the outside, is no polygon of a surface:
+/// walking along surfaces then cannot tell it from its neighbours. Cost: n log n in the facets of all cells.
+std::vector<std::uint8_t> regions_with_bare_facets(const ModelScope& scope);
+
+/// Per stated region the number of volumes that its sides enclose when surfaces are cut wherever they meet others, whether or not
+/// the file cuts them there; 0 for regions without a surface inside, which the walk along whole surfaces tells already.
+std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope);
+
+}  // namespace geomend::validators
