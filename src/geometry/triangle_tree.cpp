@@ -118,9 +118,9 @@ Box outer_box(std::span<const FourBoxes> fours, std::size_t first, std::size_t l
     return all;
 }
 
-TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) : vertices_(vertices) {
+TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles, double margin) : vertices_(vertices) {
     sort_triangles(triangles);
-    make_boxes();
+    make_boxes(margin);
 }
 
 Box TriangleTree::box(const Vec3& low, const Vec3& high, double distance) const {
@@ -188,7 +188,7 @@ void TriangleTree::sort_triangles(std::span<const Triangle> triangles) {
     });
 }
 
-void TriangleTree::make_boxes() {
+void TriangleTree::make_boxes(double margin) {
     const auto fours = [](std::size_t count) { return (count + 3) / 4; };
     const auto make_level = [&](std::size_t count, const auto& box_of) {
         std::vector<FourBoxes>& level = levels_.emplace_back(fours(count));
@@ -202,7 +202,7 @@ void TriangleTree::make_boxes() {
     levels_.reserve(18);  // 4^17 triangles and more than 32 bits can number: references stay valid
     make_level(triangles_.size(), [&](std::size_t i) {
         Box all = empty_box;
-        for (const std::uint32_t v : triangles_[i]) enclose(all, box(vertices_[v], vertices_[v]));
+        for (const std::uint32_t v : triangles_[i]) enclose(all, box(vertices_[v], vertices_[v], margin / 2));
         return all;
     });
     while (levels_.back().size() > 1) {

@@ -66,7 +66,8 @@ Box outer_box(std::span<const FourBoxes> fours, std::size_t first, std::size_t l
 /// positions in line) are left out. Memory: 48 bytes per triangle. Cost: linear, about 0.1 s per million.
 class TriangleTree {
 public:
-    TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+    /// \param margin boxes are so much wider that triangles within this distance of each other have boxes that overlap
+    TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles, double margin = 0);
 
     std::size_t size() const { return order_.size(); }
     /// Number, in the given soup, of the i-th triangle in the tree's order.
@@ -145,7 +146,7 @@ private:
     std::vector<std::vector<FourBoxes>> levels_;
 
     void sort_triangles(std::span<const Triangle> triangles);
-    void make_boxes();
+    void make_boxes(double margin);
 
     template <class Visit>
     void visit_below(std::size_t level, std::size_t i, std::size_t target, const Box& box, const Visit& visit) const {

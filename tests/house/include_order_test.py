@@ -19,6 +19,7 @@ USES = {
     "formats": ("model",),
     "report": ("model",),
     "grid": ("geometry",),
+    "arrangement": ("geometry",),
     "topology": ("grid",),
     "exchange": ("topology",),
     "complexity": ("topology",),

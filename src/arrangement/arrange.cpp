@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "arrangement/arrange.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arrangement/cut_round.h"
+#include "arrangement/snap_grid.h"
+#include "base/parallel.h"
+#include "geometry/vectors.h"
+
+namespace geomend::arrangement {
+
+namespace {
+
+/// The soup on the grid, near vertices made one, triangles and edges that have become nothing left out.
+struct Snapped {
+    SnapGrid grid;
+    CutState state;
+    std::vector<std::uint32_t> first_of;  ///< per point the first vertex of the soup that became it
+    std::vector<std::uint32_t> point_of;  ///< per vertex of the soup
+};
+
+Snapped snapped(const TriangleSoup& soup, double tolerance) {
+    const SnapGrid grid = snap_grid(soup.vertices, tolerance);
+    Snapped s{grid,
+              {SpacedPoints(grid.tolerance_steps, soup.vertices.size()), {}, {}, {}, {}, {}, {}, std::max(2.0, grid.tolerance_steps / 32)},
+              {},
+              {}};
+    s.state.patches = soup.patches;
+    s.point_of.resize(soup.vertices.size());
+    for (std::uint32_t v = 0; v < soup.vertices.size(); ++v) {
+        const std::uint32_t p = s.point_of[v] = s.state.points.add(grid.to_steps(soup.vertices[v]));
+        if (p == s.first_of.size()) s.first_of.push_back(v);
+    }
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        const auto [a, b, c] = soup.triangles[t];
+        const Triangle made{s.point_of[a], s.point_of[b], s.point_of[c]};
+        if (made[0] == made[1] || made[1] == made[2] || made[2] == made[0]) continue;
+        s.state.triangles.push_back(made);
+        s.state.source.push_back(t);
+    }
+    s.state.is_new.assign(s.state.triangles.size(), 1);
+    for (std::uint32_t e = 0; e < soup.edges.size(); ++e) {
+        const auto [a, b] = soup.edges[e];
+        if (s.point_of[a] == s.point_of[b]) continue;
+        s.state.edges.push_back({s.point_of[a], s.point_of[b]});
+        s.state.edge_source.push_back(e);
+    }
+    return s;
+}
+
+/// Vertices of the result: those of the soup that are used, in their order, then new ones as they were made.
+void write_vertices(const TriangleSoup& soup, const Snapped& s, Arrangement& result) {
+    const auto& points = s.state.points.points();
+    std::vector<std::uint32_t> number(points.size(), no_index);
+    std::vector<std::uint8_t> used(points.size(), 0);
+    for (const Triangle& t : s.state.triangles) {
+        for (const std::uint32_t v : t) used[v] = 1;
+    }
+    for (const auto& edge : s.state.edges) used[edge[0]] = used[edge[1]] = 1;
+    for (std::uint32_t p = 0; p < points.size(); ++p) {
+        if (used[p] == 0) continue;
+        number[p] = static_cast<std::uint32_t>(result.soup.vertices.size());
+        const bool was_there = p < s.first_of.size();
+        result.soup.vertices.push_back(was_there && s.grid.is_fine ? soup.vertices[s.first_of[p]] : s.grid.to_position(points[p]));
+        result.origin.vertices.push_back(was_there ? Origin::from_vertex(s.first_of[p]) : Origin::Vertex{});
+        result.made += was_there ? 0 : 1;
+    }
+    result.soup.triangles.resize(s.state.triangles.size());
+    for (std::size_t t = 0; t < s.state.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) result.soup.triangles[t][k] = number[s.state.triangles[t][k]];
+    }
+    for (std::size_t e = 0; e < s.state.edges.size(); ++e) {
+        result.soup.edges.push_back({number[s.state.edges[e][0]], number[s.state.edges[e][1]]});
+        result.soup.edge_ids.push_back(soup.edge_ids[s.state.edge_source[e]]);
+    }
+    for (std::uint32_t v = 0; v < soup.vertices.size(); ++v) {
+        const std::uint32_t p = s.point_of[v];
+        if (number[p] == no_index) continue;
+        const Vec3 d = minus(result.soup.vertices[number[p]], soup.vertices[v]);
+        result.largest_move = std::max(result.largest_move, std::sqrt(dot(d, d)));
+    }
+}
+
+/// Each new vertex lies in the first triangle that has it.
+void write_origins(const TriangleSoup& soup, const Snapped& s, Arrangement& result) {
+    result.origin.triangles = s.state.source;
+    for (const std::uint32_t t : s.state.source) result.soup.patches.push_back(soup.patches[t]);
+    for (std::size_t t = 0; t < result.soup.triangles.size(); ++t) {
+        for (const std::uint32_t v : result.soup.triangles[t]) {
+            auto& origin = result.origin.vertices[v];
+            if (origin.vertex != no_index || origin.triangle != no_index) continue;
+            const auto [a, b, c] = soup.triangles[s.state.source[t]];
+            origin = Origin::from_triangle(s.state.source[t],
+                                           weights_in(soup.vertices[a], soup.vertices[b], soup.vertices[c], result.soup.vertices[v]));
+        }
+    }
+}
+
+void count_changes(const TriangleSoup& soup, const Snapped& s, Arrangement& result) {
+    std::vector<std::uint32_t> pieces(soup.triangles.size(), 0);
+    for (const std::uint32_t t : s.state.source) ++pieces[t];
+    for (const std::uint32_t n : pieces) {
+        result.collapsed += n == 0 ? 1 : 0;
+        result.cut += n > 1 ? 1 : 0;
+    }
+    result.doubled = s.state.doubled;
+    result.merged = soup.vertices.size() - s.first_of.size() + s.state.merged;
+}
+
+}  // namespace
+
+Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& options) {
+    if (auto sound = check(soup); !sound) return std::move(sound).why();
+    if (!(options.tolerance > 0)) return failure(FailureKind::usage, "F018", {}, "a cut needs a tolerance above 0");
+    Snapped s = snapped(soup, options.tolerance);
+    Arrangement result;
+    result.clean = false;
+    const auto stopped = [&] { return options.monitor != nullptr && options.monitor->stopped(); };
+    while (!result.clean && result.rounds < options.most_rounds && !stopped()) {
+        result.clean = cut_round(s.state, options.monitor);
+        ++result.rounds;
+    }
+    if (stopped()) result.clean = false;
+    write_vertices(soup, s, result);
+    write_origins(soup, s, result);
+    count_changes(soup, s, result);
+    return result;
+}
+
+}  // namespace geomend::arrangement

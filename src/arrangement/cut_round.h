@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "arrangement/spaced_points.h"
+#include "base/monitor.h"
+#include "geometry/triangle_pair.h"
+
+namespace geomend::arrangement {
+
+/// Triangles over points of the grid while they are being cut.
+struct CutState {
+    SpacedPoints points;
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> source;                ///< per triangle the one of the soup that it is a piece of
+    std::vector<std::uint8_t> is_new;                 ///< per triangle: made since it was last looked at
+    std::span<const std::uint32_t> patches;           ///< per triangle of the soup
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< embedded edges
+    std::vector<std::uint32_t> edge_source;           ///< per edge the one of the soup that it is a piece of
+    double reach = 0;                                 ///< nearer features are one; less than the distance that points keep
+    unsigned rounds = 0;                              ///< done so far
+    std::uint64_t doubled = 0;                        ///< triangles left out since their patch had the same already
+    std::uint64_t merged = 0;                         ///< points that gave way to others after they were made
+};
+
+/// Looks for what triangles have in common and cuts them there, once. True where nothing was found, so that nothing changed.
+/// Cost: near-linear; the number of rounds is 2 to 4 for most models.
+bool cut_round(CutState& state, const Monitor* monitor);
+
+}  // namespace geomend::arrangement

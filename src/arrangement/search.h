@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "arrangement/near_features.h"
+#include "base/monitor.h"
+
+namespace geomend::arrangement {
+
+/// What all pairs of triangles have in common within a distance, but for what they share by number.
+/// \param is_new per triangle; pairs of which neither is new are passed over: they were looked at before
+/// \param points on the grid; \pre no triangle names a vertex twice
+/// In an order that does not depend on the number of threads; the same new point may come several times. Near-linear.
+NearFeatures search(std::span<const Vec3> points, std::span<const Triangle> triangles, std::span<const std::uint8_t> is_new,
+                    double distance, const Monitor* monitor);
+
+}  // namespace geomend::arrangement

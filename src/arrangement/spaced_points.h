@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace geomend::arrangement {
+
+/// Points that keep a distance from each other: one that is added closer than that to another becomes that one, to the
+/// nearest where there are several. So no chain of near points draws one far away, and the order of adding decides who stays.
+class SpacedPoints {
+public:
+    /// \param distance above 0
+    /// \param expected number of points for which room is made
+    SpacedPoints(double distance, std::size_t expected);
+
+    /// The number of the point: of an earlier one, where one is closer than the distance. Constant time where few are near.
+    std::uint32_t add(const Vec3& point);
+    const std::vector<Vec3>& points() const { return points_; }
+
+private:
+    double distance_, cell_;
+    std::vector<Vec3> points_;
+    std::vector<std::uint32_t> next_;  ///< of a point, the one before it in its cell
+    std::vector<std::uint64_t> keys_;  ///< open addressing: cell, and its newest point
+    std::vector<std::uint32_t> heads_;
+    std::size_t cells_ = 0, mask_ = 0;
+
+    std::size_t slot_of(std::uint64_t key) const;
+    void grow();
+};
+
+}  // namespace geomend::arrangement
