@@ -91,8 +91,8 @@ Trouble need_whole(const Scanner& in, const Record& record, std::size_t i, std::
 /// Failure F012 where it is empty or not within the dims (dims 0: not known).
 Trouble take_box(const Scanner& in, const Record& record, std::size_t i, const Dims& dims, CellBox& box);
 
-/// The next record of a keyword, by item_counts(). A '/' that is missing after all its items is taken as read, with a
-/// finding F147. Failure F004, F008, F012.
+/// The next record of a keyword, by item_counts(). A '/' that is missing after all items of an operation on
+/// arrays is taken as read, with a finding F147. Failure F004, F008, F012.
 Result<Record> take_record(Scanner& in, std::string_view keyword, std::vector<Finding>& findings);
 
 // ---- records of the grid's head, each with the scanner behind its keyword (head_records.cpp) ----

@@ -150,7 +150,7 @@ Result<Record> Scanner::record(std::string_view keyword, const RecordRule& rule)
     for (;; last = at_) {
         const bool more = skip() && *at_ != '/';
         if (more && rule.most > 0 && record.items.size() >= rule.most) {
-            if (std::find(last, at_, '\n') == at_)
+            if (!rule.may_lack_slash || std::find(last, at_, '\n') == at_)
                 return unreadable("F008", here(),
                                   "expected '/' after the " + std::to_string(rule.most) + (rule.most == 1 ? " item" : " items") + " of " +
                                       std::string(keyword) + ", found " + shown(Scanner(*this).item().text));

@@ -45,6 +45,7 @@ struct RecordRule {
     std::size_t most = 0;                       ///< items; 0: not known
     std::size_t words = 0;                      ///< so many items at its front may be words that are keywords, too
     bool (*known)(std::string_view) = nullptr;  ///< tells keywords
+    bool may_lack_slash = false;                ///< complete at a line end, it may end there
 };
 
 /// Where a byte of an input stands. Cost: counts the lines before it.
@@ -72,7 +73,8 @@ public:
     /// The next item, or "/" as text for a slash; nothing (at == nullptr) at the end.
     Item item();
     /// The items up to the next '/', which is taken. F004 at the end of the file, F012 for a bad repeat count.
-    /// A keyword on a line of its own before the record is complete, and items beyond the most that it may have, are F008.
+    /// A keyword on a line of its own before the record is complete, and items beyond the
+    /// most that it may have, are F008.
     Result<Record> record(std::string_view keyword, const RecordRule& rule = {});
     /// Whether the next word is unquoted, begins its line and is alone on it.
     bool word_alone_follows(std::string_view& word);

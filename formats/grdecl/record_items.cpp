@@ -28,7 +28,7 @@ Finding finding(std::string code, Location where, std::string message, std::uint
 
 Result<Record> take_record(Scanner& in, std::string_view keyword, std::vector<Finding>& findings) {
     const ItemCounts counts = item_counts(keyword);
-    auto record = in.record(keyword, {counts.most, counts.words, counts.most > 0 ? is_known : nullptr});
+    auto record = in.record(keyword, {counts.most, counts.words, counts.most > 0 ? is_known : nullptr, is_edit(keyword)});
     if (!record || !record->slash_missing) return record;
     if (std::ranges::find(findings, "F147", &Finding::code) == findings.end())
         findings.push_back(finding("F147", in.location(record->slash), "the record of " + std::string(keyword) + " has no '/' at its end"));

@@ -60,8 +60,8 @@ struct CornerPointGrid {
         };
         std::string name;
         std::vector<Box> boxes;
-        std::optional<double> multiplier;       ///< of transmissibility (MULTFLT)
-        std::optional<double> edit_multiplier;  ///< MULTFLT of section EDIT, which OPM Flow takes instead
+        std::optional<double> multiplier;            ///< of transmissibility (MULTFLT)
+        std::optional<double> edit_multiplier = {};  ///< MULTFLT of section EDIT, which OPM Flow takes instead
     };
     std::vector<Fault> faults;
 
