@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cmath>
+
 #include "grdecl/grdecl_support.h"
 
 // Decks as people and programs write them, beside the letter of the format.
