@@ -165,6 +165,34 @@ Dataset bent_faces(double lean) {
     return of(grid);
 }
 
+/// A connection that the file states between two cells of which none or one is active, or of one cell with itself.
+Dataset stated_connection(std::uint64_t first, std::uint64_t second) {
+    return bricks([&](CornerPointGrid& g) { g.connections.push_back({first, second, 1.5}); });
+}
+/// Two local grids, the second one from this column of their host on.
+Dataset local_grids(std::uint32_t from) {
+    CornerPointGrid host = brick_grid(6, 3, 2);
+    host.info.name = "main";
+    Dataset data = of(host);
+    for (const std::uint32_t first : {0u, from}) {
+        CornerPointGrid local = brick_grid(4, 4, 2);
+        local.info.name = "LGR" + std::to_string(first);
+        auto& box = local.host.emplace();
+        box.first = {first, 0, 0};
+        box.last = {first + 1, 1, 1};
+        data.objects.emplace_back(std::move(local));
+    }
+    return data;
+}
+/// Four cells around an axis, each over so many degrees, as the reader of decks gives them.
+Dataset around_an_axis(const char* degrees) {
+    const test::TemporaryFolder folder;
+    test::write_file(folder / "a.data", "RUNSPEC\nDIMENS\n2 4 1 /\nRADIAL\nGRID\nINRAD\n1 /\nDRV\n1 2 /\nDTHETAV\n4*" + std::string(degrees) +
+                                            " /\nDZ\n8*3 /\nTOPS\n8*10 /\n");
+    auto read = load(folder / "a.data", {});
+    return read ? std::move(*read) : Dataset{};
+}
+
 /// As the reader of decks gives it.
 Dataset deck(const char* specgrid) {
     const test::TemporaryFolder folder;
@@ -278,6 +306,9 @@ constexpr Fixture fixtures[] = {
     {"C26", [] { return two_fault_records(1, false); }, [] { return two_fault_records(0, true); }},
     {"C27", [] { return ribbon(true); }, [] { return ribbon(false); }, "", true},
     {"C28", [] { return bent_faces(30); }, [] { return bent_faces(0); }, "", true},
+    {"C29", [] { return stated_connection(5, 5); }, [] { return stated_connection(5, 17); }},
+    {"C30", [] { return local_grids(1); }, [] { return local_grids(2); }},
+    {"C31", [] { return around_an_axis("95"); }, [] { return around_an_axis("90"); }},
     {"S01", a_point, ready_for_flow, "flow"},
     {"S02", [] { return for_flow([](CornerPointGrid& g) { move_corners(g, 0, 4, 8, 4); }); }, ready_for_flow, "flow"},
     {"S03", [] { return for_flow([](CornerPointGrid& g) { g.activity.assign(g.cell_count(), 0); }); }, ready_for_flow, "flow"},
