@@ -55,7 +55,7 @@ TEST(Wedges, GoBackToGmshAsTheyCame) {
     for (const bool second_order : {false, true}) {
         const auto data = read_text(prism(second_order));
         ASSERT_TRUE(data);
-        const auto again = read_text(write_text(*data, {{"version", "2.2"}}).bytes);
+        const auto again = read_text(write_text(*data, {{"version", "2.2"}, {"order", "2"}}).bytes);
         ASSERT_TRUE(again);
         EXPECT_EQ(mesh_of(*again).nodes, mesh_of(*data).nodes);
     }
@@ -71,7 +71,7 @@ TEST(Wedges, OfOtherProgramsAreTurnedByTheirOwnSign) {
         constexpr unsigned turned[15] = {0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13};
         for (std::size_t k = 0; k < mesh.nodes.size(); ++k) mesh.nodes[k] = sound[turned[k]];
         ASSERT_LT(sign_in_vtk(mesh), 0);
-        const auto again = read_text(write_text(*data, {{"version", "2.2"}}).bytes);
+        const auto again = read_text(write_text(*data, {{"version", "2.2"}, {"order", "2"}}).bytes);
         ASSERT_TRUE(again);
         EXPECT_EQ(mesh_of(*again).nodes, sound);
     }
