@@ -130,6 +130,15 @@ Dataset far_point(double x) {
     return data;
 }
 
+/// A sheet of which one inner node has another height.
+Dataset spiked(double z) {
+    Dataset data = loose({sheet(0, 0)});
+    for (Vec3& p : std::get<Surface>(data.objects[0]).points) {
+        if (p[0] == 1 && p[1] == 1) p[2] = z;
+    }
+    return data;
+}
+
 // ---- the layered model, and what is done to it
 
 Dataset layered() { return LayeredModel().data(); }
@@ -499,6 +508,7 @@ constexpr Fixture fixtures[] = {
     {"M07", [] { return loose({sheet(0, 0, true)}); }, [] { return loose({sheet(0, 0)}); }},
     {"M08", [] { return soup(true); }, [] { return soup(false); }},
     {"M09", [] { return far_point(1e20); }, [] { return far_point(-1); }},
+    {"M15", [] { return spiked(-99999); }, [] { return spiked(-1); }},
     {"Q01", [] { return triangle(0.5, 0.008); }, [] { return triangle(0.5, 0.01); }},
     {"Q02", [] { return triangle(0, 0.001); }, [] { return triangle(0, 0.01); }},
     {"Q03", [] { return book(9, true); }, [] { return book(11, true); }},
