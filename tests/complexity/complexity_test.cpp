@@ -127,14 +127,14 @@ TEST(Complexity, CellsDivideTheVolumeEvenly) {
 TEST(Complexity, OfAThreadHasBoundedCost) {
     BrepData thread = layered(1, 1, 0);
     for (Vec3& p : thread.vertices) p = {1e9 * p[0], 1e-9 * p[1], p[2]};
-    EXPECT_LE(topology::volume_sites(MeasuredModel(thread), with_sites(10)).size(), 10u);
+    EXPECT_LE(complexity::volume_sites(MeasuredModel(thread), with_sites(10)).size(), 10u);
 }
 
 TEST(Complexity, HasNoCellsWhereVolumesAreNotWhatTheSidesEnclose) {
     for (const double volume : {1e-6, 1e-30, 1e-300}) {
         BrepData cancelled = layered(1000, 1000, 0);
         cancelled.regions[0].volume = volume;
-        const Complexity c = topology::complexity(cancelled, with_sites(10));
+        const Complexity c = complexity::measure(cancelled, with_sites(10));
         EXPECT_FALSE(c.cells.has_value()) << volume;
         EXPECT_EQ(c.undefined.size(), 1u) << volume;
     }
@@ -143,7 +143,7 @@ TEST(Complexity, HasNoCellsWhereVolumesAreNotWhatTheSidesEnclose) {
 TEST(Complexity, OfCoordinatesBeyondAllMeasureHasNoCells) {
     BrepData huge = layered(1, 1, 0);
     for (Vec3& p : huge.vertices) p = {1e300 * p[0], 1e300 * p[1], 1e300 * p[2]};
-    EXPECT_FALSE(topology::complexity(huge, with_sites(10)).cells.has_value());
+    EXPECT_FALSE(complexity::measure(huge, with_sites(10)).cells.has_value());
 }
 
 TEST(Complexity, DoesNotDependOnThreads) {
