@@ -161,10 +161,10 @@ void look(const std::string& path, Dataset dataset, const Plan& plan) {
     topology::build_breps(dataset);
     FileSummary summary = summarise(path, dataset);
     if (plan.complexity) {
-        topology::ComplexityOptions measures;
+        complexity::ComplexityOptions measures;
         measures.sites = 50;
         for (std::size_t b = 0; b < dataset.breps.size(); ++b)
-            summary.breps[b].complexity = topology::complexity(*dataset.breps[b], measures);
+            summary.breps[b].complexity = complexity::measure(*dataset.breps[b], measures);
     }
     for (const Finding& f : dataset.findings) check_finding(f, "reading");
     check_json(info_json({&summary, 1}), "info --json");
