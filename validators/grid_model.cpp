@@ -279,6 +279,7 @@ Closure judge_closure(const GridModel& grid) {
     for (Finding& f : all) {
         if (f.code == "B25") continue;  // faults lie inside
         const bool of_region = f.code == "B13" && !f.entities.empty() && f.entities[0].id >= 0;
+        if (of_region && f.element_kind == "volume") continue;  // blocks that faults part within the sides of one region
         if (of_region && is_of_blocks(grid.model(), static_cast<std::size_t>(f.entities[0].id))) continue;
         closure.walked.push_back(std::move(f));
     }

@@ -164,8 +164,7 @@ void Mapper::fields(ObjectInfo& info) {
 
 void Mapper::note_points(ObjectInfo& info, const char* dataset) {
     info.annotations.push_back({std::string(dataset_key), dataset});
-    if (file_.points_stated && file_.points_type == LegacyType::float32)
-        info.precision = CoordinatePrecision::single_precision;
+    if (file_.points_stated && file_.points_type == LegacyType::float32) info.precision = CoordinatePrecision::single_precision;
 }
 
 bool Mapper::image(Raster& raster) {

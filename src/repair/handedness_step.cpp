@@ -133,10 +133,9 @@ StepReport handedness(CornerPointGrid& grid, const validators::GridScope& scope,
                      " - j; attributes, faults and connections went with them";
     const std::size_t records = grid.info.annotations.size();
     if (records > 0) {
-        report.message +=
-            "; " +
-            counted(records, "record that is kept as it stands may name", "records that are kept as they stand may name") +
-            " cells by their old row";
+        report.message += "; " +
+                          counted(records, "record that is kept as it stands may name", "records that are kept as they stand may name") +
+                          " cells by their old row";
         report.measures = {{"records_as_they_stand", static_cast<double>(records)}};
     }
     return report;

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "geometry/principal_axes.h"
 #include "topology/clusters.h"
 #include "topology/outlying_points.h"
 
@@ -16,15 +15,13 @@ namespace geomend::topology {
 
 namespace {
 
-constexpr double far_off = 10;       // diameters
-constexpr double sheet = 1.0 / 250;  // of the diameter: thinner clusters have no thickness
-constexpr double near_thickness = 1.0 / 200;
+constexpr double far_off = 10;  // diameters
 
 /// What is known of one cluster.
 struct Cluster {
     std::vector<std::uint32_t> parts;
     Vec3 centroid{};
-    double radius = 0, thickness = 0, edge = 0, steps = 0;
+    double radius = 0, edge = 0, steps = 0;
 };
 
 /// The length up to which half of the weight lies. \pre not empty
@@ -83,7 +80,6 @@ private:
     void measure();
     bool take_back();
     void measure_cluster(Cluster& cluster) const;
-    std::array<double, 6> moments(const Cluster& cluster) const;
     std::vector<std::uint32_t> clusters_of_objects() const;
     std::vector<OutlyingPoint> outlying() const;
 
@@ -129,29 +125,6 @@ bool Survey::take_back() {
     return any;
 }
 
-/// Second moments of the areas about the centroid, from the corners and the middle of each triangle.
-std::array<double, 6> Survey::moments(const Cluster& cluster) const {
-    std::array<double, 6> m{};
-    each_triangle(cluster, [&](std::uint32_t t) {
-        const double weight = used_.weight(t);
-        const auto corners = used_.corners(t);
-        Vec3 middle{};
-        const auto add = [&](const Vec3& d, double w) {
-            std::size_t k = 0;
-            for (std::size_t i = 0; i < 3; ++i) {
-                for (std::size_t j = i; j < 3; ++j) m[k++] += w * d[i] * d[j];
-            }
-        };
-        for (const Vec3& p : corners) {
-            const Vec3 d = minus(p, cluster.centroid);
-            middle = plus(middle, times(1.0 / 3, d));
-            add(d, weight / 12);
-        }
-        add(middle, weight * 3 / 4);
-    });
-    return m;
-}
-
 void Survey::measure_cluster(Cluster& cluster) const {
     double weight = 0, count = 0;
     Vec3 weighted{}, plain{};
@@ -168,14 +141,12 @@ void Survey::measure_cluster(Cluster& cluster) const {
     }
     if (count == 0) return;
     cluster.centroid = plus(origin, weight > 0 ? times(1 / weight, weighted) : times(1 / count, plain));
-    const Vec3 normal = weight > 0 ? principal_axes(moments(cluster))[0] : Vec3{};
     std::vector<std::pair<double, double>> edges;
     each_triangle(cluster, [&](std::uint32_t t) {
         const auto corners = used_.corners(t);
         for (const Vec3& p : corners) {
             const Vec3 d = minus(p, cluster.centroid);
             cluster.radius = std::max(cluster.radius, dot(d, d));
-            cluster.thickness = std::max(cluster.thickness, 2 * std::abs(dot(d, normal)));
         }
         if (used_.is_weighted(t)) edges.emplace_back(middle_edge(corners), used_.weight(t));
     });
@@ -240,7 +211,6 @@ LocalLengths Survey::lengths(const LengthRules& rules) const {
             lengths.tolerance = rules.tolerance >= 0 ? rules.tolerance : std::max(1e-7 * lengths.diameter, c.steps);
             double near = 1e-3 * lengths.diameter;
             if (c.edge > 0) near = std::min(near, c.edge / 4);
-            if (c.thickness >= sheet * lengths.diameter) near = std::min(near, near_thickness * c.thickness);
             lengths.near = rules.near >= 0 ? rules.near : std::max(10 * lengths.tolerance, near);
             local.clusters.push_back(lengths);
         }

@@ -50,9 +50,7 @@ struct LocalLengths {
 /// - D is twice the largest distance of a point from the area-weighted centroid, so that it does not depend on how finely
 ///   something is triangulated (of meshes that have cells of three dimensions only the volume takes the place of the area);
 /// - tolerance = max(1e-7 D, 4 steps of the largest coordinate as it is stored);
-/// - near = max(10 tolerances, min(1e-3 D, a quarter of the median edge, a two-hundredth of the thickness)). The median is weighted by
-/// area.
-///   Thickness, twice the largest distance from the mean plane, counts from D / 250 on: below that the cluster is a sheet.
+/// - near = max(10 tolerances, min(1e-3 D, a quarter of the median edge)). The median is weighted by area.
 /// Outlying points take no part: see find_outlying_points().
 /// \pre all coordinates that elements use are finite and below 1e20. Cost: near-linear, about 0.15 s per million triangles.
 LocalLengths local_lengths(const Dataset& dataset, const LengthRules& rules);

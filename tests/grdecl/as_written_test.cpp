@@ -70,7 +70,7 @@ TEST(Operations, OfRegionsAreApplied) {
 }
 
 TEST(Operations, ActOnInitialValues) {
-    const auto g = good(head + shape + "MULTIPLY\n NTG 0.5 1 1 /\n MULTZ 0.1 /\n/\n");
+    const auto g = good(head + shape + "MULTIPLY\n MULTZ 0.1 /\n NTG 0.5 1 1 /\n/\n");
     EXPECT_EQ(values(g, "NTG"), (std::vector<double>{0.5, 1, 0.5, 1}));
     EXPECT_EQ(values(g, "MULTZ"), std::vector<double>(4, 0.1));
 }

@@ -76,7 +76,8 @@ TEST(WrongDecks, HugeCountsTakeNoMemory) {
     EXPECT_EQ(bad("SPECGRID\n 100000 100000 100000 /\nPORO\n 1000000000000000*0.1 /\n").substr(0, 4), "F014");
     EXPECT_EQ(bad("SPECGRID\n 2000000000 2000000000 2000000000 /\n").substr(0, 4), "F014");
     EXPECT_EQ(bad("SPECGRID\n 100000 100000 10 /\nEQUALS\n PORO 1 /\n/\n").substr(0, 4), "F014");
-    EXPECT_EQ(bad("SPECGRID\n 100000 100000 10 /\nDXV\n 100000*1 /\nDYV\n 100000*1 /\nDZV\n 10*1 /\nTOPS\n 10000000000*1 /\n").substr(0, 4), "F014");
+    EXPECT_EQ(bad("SPECGRID\n 100000 100000 10 /\nDXV\n 100000*1 /\nDYV\n 100000*1 /\nDZV\n 10*1 /\nTOPS\n 10000000000*1 /\n").substr(0, 4),
+              "F014");
     EXPECT_EQ(bad("SPECGRID\n 2 1 2 /\nPORO\n 9223372036854775807*0.1 9223372036854775807*0.1 /\n").substr(0, 4), "F008");
 }
 

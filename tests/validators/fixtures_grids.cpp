@@ -187,8 +187,8 @@ Dataset local_grids(std::uint32_t from) {
 /// Four cells around an axis, each over so many degrees, as the reader of decks gives them.
 Dataset around_an_axis(const char* degrees) {
     const test::TemporaryFolder folder;
-    test::write_file(folder / "a.data", "RUNSPEC\nDIMENS\n2 4 1 /\nRADIAL\nGRID\nINRAD\n1 /\nDRV\n1 2 /\nDTHETAV\n4*" + std::string(degrees) +
-                                            " /\nDZ\n8*3 /\nTOPS\n8*10 /\n");
+    test::write_file(folder / "a.data", "RUNSPEC\nDIMENS\n2 4 1 /\nRADIAL\nGRID\nINRAD\n1 /\nDRV\n1 2 /\nDTHETAV\n4*" +
+                                            std::string(degrees) + " /\nDZ\n8*3 /\nTOPS\n8*10 /\n");
     auto read = load(folder / "a.data", {});
     return read ? std::move(*read) : Dataset{};
 }

@@ -39,12 +39,14 @@ public:
         for (std::size_t r = 0; r < model.regions.size(); ++r) {
             for (const auto& side : model.regions[r].sides) around_[side.face][side.front ? 1 : 0] = static_cast<int>(r);
         }
-        near_ = validators::lengths_of(data_, {}).largest.near;
+        lengths_ = validators::lengths_of(data_, {});
     }
 
     Dataset& data() { return data_; }
     StatedModel& model() { return data_.models.front(); }
-    double near() const { return near_; }
+    double largest_near() const { return lengths_.largest.near; }
+    /// The search length where a face lies.
+    double near(std::size_t face) const { return lengths_.of(data_.models.front().faces[face].object).near; }
     std::size_t faces() const { return around_.size(); }  // without the extra ones
     Surface& surface(std::size_t face) { return std::get<Surface>(data_.objects[model().faces[face].object]); }
     std::string name(std::size_t face) {
@@ -170,7 +172,7 @@ private:
     std::map<std::string, int> parts_;
     std::vector<std::array<int, 2>> around_;  // regions behind and before each face; -1: none stated
     std::set<std::size_t> taken_;
-    double near_ = 0;
+    topology::LocalLengths lengths_;  // without the extra ones
 };
 
 /// A triangle of a face with what is needed to build beside it.
@@ -187,7 +189,8 @@ struct Place {
     }
     std::string name() const { return patient.name(face); }
     /// A length that is small beside the triangle, but not beside the search length.
-    double small() const { return std::max(0.06 * height, 4 * patient.near()); }
+    double near() const { return patient.near(face); }
+    double small() const { return std::max(0.06 * height, 4 * near()); }
     double side() const { return patient.inwards(face); }
 };
 
@@ -337,7 +340,7 @@ Found needle(Place& at, Random&) {
 }
 Found short_edge(Place& at, Random&) {
     const Vec3 way = minus(at.middle, at.a);
-    const double far = 0.3 * at.patient.near() / std::sqrt(dot(way, way));
+    const double far = 0.3 * at.near() / std::sqrt(dot(way, way));
     const std::uint32_t p = at.patient.add_point(at.face, plus(at.a, times(far, way)));
     const Corners c = at.patient.corners(at.face, at.triangle);
     at.patient.remove_triangle(at.face, at.triangle);
@@ -364,12 +367,12 @@ Found stands_on_a_point(Place& at, Random&) {
     return {{"B22", "surface", at.name()}, {"B22", "surface", extra}};
 }
 Found border_near_it(Place& at, Random&) {
-    const double s = at.side() * at.small(), gap = at.side() * 0.4 * at.patient.near();
+    const double s = at.side() * at.small(), gap = at.side() * 0.4 * at.near();
     const std::string extra = at.patient.add_extra({{at.inside(0.3, 0.3, gap), at.inside(0.5, 0.3, gap), at.inside(0.4, 0.3, s + gap)}});
     return {{"B23", "surface", at.name()}, {"B23", "surface", extra}};
 }
 Found tent_near_it(Place& at, Random&) {
-    const double s = at.side() * at.small(), gap = at.side() * 0.4 * at.patient.near();
+    const double s = at.side() * at.small(), gap = at.side() * 0.4 * at.near();
     const Vec3 tip = at.inside(0.33, 0.33, gap), p = at.inside(0.25, 0.25, s + gap), q = at.inside(0.5, 0.25, s + gap),
                r = at.inside(0.25, 0.5, s + gap);
     const std::string extra = at.patient.add_extra({{tip, p, q}, {tip, q, r}, {tip, r, p}});
@@ -396,7 +399,7 @@ Found beside_it_along_a_line(Place& at, Random&) {
 }
 Found far_away(Place& at, Random&) {
     if (!at.patient.has_regions()) return {};
-    const double far = 2000 * at.patient.near();  // two diameters
+    const double far = 2000 * at.patient.largest_near();  // two diameters
     std::array<Vec3, 3> t{at.a, at.b, at.d};
     for (Vec3& p : t) p[2] += far;
     return {{"B16|B06", "surface", at.patient.add_extra({t})}};  // B06: where another defect opens the only region
@@ -468,7 +471,7 @@ Found plant(Patient& patient, const Defect& defect, Random& random) {
         if (!patient.is_free(face)) continue;
         const std::uint64_t first = patient.first(face), last = patient.last(face);
         Place place = place_at(patient, face, first + pick(random, last - first));
-        if (place.height < 20 * patient.near()) continue;
+        if (place.height < 20 * place.near()) continue;
         auto found = defect.plant(place, random);
         if (found.empty()) continue;
         patient.take(face);
