@@ -151,6 +151,10 @@ Result<void> DebrisFolder::write(ReportedFile& file) {
             file.debris[number].push_back(path.string());
         }
     }
+    for (const auto& output : outputs) {  // all are written before the first appears
+        output->main_file().close();
+        if (!output->main_file().good()) return output->commit();
+    }
     for (const auto& output : outputs) {
         if (auto committed = output->commit(); !committed) return committed;
     }

@@ -98,16 +98,33 @@ std::optional<Written> try_to_write(std::string name, std::vector<std::string> a
 
 fs::path sample(const char* name) { return fs::path(GEOMEND_SOURCE_DIR) / "samples" / name; }
 
-/// Every format of the table that can be written, each from the first sample that it can hold.
+/// What no sample holds: lines, and lattices of two kinds.
+std::vector<std::string> further_inputs(const fs::path& folder) {
+    const std::string head = "# vtk DataFile Version 3.0\nlattice\nASCII\nDATASET ";
+    std::string points;
+    for (int i = 0; i < 8; ++i) points += std::to_string(i % 2) + ' ' + std::to_string(i / 2 % 2) + ' ' + std::to_string(i / 4) + '\n';
+    write_file(folder / "bent.vtk", head + "STRUCTURED_GRID\nDIMENSIONS 2 2 2\nPOINTS 8 double\n" + points);
+    const std::string axis = "_COORDINATES 3 double\n0 1 3\n";
+    write_file(folder / "straight.vtk", head + "RECTILINEAR_GRID\nDIMENSIONS 3 3 3\nX" + axis + "Y" + axis + "Z" + axis);
+    write_file(folder / "lines.pl",
+               "GOCAD PLine 1\nHEADER {\nname:lines\n}\nILINE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 2 1 0\nSEG 1 2\nSEG 2 3\nEND\n");
+    return {(folder / "bent.vtk").string(), (folder / "straight.vtk").string(), (folder / "lines.pl").string()};
+}
+
+/// Every format of the table that can be written, each from the first input that it can hold.
 std::vector<Written> all_models() {
+    static const TemporaryFolder folder;
+    static const std::vector<std::string> further = further_inputs(folder.path());
+    std::vector<std::string> inputs = further;
+    for (const char* name : {"layered_box.ml", "faulted_grid.grdecl", "h1_grid.zmap", "h1_picks.vs", "wells.wl", "layered_box.so"})
+        inputs.push_back(sample(name).string());
     std::vector<Written> all;
     for (const auto& row : nlohmann::json::parse(run_geomend({"formats", "--json"}).out)) {
         if (!row["write"]) continue;
         const std::string format = row["name"], name = "out" + row["extensions"][0].get<std::string>();
         std::optional<Written> found;
-        for (const char* from : {"layered_box.ml", "faulted_grid.grdecl", "h1_grid.zmap", "h1_picks.vs", "wells.wl", "layered_box.so"}) {
-            if (!found) found = try_to_write(name, {"convert", sample(from).string(), "--lossy", "--to", format, "-o"});
-        }
+        for (auto from = inputs.rbegin(); from != inputs.rend() && !found; ++from)
+            found = try_to_write(name, {"convert", *from, "--lossy", "--to", format, "-o"});
         EXPECT_TRUE(found) << "no sample goes into " << format;
         if (found) all.push_back(std::move(*found));
     }
