@@ -11,8 +11,7 @@ namespace geomend {
 /// simulators compute them: in an INIT file 0 means that a cell is not active. Grids of two porosities stay as they are.
 void complete_pore_volumes(Dataset& dataset);
 
-/// Parts of decks that are kept as text go into decks only: elsewhere what they do to the grid is lost, and told so. The
-/// zones that a ROFF file parts its layers into become an attribute SUBGRID elsewhere.
+/// Parts of decks that are kept as text go into decks only: elsewhere what they do to the grid is lost, and reported.
 void list_text_losses(Dataset& dataset, const Format& target);
 
 }  // namespace geomend
