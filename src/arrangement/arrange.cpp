@@ -50,6 +50,14 @@ Snapped snapped(const TriangleSoup& soup, double tolerance) {
     return s;
 }
 
+/// Up to which distance features are one in a round: a thirty-second of the tolerance, where rounding to the grid does no harm. A few
+/// points close to one line can go round in circles at any distance, a thin lens that opens and closes; so after some rounds what is
+/// still new is looked at ever more widely, up to half of the tolerance, and the lens closes.
+double reach_of_round(const SnapGrid& grid, unsigned rounds) {
+    const double first = std::max(2.0, grid.tolerance_steps / 32), most = std::max(first, grid.tolerance_steps / 2);
+    return rounds < 5 ? first : std::min(most, first * std::exp2((rounds - 3) / 2));
+}
+
 /// Vertices of the result: those of the soup that are used, in their order, then new ones as they were made.
 void write_vertices(const TriangleSoup& soup, const Snapped& s, Arrangement& result) {
     const auto& points = s.state.points.points();
@@ -119,6 +127,7 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     result.clean = false;
     const auto stopped = [&] { return options.monitor != nullptr && options.monitor->stopped(); };
     while (!result.clean && result.rounds < options.most_rounds && !stopped()) {
+        s.state.reach = reach_of_round(s.grid, result.rounds);
         result.clean = cut_round(s.state, options.monitor);
         ++result.rounds;
     }

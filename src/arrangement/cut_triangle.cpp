@@ -95,6 +95,29 @@ void triangulate_pinched(std::span<const Vec3> points, const View& view, std::sp
     clip_ears(points, view, open, parts);
 }
 
+/// Puts the points of its sides into a triangle by numbers alone, whatever their places: where a point lies beyond the line from
+/// its neighbour to the corner opposite, a part of this is turned over and flat, and the next look sets it right.
+void split_sides(const Triangle& triangle, const std::array<std::vector<std::uint32_t>, 3>& chain, std::vector<Triangle>& parts) {
+    const std::size_t first = parts.size();
+    parts.push_back(triangle);
+    for (std::size_t side = 0; side < 3; ++side) {
+        std::uint32_t from = triangle[side];
+        const std::uint32_t to = triangle[(side + 1) % 3];
+        for (const std::uint32_t v : chain[side]) {
+            for (std::size_t t = first; t < parts.size(); ++t) {
+                std::size_t k = 0;
+                while (k < 3 && (parts[t][k] != from || parts[t][(k + 1) % 3] != to)) ++k;
+                if (k == 3) continue;
+                const std::uint32_t apex = parts[t][(k + 2) % 3];
+                parts[t] = {from, v, apex};
+                parts.push_back({v, to, apex});
+                break;
+            }
+            from = v;
+        }
+    }
+}
+
 }  // namespace
 
 bool cut_triangle(std::span<const Vec3> points, const Triangle& triangle, const LinkTable& links, std::span<const Link> segments,
@@ -169,7 +192,9 @@ bool cut_triangle(std::span<const Vec3> points, const Triangle& triangle, const 
     for (std::uint32_t i = 0; i < 3; ++i) {
         scratch.local.clear();
         for (std::size_t k = 0; k < chain[i].size(); ++k) scratch.local.push_back(next++);
-        if (!mesh.add_on_border(i, i == 2 ? 0 : i + 1, scratch.local)) return pinched();
+        if (mesh.add_on_border(i, i == 2 ? 0 : i + 1, scratch.local)) continue;
+        split_sides(triangle, chain, parts);
+        return plain;
     }
     bool complete = true;
     for (std::size_t k = border_size; k < names.size(); ++k) complete &= mesh.add_inside(static_cast<std::uint32_t>(k));
