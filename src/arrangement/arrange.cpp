@@ -23,10 +23,7 @@ struct Snapped {
 
 Snapped snapped(const TriangleSoup& soup, double tolerance) {
     const SnapGrid grid = snap_grid(soup.vertices, tolerance);
-    Snapped s{grid,
-              {SpacedPoints(grid.tolerance_steps, soup.vertices.size()), {}, {}, {}, {}, {}, {}, std::max(2.0, grid.tolerance_steps / 32)},
-              {},
-              {}};
+    Snapped s{grid, {SpacedPoints(grid.tolerance_steps, soup.vertices.size()), {}, {}, {}, {}, {}, {}}, {}, {}};
     s.state.patches = soup.patches;
     s.point_of.resize(soup.vertices.size());
     for (std::uint32_t v = 0; v < soup.vertices.size(); ++v) {
