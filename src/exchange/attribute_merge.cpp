@@ -2,35 +2,16 @@
 #include "exchange/attribute_merge.h"
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 #include <type_traits>
+
+#include "model/attribute_operations.h"
 
 namespace geomend::exchange {
 
 namespace {
 
-/// The value that stands for "none" in a new place.
-template <class Value>
-Value filler(const Attribute& a) {
-    if constexpr (std::is_same_v<Value, std::string>) {
-        return {};
-    } else if constexpr (std::is_floating_point_v<Value>) {
-        return a.no_data ? static_cast<Value>(*a.no_data) : std::numeric_limits<Value>::quiet_NaN();
-    } else {
-        const bool fits = a.no_data && *a.no_data >= static_cast<double>(std::numeric_limits<Value>::min()) &&
-                          *a.no_data <= static_cast<double>(std::numeric_limits<Value>::max() / 2);
-        return fits ? static_cast<Value>(*a.no_data) : Value{0};
-    }
-}
-
 void grow(Attribute& a, std::size_t things) {
-    std::visit(
-        [&](auto& values) {
-            using Value = typename std::decay_t<decltype(values)>::value_type;
-            if (values.size() < things * a.components) values.resize(things * a.components, filler<Value>(a));
-        },
-        a.values);
+    if (value_count(a) < things * a.components) resize_with_missing(a, things);
 }
 
 template <class Value>
