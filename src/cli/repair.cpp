@@ -12,14 +12,18 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "repair/grid_steps.h"
+#include "repair/surface_steps.h"
 
 namespace geomend::cli {
 
 namespace {
 
 struct RepairOptions : CommonOptions, CheckArguments {
-    std::string input, output;
+    std::vector<std::string> inputs;
+    std::string output;
     std::vector<std::string> steps;
+    std::string step_list;  // separated by commas
+    double max_gap = -1, max_displacement = -1;
     bool lossy = false, keep_invalid = false;
 };
 
@@ -32,6 +36,17 @@ Result<std::optional<double>> gap_of(const FormatOptions& options) {
     return std::optional<double>(gap);
 }
 
+std::vector<std::string> steps_of(const RepairOptions& o) {
+    std::vector<std::string> steps;
+    for (std::size_t at = 0; !o.step_list.empty() && at <= o.step_list.size();) {
+        const std::size_t end = std::min(o.step_list.find(',', at), o.step_list.size());
+        steps.push_back(o.step_list.substr(at, end - at));
+        at = end + 1;
+    }
+    steps.insert(steps.end(), o.steps.begin(), o.steps.end());
+    return steps;
+}
+
 Result<RepairRequest> request_of(const RepairOptions& o, const Monitor& monitor) {
     auto options = format_options(o.options);
     if (!options) return std::move(options).why();
@@ -42,13 +57,15 @@ Result<RepairRequest> request_of(const RepairOptions& o, const Monitor& monitor)
     auto checks = check_options(o, o, &monitor);
     if (!checks) return std::move(checks).why();
     request.checks = std::move(*checks);
-    request.files.inputs = {o.input};
+    request.files.inputs = o.inputs;
     request.files.output = o.output;
     request.files.to = o.to;
     request.files.lossy = o.lossy;
     request.files.accept_unterminated = o.accept_unterminated;
     request.files.load = {o.from, std::move(*options), &monitor};
-    request.steps = o.steps;
+    request.steps = steps_of(o);
+    request.max_gap = o.max_gap;
+    request.max_displacement = o.max_displacement;
     request.keep_invalid = o.keep_invalid;
     return request;
 }
@@ -97,16 +114,21 @@ ExitStatus run(const RepairOptions& o) {
 }  // namespace
 
 void add_repair(CLI::App& program, ExitStatus& status) {
-    auto* command = program.add_subcommand("repair", "Mend what validate finds, by explicit steps; so far of corner-point grids");
+    auto* command = program.add_subcommand("repair", "Mend what validate finds, by explicit steps");
     auto o = std::make_shared<RepairOptions>();
-    command->add_option("IN", o->input, "Input file; - is standard input")->required();
+    command->add_option("IN", o->inputs, "Input files, taken as one model; - is standard input")->required();
     command->add_option("-o,--output", o->output, "Output file; - is standard output")->required()->type_name("OUT");
     std::string names;
+    for (const repair::SurfaceStepRow& row : repair::surface_steps()) names += (names.empty() ? "" : "|") + std::string(row.name);
     for (const repair::StepRow& row : repair::grid_steps()) names += (names.empty() ? "" : "|") + std::string(row.name);
-    command
-        ->add_option("--step", o->steps, "A step, may be repeated; taken in the order given (default monotone, close-gaps, drop-collapsed)")
+    command->add_option("--step", o->steps, "A step, may be repeated; taken in the order given (default: those that mend what is found)")
         ->type_name(names)
         ->allow_extra_args(false);
+    command->add_option("--steps", o->step_list, "Steps, separated by commas, in the order in which they are taken")->type_name("A,B,...");
+    command
+        ->add_option("--max-gap", o->max_gap, "Largest gap that is closed and overshoot that is trimmed (default 1e-3 of the model's size)")
+        ->type_name("L");
+    command->add_option("--max-displacement", o->max_displacement, "A step that moves a vertex farther is undone")->type_name("L");
     command->add_flag("--keep-invalid", o->keep_invalid, "Write the result even where it still has errors");
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
     add_check_arguments(*command, *o);

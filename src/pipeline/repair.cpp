@@ -2,9 +2,12 @@
 #include "pipeline/repair.h"
 
 #include <algorithm>
+#include <array>
 
 #include "pipeline/command_options.h"
+#include "pipeline/shape.h"
 #include "repair/grid_steps.h"
+#include "repair/surface_driver.h"
 
 namespace geomend {
 
@@ -15,26 +18,88 @@ bool is_grid(const Object& object) {
     return grid != nullptr && validators::has_geometry(*grid);
 }
 
-std::vector<std::string> steps_of(const RepairRequest& request) {
-    if (!request.steps.empty()) return request.steps;
+Result<void> known_step(const std::string& name) {
+    if (repair::surface_step(name) != nullptr) return {};
+    return repair::known_grid_steps(std::array{name});
+}
+
+Result<void> mend_grids(Dataset& dataset, const RepairRequest& request, std::vector<ReportedStep>& steps) {
     const auto usual = repair::usual_grid_steps();
-    return {usual.begin(), usual.end()};
+    std::vector<std::string> names = request.steps;
+    if (names.empty()) names.assign(usual.begin(), usual.end());
+    if (auto known = repair::known_grid_steps(names); !known) return known;
+    auto done = repair::run_grid_steps(dataset, names, {request.checks, request.gap});
+    if (!done) return std::move(done).why();
+    for (auto& [step, what] : *done) {
+        ReportedStep reported;
+        reported.step = std::move(step);
+        reported.what = std::move(what);
+        reported.changed = reported.what.count;
+        steps.push_back(std::move(reported));
+    }
+    return {};
+}
+
+// Puts a mended model in place of the objects that it was made from.
+void replace_surfaces(Dataset& dataset, repair::SurfaceRepair repaired) {
+    Dataset made = std::move(repaired.result.dataset);
+    for (std::uint32_t o = 0; o < dataset.objects.size(); ++o) {
+        if (!std::ranges::binary_search(repaired.objects, o)) made.objects.push_back(std::move(dataset.objects[o]));
+    }
+    dataset.objects = std::move(made.objects);
+    dataset.models = std::move(made.models);
+    dataset.breps.clear();
+    dataset.findings.clear();  // of what was read
+    for (Loss& loss : made.losses) add_loss(dataset.losses, std::move(loss));
+}
+
+Result<void> mend_surfaces(Dataset& dataset, const std::vector<Finding>& before, const RepairRequest& request,
+                           std::vector<ReportedStep>& steps) {
+    std::vector<std::string> names = request.steps.empty() ? repair::plan_for(before) : request.steps;
+    for (const std::string& name : names) {
+        if (repair::surface_step(name) == nullptr)
+            return failure(FailureKind::usage, "F018", {}, "--step " + name + ": no such step of surfaces");
+    }
+    repair::SurfaceDriverOptions options;
+    options.steps = {request.max_gap, request.checks.monitor};
+    options.max_displacement = request.max_displacement;
+    options.keep_worse = request.keep_invalid;
+    options.checks = request.checks;
+    auto repaired = repair::repair_surfaces(dataset, before, names, options);
+    if (!repaired) return std::move(repaired).why();
+    for (auto& s : repaired->steps) {
+        ReportedStep step{s.step,
+                          std::move(s.outcome.what),
+                          s.kept,
+                          s.outcome.changed,
+                          s.outcome.max_displacement,
+                          s.outcome.mean_displacement,
+                          s.seconds,
+                          s.why,
+                          {}};
+        for (auto& c : s.outcome.contacts) {
+            step.contacts.push_back({std::move(c.border), std::move(c.on), c.gap, std::move(c.decision), std::move(c.why)});
+        }
+        steps.push_back(std::move(step));
+    }
+    replace_surfaces(dataset, std::move(*repaired));
+    return {};
 }
 
 Result<void> mend(Dataset& dataset, const RepairRequest& request, RepairReport& report) {
     const std::string& path = request.files.inputs.front();
-    if (std::ranges::none_of(dataset.objects, is_grid))
-        return failure(FailureKind::usage, "F018", {path},
-                       "nothing in this file can be repaired yet: there is no corner-point grid with geometry");
+    flatten_meshes(dataset);
     auto before = validate(path, dataset, request.checks);
     if (!before) return std::move(before).why();
     report.valid_before = count_by_severity(before->findings).error == 0;
-    auto done = repair::run_grid_steps(dataset, steps_of(request), {request.checks, request.gap});
-    if (!done) return std::move(done).why();
+    std::vector<ReportedStep> steps;
+    const bool grids = std::ranges::any_of(dataset.objects, is_grid);
+    auto mended = grids ? mend_grids(dataset, request, steps) : mend_surfaces(dataset, before->findings, request, steps);
+    if (!mended) return mended;
     auto after = validate(path, dataset, request.checks);
     if (!after) return std::move(after).why();
     report.file = std::move(*after);
-    for (auto& [step, what] : *done) report.file.steps.push_back({std::move(step), std::move(what)});
+    report.file.steps = std::move(steps);
     if (request.inspect) {
         if (auto inspected = request.inspect(dataset, dataset.breps, report.file); !inspected) return inspected;
     }
@@ -48,7 +113,9 @@ Result<void> mend(Dataset& dataset, const RepairRequest& request, RepairReport& 
 }  // namespace
 
 Result<RepairReport> repair_file(const RepairRequest& request) {
-    if (auto known = repair::known_grid_steps(request.steps); !known) return std::move(known).why();
+    for (const std::string& name : request.steps) {
+        if (auto known = known_step(name); !known) return std::move(known).why();
+    }
     RepairReport report;
     ConvertRequest files = request.files;
     if (files.load.command.empty()) files.load.command = repair_option_rows();

@@ -12,10 +12,11 @@
 namespace geomend {
 
 struct RepairRequest {
-    ConvertRequest files;            ///< one input
-    std::vector<std::string> steps;  ///< in the order in which they are taken; empty: the usual ones
-    std::optional<double> gap;       ///< for close-gaps
-    bool keep_invalid = false;       ///< write a result that still has errors
+    ConvertRequest files;                        ///< one input
+    std::vector<std::string> steps;              ///< in the order in which they are taken; empty: those that mend what is found
+    std::optional<double> gap;                   ///< for close-gaps of grids
+    double max_gap = -1, max_displacement = -1;  ///< of surfaces; negative: by rule, no limit
+    bool keep_invalid = false;                   ///< write a result that still has errors
     validators::CheckOptions checks;
     Inspect inspect;  ///< sees the result with its findings and steps, whether it is written or not
 };
@@ -28,8 +29,8 @@ struct RepairReport {
     std::vector<Loss> losses;
 };
 
-/// Reads, takes the steps, validates the result and writes it: also where it still has errors, if that is accepted, else
-/// not (`written` tells). Only corner-point grids can be repaired so far: failure (usage) where the input has none.
+/// Reads all inputs as one model, takes the steps, validates the result and writes it: also where it still has errors, if that
+/// is accepted, else not (`written` tells). Failure (usage) where there is neither a corner-point grid nor a surface.
 /// Other failures are those of convert().
 Result<RepairReport> repair_file(const RepairRequest& request);
 

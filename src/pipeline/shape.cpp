@@ -145,6 +145,8 @@ void surround_regions(Dataset& dataset, const Format& target) {
 
 }  // namespace
 
+void flatten_meshes(Dataset& dataset) { to_flat_objects(dataset); }
+
 void shape_for(Dataset& dataset, const Format& target) {
     surround_regions(dataset, target);
     const bool stated = states_a_model(dataset);

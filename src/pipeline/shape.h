@@ -12,4 +12,7 @@ namespace geomend {
 /// shape, or that states no model, stays as it is. Losses of the change are added to dataset.losses.
 void shape_for(Dataset& dataset, const Format& target);
 
+/// Takes meshes that have no volumes and no entities apart into surfaces, polylines and point sets.
+void flatten_meshes(Dataset& dataset);
+
 }  // namespace geomend

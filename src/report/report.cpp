@@ -56,6 +56,16 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     Json steps = Json::array();
     for (const ReportedStep& s : file.steps) {
         Json all = finding_json(s.what), step{{"step", s.step}};
+        step["name"] = s.step;
+        step["kept"] = s.kept;
+        step["changed"] = s.changed;
+        step["max_displacement"] = s.max_displacement;
+        step["mean_displacement"] = s.mean_displacement;
+        step["seconds"] = s.seconds;
+        if (!s.kept) step["why"] = s.why;
+        for (const ReportedContact& c : s.contacts) {
+            step["contacts"].push_back({{"border", c.border}, {"on", c.on}, {"gap", c.gap}, {"decision", c.decision}, {"why", c.why}});
+        }
         for (auto& [key, value] : all.items()) {
             if (key != "code" && key != "severity" && key != "fix") step[key] = std::move(value);
         }

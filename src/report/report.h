@@ -14,10 +14,24 @@
 
 namespace geomend {
 
+/// What a step decided about a piece of a border that nearly meets another surface.
+struct ReportedContact {
+    std::string border, on;  ///< surfaces
+    double gap = 0;
+    std::string decision;  ///< closed, trimmed or left
+    std::string why;
+};
+
 /// What one step of a repair did; `what` has its message, entities, elements and count, and no code.
 struct ReportedStep {
     std::string step;
     Finding what;
+    bool kept = true;  ///< false: the model was worse after it, and it was undone
+    std::uint64_t changed = 0;
+    double max_displacement = 0, mean_displacement = 0;  ///< of the vertices that it moved
+    double seconds = 0;                                  ///< of processor time
+    std::string why;                                     ///< why it was undone
+    std::vector<ReportedContact> contacts;
 };
 
 /// What became of one file of a run.

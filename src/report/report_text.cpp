@@ -111,6 +111,9 @@ private:
 
     void step(const ReportedStep& s) {
         text_ += "  " + painted(s.step, "36") + ": " + s.what.message + '\n';
+        if (s.max_displacement > 0)
+            text_ += "    vertices moved by at most " + rounded(s.max_displacement) + ", " + rounded(s.mean_displacement) + " on average\n";
+        if (!s.kept) text_ += "    undone: " + s.why + '\n';
         elements(s.what);
     }
 

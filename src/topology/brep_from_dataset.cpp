@@ -69,6 +69,12 @@ void build_breps(Dataset& dataset) {
     }
 }
 
+std::vector<SurfaceComplex> complexes_of(const Dataset& dataset, std::span<const ModelSource> sources) {
+    std::vector<SurfaceComplex> complexes;
+    for (const ModelSource& source : sources) complexes.push_back(complex_of(dataset, source));
+    return complexes;
+}
+
 Result<std::vector<JudgedModel>> models_to_judge(const Dataset& dataset, std::span<const ModelSource> sources) {
     std::vector<JudgedModel> models;
     for (const ModelSource& source : sources) {

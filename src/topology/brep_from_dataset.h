@@ -29,6 +29,9 @@ struct ModelSource {
 /// of them is about, then one of all surfaces that belong to none. What would make no surface and no region is left out.
 std::vector<ModelSource> model_sources(const Dataset& dataset);
 
+/// The surfaces of each source over welded vertices, in the order of the sources: what assemble() takes. \pre as of models_to_judge().
+std::vector<SurfaceComplex> complexes_of(const Dataset& dataset, std::span<const ModelSource> sources);
+
 /// Builds what checks judge, in the order of the sources. Points closer than the tolerance of their group are one vertex: they
 /// take the position of the one that comes first. Loose surfaces are taken apart where lines cut them and where they do not
 /// hang together, and wound one way.

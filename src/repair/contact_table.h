@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "repair/border_pieces.h"
+#include "repair/gap_search.h"
+
+namespace geomend::repair {
+
+/// What is to be done with a piece of a free border.
+enum class GapDecision : std::uint8_t { left, closed, trimmed };
+const char* to_string(GapDecision decision);
+
+/// A piece of a free border and the surface that it should end on.
+struct Contact {
+    std::uint32_t piece = 0;           ///< of FreeBorders
+    std::uint32_t patch = no_index;    ///< that the border belongs to
+    std::uint32_t on = no_index;       ///< patch that most of the piece would meet; no_index: none
+    double mean_gap = 0, max_gap = 0;  ///< along the surface, over the edges that meet something
+    GapDecision decision = GapDecision::left;
+    std::string why;
+};
+
+/// Decides for each piece of the free borders, by votes of its edges weighted by length: closed where at least 60 % of it has a surface
+/// ahead, and more of it has one ahead than sticks through one within the same limit (trimmed, once all is cut).
+/// \param hits per edge gets what lies ahead of its middle
+std::vector<Contact> decide_contacts(const TriangleSoup& soup, const FreeBorders& borders, const GapSearch& search, double tolerance,
+                                     std::vector<GapHit>& hits);
+
+}  // namespace geomend::repair

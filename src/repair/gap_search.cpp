@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "repair/gap_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vectors.h"
+#include "geometry/closest_points.h"
+#include "model/objects.h"
+
+namespace geomend::repair {
+
+namespace {
+
+constexpr double sine_of_grazing = 0.1736;  // 10 degrees
+
+std::vector<BoxTree::Corners> boxes_of(const TriangleSoup& soup) {
+    std::vector<BoxTree::Corners> boxes;
+    boxes.reserve(soup.triangles.size());
+    for (const Triangle& t : soup.triangles) {
+        BoxTree::Corners box{soup.vertices[t[0]], soup.vertices[t[0]]};
+        for (const std::uint32_t v : t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                box[0][k] = std::min(box[0][k], soup.vertices[v][k]);
+                box[1][k] = std::max(box[1][k], soup.vertices[v][k]);
+            }
+        }
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+BoxTree::Corners box_around(const Vec3& a, const Vec3& b, double margin) {
+    BoxTree::Corners box;
+    for (std::size_t k = 0; k < 3; ++k) {
+        box[0][k] = std::min(a[k], b[k]) - margin;
+        box[1][k] = std::max(a[k], b[k]) + margin;
+    }
+    return box;
+}
+
+}  // namespace
+
+GapSearch::GapSearch(const TriangleSoup& soup, double limit) : soup_(soup), limit_(limit), boxes_(boxes_of(soup)), tree_(boxes_) {}
+
+GapHit GapSearch::ahead(const Vec3& from, const Vec3& direction, std::uint32_t own_patch, std::uint32_t only) const {
+    GapHit best;
+    const double farthest = 2 * limit_;
+    const Vec3 to = plus(from, times(farthest, direction));
+    tree_.visit(box_around(from, to, limit_), -1e-9 * limit_, [&](std::uint32_t i) {
+        if (soup_.patches[i] == own_patch || (only != no_index && soup_.patches[i] != only)) return;
+        const Triangle& t = soup_.triangles[i];
+        const std::array<Vec3, 3> corners{soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]};
+        Vec3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+        const double size = std::sqrt(dot(normal, normal));
+        if (!(size > 0)) return;
+        normal = times(1 / size, normal);
+        const double slope = dot(direction, normal);
+        if (std::abs(slope) < sine_of_grazing) return;
+        const double along = dot(minus(corners[0], from), normal) / slope;
+        if (along < 0 || along > farthest || along * std::abs(slope) > limit_) return;
+        const double off = closest_points(plus(from, times(along, direction)), corners).distance;
+        if (off > limit_) return;
+        const bool within = off <= 1e-6 * limit_;
+        const bool better = !best.found() || (within && !best.within) || (within == best.within && along < best.along);
+        if (better) best = {soup_.patches[i], along, within};
+    });
+    return best;
+}
+
+}  // namespace geomend::repair

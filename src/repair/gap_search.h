@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/box_tree.h"
+#include "model/objects.h"
+#include "model/triangle_soup.h"
+
+namespace geomend::repair {
+
+/// Where a surface would meet another one if it went on straight.
+struct GapHit {
+    std::uint32_t patch = no_index;  ///< that is met; no_index: none
+    double along = 0;                ///< from the border, along the direction of search
+    bool within = false;             ///< the triangle itself is met; else its plane, no farther from it than the limit
+    bool found() const { return patch != no_index; }
+};
+
+/// Looks for what lies ahead of free borders.
+class GapSearch {
+public:
+    /// \param limit largest gap, measured square to the surface that is met
+    /// Cost: n log n. \pre the soup outlives this
+    GapSearch(const TriangleSoup& soup, double limit);
+
+    /// The nearest triangle of another patch ahead of a point that is met at more than 10 degrees; triangles that are met within
+    /// themselves go before those whose planes are.
+    /// \param direction unit
+    /// \param only the patch that is looked for; no_index: any but the own one
+    GapHit ahead(const Vec3& from, const Vec3& direction, std::uint32_t own_patch, std::uint32_t only = no_index) const;
+
+private:
+    const TriangleSoup& soup_;
+    double limit_;
+    std::vector<BoxTree::Corners> boxes_;
+    BoxTree tree_;
+};
+
+}  // namespace geomend::repair

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "repair/surface_driver.h"
+
+#include <algorithm>
+#include <ctime>
+#include <iterator>
+
+#include "base/wording.h"
+
+namespace geomend::repair {
+
+namespace {
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+std::uint64_t total(const ErrorCounts& errors) {
+    std::uint64_t sum = 0;
+    for (const auto& [code, count] : errors) sum += count;
+    return sum;
+}
+
+struct State {
+    SurfaceModel model;
+    SurfaceResult result;
+    ErrorCounts errors;
+};
+
+/// What is found in a model, by the lengths that it is mended by.
+Result<ErrorCounts> judge(const SurfaceModel& model, const SurfaceResult& result, validators::CheckOptions checks) {
+    checks.tolerance = model.lengths.tolerance;
+    checks.near = model.lengths.near;
+    auto checked = validators::check_models(result.dataset, checks);
+    if (!checked) return std::move(checked).why();
+    return errors_of(checked->findings);
+}
+
+std::string too_far(const StepOutcome& outcome, double limit) {
+    if (limit < 0 || outcome.max_displacement <= limit) return {};
+    return "it moves a vertex by " + rounded(outcome.max_displacement) + ", more than " + rounded(limit);
+}
+
+/// Runs a step on a state without judging it.
+Result<SurfaceStepDone> run_step(const SurfaceStepRow& row, const SurfaceDriverOptions& options, State& state) {
+    SurfaceStepDone done;
+    done.step = row.name;
+    const double start = processor_seconds();
+    auto outcome = row.run(state.model, options.steps);
+    done.seconds = processor_seconds() - start;
+    if (!outcome) return std::move(outcome).why();
+    done.outcome = std::move(*outcome);
+    done.why = too_far(done.outcome, options.max_displacement);
+    return done;
+}
+
+/// Takes some steps one after the other and judges the model once, after the last of them; `state` is as it was where they are
+/// undone, all or none.
+Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRow* const> rows, const SurfaceDriverOptions& options,
+                                                   State& state) {
+    std::vector<SurfaceStepDone> all;
+    State next = state;
+    std::string why;
+    bool changed = false;
+    for (const SurfaceStepRow* row : rows) {
+        auto done = run_step(*row, options, next);
+        if (!done) return std::move(done).why();
+        if (why.empty()) why = done->why;
+        changed |= done->outcome.changed > 0;
+        all.push_back(std::move(*done));
+    }
+    if (!changed) return all;
+    if (why.empty()) {
+        auto result = result_of(next.model);
+        if (!result) return std::move(result).why();
+        next.result = std::move(*result);
+        auto errors = judge(next.model, next.result, options.checks);
+        if (!errors) return std::move(errors).why();
+        next.errors = std::move(*errors);
+        if (!options.keep_worse) why = why_worse(state.errors, next.errors);
+    }
+    if (why.empty()) {
+        state = std::move(next);
+        return all;
+    }
+    for (SurfaceStepDone& done : all) {
+        if (done.outcome.changed == 0) continue;
+        done.kept = false;
+        done.why = why;
+    }
+    return all;
+}
+
+/// Steps that are judged together: those that lead to a cut with what follows them, up to the removal of tails.
+std::vector<std::vector<const SurfaceStepRow*>> chains_of(std::span<const std::string> names) {
+    std::vector<std::vector<const SurfaceStepRow*>> chains;
+    bool open = false;
+    for (const std::string& name : names) {
+        const SurfaceStepRow* row = surface_step(name);
+        if (!open) chains.emplace_back();
+        chains.back().push_back(row);
+        if (row->leads_to_cut) open = true;
+        else if (row->name != "cut") open = false;
+    }
+    return chains;
+}
+
+/// Takes a chain; where it is undone, those of its steps that can stand alone are tried one by one.
+Result<void> take_chain(const std::vector<const SurfaceStepRow*>& chain, const SurfaceDriverOptions& options, State& state,
+                        std::vector<SurfaceStepDone>& steps) {
+    auto together = take_together(chain, options, state);
+    if (!together) return std::move(together).why();
+    const bool undone = std::ranges::any_of(*together, [](const auto& done) { return !done.kept; });
+    if (!undone || chain.size() == 1) {
+        std::ranges::move(*together, std::back_inserter(steps));
+        return {};
+    }
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+        if (chain[i]->leads_to_cut) {
+            steps.push_back(std::move((*together)[i]));
+            continue;
+        }
+        auto alone = take_together(std::span(&chain[i], 1), options, state);
+        if (!alone) return std::move(alone).why();
+        steps.push_back(std::move(alone->front()));
+    }
+    return {};
+}
+
+}  // namespace
+
+ErrorCounts errors_of(std::span<const Finding> findings) {
+    ErrorCounts errors;
+    for (const Finding& f : findings) {
+        if (f.severity == Severity::error) ++errors[f.code];
+    }
+    return errors;
+}
+
+std::string why_worse(const ErrorCounts& before, const ErrorCounts& after) {
+    const std::uint64_t had = total(before), has = total(after);
+    if (has > had) return "there were " + counted(had, "error", "errors") + " before it and " + std::to_string(has) + " after it";
+    for (const auto& [code, count] : after) {
+        if (!before.contains(code) && has >= had) return "there is a new error " + code + " after it";
+    }
+    return {};
+}
+
+std::vector<std::string> plan_for(std::span<const Finding> findings) {
+    std::vector<std::string> plan;
+    for (const SurfaceStepRow& row : surface_steps()) {
+        const bool mends = std::ranges::any_of(findings, [&](const Finding& f) {
+            return f.severity != Severity::info && std::ranges::find(row.mends, std::string_view(f.code)) != row.mends.end();
+        });
+        if (mends) plan.emplace_back(row.name);
+    }
+    return plan;
+}
+
+Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Finding> before, std::span<const std::string> names,
+                                      const SurfaceDriverOptions& options) {
+    auto model = surface_model_of(dataset, {options.checks.tolerance, options.checks.near});
+    if (!model) return std::move(model).why();
+    auto result = result_of(*model);
+    if (!result) return std::move(result).why();
+    State state{std::move(*model), std::move(*result), errors_of(before)};
+    std::vector<SurfaceStepDone> steps;
+    for (const auto& chain : chains_of(names)) {
+        if (options.steps.monitor != nullptr && options.steps.monitor->stopped())
+            return failure(FailureKind::cancelled, "F022", {}, "the repair was stopped; nothing was written");
+        if (auto taken = take_chain(chain, options, state, steps); !taken) return std::move(taken).why();
+    }
+    for (Loss& loss : state.model.losses) add_loss(state.result.dataset.losses, std::move(loss));
+    return SurfaceRepair{std::move(state.result), std::move(steps), std::move(state.model.objects)};
+}
+
+}  // namespace geomend::repair

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "repair/surface_result.h"
+#include "repair/surface_steps.h"
+#include "validators/registry.h"
+
+namespace geomend::repair {
+
+struct SurfaceDriverOptions {
+    SurfaceStepOptions steps;
+    double max_displacement = -1;     ///< a step that moves a vertex farther is undone; negative: no limit
+    bool keep_worse = false;          ///< steps are kept also where the model is worse after them
+    validators::CheckOptions checks;  ///< by which the model is judged between steps
+};
+
+/// What the driver did with a step.
+struct SurfaceStepDone {
+    std::string step;
+    bool kept = true;
+    StepOutcome outcome;
+    double seconds = 0;  ///< of processor time, judging left out
+    std::string why;     ///< why it was undone
+};
+
+/// The errors of a model: how many findings of each code.
+using ErrorCounts = std::map<std::string, std::uint64_t>;
+ErrorCounts errors_of(std::span<const Finding> findings);
+/// Why a model with the errors `after` is worse than one with `before`: it has a code that the other has not, or more findings
+/// in all. Empty: it is not.
+std::string why_worse(const ErrorCounts& before, const ErrorCounts& after);
+
+/// The steps that mend what was found, in their order; empty: nothing was found that a step mends.
+std::vector<std::string> plan_for(std::span<const Finding> findings);
+
+struct SurfaceRepair {
+    SurfaceResult result;
+    std::vector<SurfaceStepDone> steps;
+    std::vector<std::uint32_t> objects;  ///< of the Dataset that the result takes the place of, ascending
+};
+
+/// Takes the steps on all surfaces of a Dataset, as one model, and judges it after each: a step after which the model is worse
+/// is undone whole. Steps that lead to a cut, the cut and the removal of tails are judged together, since what was lengthened
+/// crosses until it is cut; where they are undone, cut and tails are tried without them.
+/// \param before what was found in the Dataset  \pre names are of surface_steps()
+/// Failure (cancelled) when stopped.
+Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Finding> before, std::span<const std::string> names,
+                                      const SurfaceDriverOptions& options);
+
+}  // namespace geomend::repair

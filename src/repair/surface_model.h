@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/dataset.h"
+#include "model/origin.h"
+#include "topology/lengths.h"
+#include "topology/soup_front.h"
+
+namespace geomend::repair {
+
+/// The surfaces of a Dataset while they are mended: what they were, what they have become, and which came from which.
+struct SurfaceModel {
+    /// Triangles in patches over shared vertices. Its patches, one for each part of a surface that was read, keep their numbers
+    /// whatever is done; attributes and regions are not in it, but below.
+    topology::SoupModel model;
+
+    /// As read: patch by patch, each with vertices of its own.
+    TriangleSoup source;
+    Origin origin;  ///< of model.soup in source
+
+    /// What belongs to a patch as it was read.
+    struct SourcePatch {
+        std::uint32_t first_vertex = 0, first_triangle = 0;  ///< in source; they end where those of the next patch begin
+        std::vector<Attribute> attributes;                   ///< over its vertices (point) or triangles (polygon), or for the whole
+    };
+    std::vector<SourcePatch> source_patches;
+
+    /// Regions as they were read, over patches as they are wound there.
+    std::vector<topology::StatedRegion> regions;
+    /// Layers and fault blocks over them.
+    std::vector<topology::SurfaceComplex::RegionList> layers, fault_blocks;
+
+    topology::Lengths lengths;           ///< by which it is mended, from the input or as given
+    std::vector<std::uint32_t> objects;  ///< of the Dataset that are in it, ascending
+    std::vector<Loss> losses;            ///< what was read but cannot be mended here: cells of regions
+};
+
+/// All surfaces of a Dataset as one model: those of stated models, of tagged meshes, and loose ones. Equal positions become one
+/// vertex; polygons become triangles. Loose surfaces of one name, or of none, get names of their own.
+/// Failure (usage) where there is no surface. Cost: near-linear.
+Result<SurfaceModel> surface_model_of(const Dataset& dataset, const topology::LengthRules& rules);
+
+/// Puts what a step made in place of the soup: the origins of the two are joined, and corners go to where their vertices are.
+/// \pre `origin` is of `soup` in model.model.soup
+void take_soup(SurfaceModel& model, TriangleSoup soup, const Origin& origin);
+
+}  // namespace geomend::repair

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "repair/surface_result.h"
+
+#include <algorithm>
+
+#include "exchange/model_from_brep.h"
+#include "repair/region_names.h"
+#include "repair/surface_values.h"
+#include "topology/assemble.h"
+
+namespace geomend::repair {
+
+namespace {
+
+/// Per patch the triangles of the soup, in their order: polygon i of a face is triangle i of its patch.
+std::vector<std::vector<std::uint32_t>> triangles_of_patches(const SurfaceModel& model) {
+    std::vector<std::vector<std::uint32_t>> of(model.model.patches.size());
+    for (std::uint32_t t = 0; t < model.model.soup.triangles.size(); ++t) of[model.model.soup.patches[t]].push_back(t);
+    return of;
+}
+
+/// Per surface and polygon its triangle of the soup.
+std::vector<std::vector<std::uint32_t>> soup_triangles(const SurfaceModel& model, const topology::JudgedModel& judged) {
+    const auto of_patch = triangles_of_patches(model);
+    std::vector<std::vector<std::uint32_t>> triangles;
+    for (std::size_t s = 0; s < judged.brep->surfaces.size(); ++s) {
+        const auto& all = of_patch[judged.brep->surfaces[s].source_part];
+        if (s >= judged.source_polygons.size() || judged.source_polygons[s].empty()) {
+            triangles.push_back(all);
+            continue;
+        }
+        std::vector<std::uint32_t> own;
+        for (const std::uint32_t p : judged.source_polygons[s]) own.push_back(all[p]);
+        triangles.push_back(std::move(own));
+    }
+    return triangles;
+}
+
+/// Per region its sides as sides of triangles of the soup, which a surface may have turned over.
+std::vector<std::vector<TriangleSide>> region_sides(const topology::JudgedModel& judged,
+                                                    const std::vector<std::vector<std::uint32_t>>& triangles) {
+    std::vector<std::vector<std::uint8_t>> turned(triangles.size());
+    for (std::size_t s = 0; s < triangles.size(); ++s) {
+        turned[s].assign(triangles[s].size(), 0);
+        if (s < judged.turned_polygons.size()) {
+            for (const std::uint32_t p : judged.turned_polygons[s]) turned[s][p] = 1;
+        }
+    }
+    std::vector<std::vector<TriangleSide>> sides;
+    for (const auto& region : judged.brep->regions) {
+        std::vector<TriangleSide> own;
+        for (const auto& side : region.sides) {
+            const std::size_t s = side.surface.value;
+            for (std::size_t p = 0; p < triangles[s].size(); ++p) own.push_back({triangles[s][p], side.front != (turned[s][p] != 0)});
+        }
+        sides.push_back(std::move(own));
+    }
+    return sides;
+}
+
+std::size_t closed_regions(const BrepData& brep) {
+    return static_cast<std::size_t>(std::ranges::count_if(brep.regions, [](const auto& r) { return r.volume > 0; }));
+}
+
+}  // namespace
+
+Result<SurfaceResult> result_of(const SurfaceModel& model) {
+    auto complex = topology::complex_of_soup(model.model);
+    if (!complex) return std::move(complex).why();
+    complex->take_apart = true;
+    complex->lines.shared_nodes = true;
+    for (auto& face : complex->faces) face.shared_nodes = true;
+    auto judged = topology::assemble(std::move(*complex), topology::RegionSearch::where_none_are_stated);
+    if (!judged) return std::move(judged).why();
+    const auto triangles = soup_triangles(model, *judged);
+    BrepData data = *judged->brep;
+    for (std::size_t s = 0; s < data.surfaces.size(); ++s) {
+        carry_values(model, data.surfaces[s].source_part, triangles[s], data.vertices, data.surfaces[s]);
+    }
+    auto changes = carry_region_names(model, region_sides(*judged, triangles), data);
+    auto brep = Brep::make(std::move(data));
+    if (!brep) return std::move(brep).why();
+    SurfaceResult result{std::move(*brep), {}, std::move(changes), 0};
+    result.regions = closed_regions(*result.brep);
+    result.dataset = exchange::faced_model(result.brep, result.dataset.losses);
+    return result;
+}
+
+}  // namespace geomend::repair

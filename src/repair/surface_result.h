@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "repair/surface_model.h"
+
+namespace geomend::repair {
+
+/// What became of the name of a region.
+struct NameChange {
+    enum Kind : std::uint8_t { lost, made, parted } kind;
+    std::string name;  ///< lost: that it had; made, parted: that it has
+    std::string from;  ///< parted: the region that it was a part of
+};
+
+/// A mended model as it can be judged and written.
+struct SurfaceResult {
+    Brep brep;
+    Dataset dataset;                  ///< one surface for each interface, with a model stated over them
+    std::vector<NameChange> changes;  ///< of regions; in no run of a kind sorted by name
+    std::size_t regions = 0;          ///< that are closed
+};
+
+/// Makes the boundary representation of a model: surfaces are one for each piece between lines, regions are found by walking
+/// along them. Attributes come from where triangles come from. A region that was read gives its name to that of the new ones
+/// with which it shares most area; others that share most with it are named after it. Layers and fault blocks follow.
+/// Failure (internal) where the result is inconsistent. Cost: near-linear.
+Result<SurfaceResult> result_of(const SurfaceModel& model);
+
+}  // namespace geomend::repair

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "repair/surface_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vectors.h"
+
+namespace geomend::repair {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> clean_mends = {"B01", "M02", "M03", "M04", "M05", "M08", "B26"};
+constexpr std::array<std::string_view, 14> cut_mends = {"B05", "B06", "B09", "B12", "B23", "B02", "B08",
+                                                        "B10", "B11", "B20", "B22", "B26", "B27", "B28"};
+constexpr std::array<std::string_view, 6> close_mends = {"B05", "B06", "B07", "B09", "B12", "B23"};
+constexpr std::array<std::string_view, 12> tails_mends = {"B02", "B05", "B06", "B08", "B09", "B10",
+                                                          "B11", "B12", "B16", "B20", "B22", "B23"};
+constexpr std::array<std::string_view, 8> rebuild_mends = {"B05", "B06", "B12", "B13", "B14", "B18", "B19", "F106"};
+
+constexpr std::array steps = {
+    SurfaceStepRow{"clean", "triangles without area, doubles and small stray parts are removed", clean_mends, clean_surfaces},
+    SurfaceStepRow{"close", "borders that stop short of a surface are brought onto it along their own surface", close_mends, close_borders,
+                   true},
+    SurfaceStepRow{"cut", "all surfaces are cut along everything that they have in common", cut_mends, cut_surfaces},
+    SurfaceStepRow{"tails", "what sticks through another surface by less than the limit, or out of a closed boundary, is removed",
+                   tails_mends, remove_tails},
+    SurfaceStepRow{"rebuild", "surfaces, lines, corners and regions are made anew; names are carried over", rebuild_mends,
+                   rebuild_surfaces},
+};
+
+}  // namespace
+
+std::span<const SurfaceStepRow> surface_steps() { return steps; }
+
+const SurfaceStepRow* surface_step(std::string_view name) {
+    const auto found = std::ranges::find(steps, name, &SurfaceStepRow::name);
+    return found == steps.end() ? nullptr : &*found;
+}
+
+Displacement displacement(const TriangleSoup& before, const TriangleSoup& after, const Origin& origin) {
+    Displacement d;
+    double sum = 0;
+    for (std::size_t v = 0; v < after.vertices.size(); ++v) {
+        const std::uint32_t from = origin.vertices[v].vertex;
+        if (from == no_index) continue;
+        const Vec3 move = minus(after.vertices[v], before.vertices[from]);
+        const double distance = std::sqrt(dot(move, move));
+        if (distance == 0) continue;
+        ++d.moved;
+        sum += distance;
+        d.largest = std::max(d.largest, distance);
+    }
+    if (d.moved > 0) d.mean = sum / static_cast<double>(d.moved);
+    return d;
+}
+
+}  // namespace geomend::repair

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/finding.h"
+#include "base/monitor.h"
+#include "repair/surface_model.h"
+
+namespace geomend::repair {
+
+/// What the user says of the steps.
+struct SurfaceStepOptions {
+    double max_gap = -1;  ///< largest gap that is closed and largest overshoot that is trimmed; negative: 1e-3 D
+    const Monitor* monitor = nullptr;
+};
+
+/// What was decided about a piece of a border that nearly meets another surface.
+struct ContactDecision {
+    std::string border, on;  ///< surfaces
+    double gap = 0;          ///< the largest along the surface
+    std::string decision;    ///< closed, trimmed or left
+    std::string why;
+};
+
+/// What a step did. `what` has its message, entities and places, and no code.
+struct StepOutcome {
+    Finding what;
+    std::uint64_t changed = 0;                           ///< triangles, vertices or pieces, as the message says; 0: the model is as it was
+    double max_displacement = 0, mean_displacement = 0;  ///< of the vertices that moved
+    std::vector<ContactDecision> contacts;               ///< of a step that decides about borders
+};
+
+/// A step that changes the surfaces of a model.
+using SurfaceStep = Result<StepOutcome> (*)(SurfaceModel&, const SurfaceStepOptions&);
+
+struct SurfaceStepRow {
+    std::string_view name;
+    std::string_view meaning;                 ///< one line
+    std::span<const std::string_view> mends;  ///< codes of findings for which it is taken where no step is named
+    SurfaceStep run;
+    bool leads_to_cut = false;  ///< the model is not judged after it, but once what follows is done: cut, tails
+};
+
+/// All steps, in the order in which they are taken where none is named.
+std::span<const SurfaceStepRow> surface_steps();
+/// The row of a step, or nullptr.
+const SurfaceStepRow* surface_step(std::string_view name);
+
+/// How far vertices moved between two soups.
+struct Displacement {
+    std::uint64_t moved = 0;
+    double largest = 0, mean = 0;
+};
+/// Of the vertices of `after` that are vertices of `before`, by its origin. Linear.
+Displacement displacement(const TriangleSoup& before, const TriangleSoup& after, const Origin& origin);
+
+// The steps.
+Result<StepOutcome> clean_surfaces(SurfaceModel&, const SurfaceStepOptions&);
+Result<StepOutcome> cut_surfaces(SurfaceModel&, const SurfaceStepOptions&);
+Result<StepOutcome> close_borders(SurfaceModel&, const SurfaceStepOptions&);
+Result<StepOutcome> remove_tails(SurfaceModel&, const SurfaceStepOptions&);
+Result<StepOutcome> rebuild_surfaces(SurfaceModel&, const SurfaceStepOptions&);
+
+}  // namespace geomend::repair
