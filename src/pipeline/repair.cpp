@@ -55,7 +55,7 @@ void replace_surfaces(Dataset& dataset, repair::SurfaceRepair repaired) {
 
 Result<void> mend_surfaces(Dataset& dataset, const std::vector<Finding>& before, const RepairRequest& request,
                            std::vector<ReportedStep>& steps) {
-    std::vector<std::string> names = request.steps.empty() ? repair::plan_for(before) : request.steps;
+    std::vector<std::string> names = request.steps.empty() ? repair::plan_for(before, request.max_gap >= 0) : request.steps;
     for (const std::string& name : names) {
         if (repair::surface_step(name) == nullptr)
             return failure(FailureKind::usage, "F018", {}, "--step " + name + ": no such step of surfaces");

@@ -35,7 +35,7 @@ std::vector<Offset> offsets_of(const TriangleSoup& soup, const FreeBorders& bord
             const BorderEdge& e = borders.edges[piece[i]];
             const Vec3 middle = times(0.5, plus(soup.vertices[e.from], soup.vertices[e.to]));
             GapHit hit = search.ahead(middle, e.outward, contact.patch, contact.on);  // that of the whole piece comes first
-            if (!hit.found()) hit = hits[piece[i]];
+            if (!hit.found() || (!hit.within && hits[piece[i]].within)) hit = hits[piece[i]];
             for (std::size_t d = 1; !hit.found() && d < piece.size(); ++d) {
                 if (i >= d) hit = hits[piece[i - d]];
                 if (!hit.found() && i + d < piece.size()) hit = hits[piece[i + d]];
@@ -51,12 +51,13 @@ std::vector<Offset> offsets_of(const TriangleSoup& soup, const FreeBorders& bord
     return offsets;
 }
 
-/// The point where two offset lines meet, or the middle of their ends where they run along each other.
+/// The point where two offset lines meet, or the farther of their ends where they run along each other.
 Vec3 joined(const Offset& before, const Offset& after, const Vec3& vertex, double farthest) {
     const Vec3 u = minus(before.to, before.from), v = minus(after.to, after.from), w = minus(after.from, before.from);
     const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), det = uu * vv - uv * uv;
-    const Vec3 between = times(0.5, plus(before.to, after.from));
-    if (det < 0.117 * uu * vv) return between;  // less than 20 degrees
+    const Vec3 one = minus(before.to, vertex), other = minus(after.from, vertex);
+    const Vec3 between = dot(one, one) > dot(other, other) ? before.to : after.from;  // what is too long is cut off
+    if (det < 0.117 * uu * vv) return between;                                        // less than 20 degrees
     const double s = (vv * dot(u, w) - uv * dot(v, w)) / det, t = (uv * dot(u, w) - uu * dot(v, w)) / det;
     const Vec3 meet = times(0.5, plus(plus(before.from, times(s, u)), plus(after.from, times(t, v))));
     const Vec3 away = minus(meet, vertex);

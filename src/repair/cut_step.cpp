@@ -2,6 +2,7 @@
 #include "arrangement/arrange.h"
 #include "base/number_text.h"
 #include "base/wording.h"
+#include "repair/soup_edges.h"
 #include "repair/surface_steps.h"
 
 namespace geomend::repair {
@@ -15,9 +16,22 @@ std::string message_of(const arrangement::Arrangement& a) {
            " without area left out, " + counted(a.doubled, "double", "doubles") + " left out";
 }
 
+/// A second cut finds the borders of the first one no more, so that they stay.
+void note_uncut_borders(SurfaceModel& model) {
+    if (!model.uncut_borders.empty()) return;
+    const TriangleSoup& soup = model.model.soup;
+    const SoupEdges edges = edges_of(soup);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (!is_free(edges[e])) continue;
+        const auto& use = edges[e][0];
+        model.uncut_borders.push_back({soup.vertices[use.low], soup.vertices[use.high], soup.patches[use.triangle]});
+    }
+}
+
 }  // namespace
 
 Result<StepOutcome> cut_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
+    note_uncut_borders(model);
     auto cut = arrangement::arrange(model.model.soup, {.tolerance = model.lengths.tolerance, .monitor = options.monitor});
     if (!cut) return std::move(cut).why();
     StepOutcome outcome;

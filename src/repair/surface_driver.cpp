@@ -144,13 +144,14 @@ std::string why_worse(const ErrorCounts& before, const ErrorCounts& after) {
     return {};
 }
 
-std::vector<std::string> plan_for(std::span<const Finding> findings) {
+std::vector<std::string> plan_for(std::span<const Finding> findings, bool close_gaps) {
     std::vector<std::string> plan;
     for (const SurfaceStepRow& row : surface_steps()) {
         const bool mends = std::ranges::any_of(findings, [&](const Finding& f) {
             return f.severity != Severity::info && std::ranges::find(row.mends, std::string_view(f.code)) != row.mends.end();
         });
-        if (mends) plan.emplace_back(row.name);
+        const bool closes = close_gaps && (row.name == "close" || row.name == "cut" || row.name == "tails");
+        if (mends || closes) plan.emplace_back(row.name);
     }
     return plan;
 }

@@ -36,7 +36,8 @@ ErrorCounts errors_of(std::span<const Finding> findings);
 std::string why_worse(const ErrorCounts& before, const ErrorCounts& after);
 
 /// The steps that mend what was found, in their order; empty: nothing was found that a step mends.
-std::vector<std::string> plan_for(std::span<const Finding> findings);
+/// \param close_gaps borders that stop short are closed also where no check finds them near
+std::vector<std::string> plan_for(std::span<const Finding> findings, bool close_gaps);
 
 struct SurfaceRepair {
     SurfaceResult result;

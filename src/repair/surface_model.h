@@ -34,6 +34,13 @@ struct SurfaceModel {
     /// Layers and fault blocks over them.
     std::vector<topology::SurfaceComplex::RegionList> layers, fault_blocks;
 
+    /// Where patches ended freely before they were cut: what lies between there and a line of the cut may be a tail.
+    struct BorderSegment {
+        Vec3 from, to;
+        std::uint32_t patch;
+    };
+    std::vector<BorderSegment> uncut_borders;
+
     topology::Lengths lengths;           ///< by which it is mended, from the input or as given
     std::vector<std::uint32_t> objects;  ///< of the Dataset that are in it, ascending
     std::vector<Loss> losses;            ///< what was read but cannot be mended here: cells of regions

@@ -8,67 +8,86 @@
 #include "repair/outer_boundary.h"
 #include "repair/soup_edges.h"
 #include "repair/soup_edit.h"
+#include "repair/soup_measures.h"
 #include "repair/surface_steps.h"
 
 namespace geomend::repair {
 
 namespace {
 
-/// What tells a tail: its edges on lines, its free edges, and its vertices away from lines.
-struct Piece {
-    std::vector<std::array<Vec3, 2>> lines;
-    std::uint32_t free_edges = 0;
-    std::vector<std::uint32_t> triangles;
+/// Where each patch ended before it was cut, to look for what is near.
+class UncutBorders {
+public:
+    explicit UncutBorders(const SurfaceModel& model) : segments_(model.uncut_borders), tree_(boxes(model.uncut_borders)) {}
+
+    bool near(const Vec3& p, std::uint32_t patch, double limit) const {
+        BoxTree::Corners around{p, p};
+        for (std::size_t k = 0; k < 3; ++k) {
+            around[0][k] -= limit;
+            around[1][k] += limit;
+        }
+        bool found = false;
+        tree_.visit(around, -1e-9 * limit, [&](std::uint32_t i) {
+            const auto& s = segments_[i];
+            found = found || (s.patch == patch && closest_points(p, {s.from, s.to, s.to}).distance <= limit);
+        });
+        return found;
+    }
+
+private:
+    static std::vector<BoxTree::Corners> boxes(const std::vector<SurfaceModel::BorderSegment>& segments) {
+        std::vector<BoxTree::Corners> all;
+        all.reserve(segments.size());
+        for (const auto& s : segments) {
+            BoxTree::Corners box;
+            for (std::size_t k = 0; k < 3; ++k) {
+                box[0][k] = std::min(s.from[k], s.to[k]);
+                box[1][k] = std::max(s.from[k], s.to[k]);
+            }
+            all.push_back(box);
+        }
+        return all;
+    }
+
+    const std::vector<SurfaceModel::BorderSegment>& segments_;
+    BoxTree tree_;
 };
 
-std::vector<Piece> gather(const TriangleSoup& soup, const SoupEdges& edges, const PatchPieces& pieces) {
+/// What tells a tail of pieces between lines.
+struct Piece {
+    std::vector<std::uint32_t> triangles;
+    double area = 0;
+    bool has_line = false;
+    bool ends = false;  ///< freely, or where a tail of its patch was taken away
+};
+
+std::vector<Piece> gather(const TriangleSoup& soup, const SoupEdges& edges, const PatchPieces& pieces,
+                          const std::vector<std::uint8_t>& removed) {
     std::vector<Piece> all(pieces.count());
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
-        if (pieces.of[t] != no_index) all[pieces.of[t]].triangles.push_back(t);
+        if (pieces.of[t] == no_index) continue;
+        all[pieces.of[t]].triangles.push_back(t);
+        all[pieces.of[t]].area += triangle_area(soup, t);
     }
     for (std::size_t e = 0; e < edges.size(); ++e) {
         const auto uses = edges[e];
-        if (is_inner(soup, uses)) continue;
-        if (is_free(uses)) {
-            ++all[pieces.of[uses[0].triangle]].free_edges;
-            continue;
-        }
-        std::uint32_t last = no_index;
+        std::size_t left = 0;
+        for (const auto& use : uses) left += removed[use.triangle] == 0 ? 1 : 0;
         for (const auto& use : uses) {
             const std::uint32_t piece = pieces.of[use.triangle];
-            if (piece != last) all[piece].lines.push_back({soup.vertices[use.low], soup.vertices[use.high]});
-            last = piece;
+            if (removed[use.triangle] != 0 || is_inner(soup, uses)) continue;
+            all[piece].has_line |= uses.size() > 1;
+            all[piece].ends |= left == 1 || std::ranges::any_of(uses, [&](const auto& other) {
+                                   return removed[other.triangle] != 0 && soup.patches[other.triangle] == soup.patches[use.triangle];
+                               });
         }
     }
     return all;
 }
 
-double distance_to(const Vec3& p, const std::array<Vec3, 2>& segment) {
-    return closest_points(p, {segment[0], segment[1], segment[1]}).distance;
-}
-
-/// Whether all vertices of a piece are within a distance of its lines.
-bool is_narrow(const TriangleSoup& soup, const Piece& piece, double limit) {
-    std::vector<BoxTree::Corners> boxes;
-    boxes.reserve(piece.lines.size());
-    for (const auto& line : piece.lines) {
-        BoxTree::Corners box;
-        for (std::size_t k = 0; k < 3; ++k) {
-            box[0][k] = std::min(line[0][k], line[1][k]) - limit;
-            box[1][k] = std::max(line[0][k], line[1][k]) + limit;
-        }
-        boxes.push_back(box);
-    }
-    const BoxTree tree(boxes);
-    std::vector<std::uint32_t> vertices;
-    for (const std::uint32_t t : piece.triangles) vertices.insert(vertices.end(), soup.triangles[t].begin(), soup.triangles[t].end());
-    std::ranges::sort(vertices);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    return std::ranges::all_of(vertices, [&](std::uint32_t v) {
-        bool near = false;
-        const Vec3& p = soup.vertices[v];
-        tree.visit({p, p}, -1e-300, [&](std::uint32_t i) { near = near || distance_to(p, piece.lines[i]) <= limit; });
-        return near;
+bool is_near_border(const TriangleSoup& soup, const Piece& piece, std::uint32_t patch, const UncutBorders& borders, double limit) {
+    return std::ranges::all_of(piece.triangles, [&](std::uint32_t t) {
+        return std::ranges::all_of(soup.triangles[t], [&](std::uint32_t v) { return borders.near(soup.vertices[v], patch, limit); });
     });
 }
 
@@ -76,26 +95,34 @@ struct Removed {
     std::uint64_t pieces = 0, triangles = 0;
 };
 
-/// Takes narrow pieces with a free border away, until there are none; a patch never goes whole.
-Removed drop_narrow(const TriangleSoup& soup, double limit, std::vector<std::uint8_t>& keep) {
-    Removed removed;
+/// Takes pieces away that end freely and lie within the limit of where their patch ended before it was cut; then those behind
+/// them, until there are none. The largest piece of a patch stays.
+Removed drop_narrow(const SurfaceModel& model, double limit, std::vector<std::uint8_t>& keep) {
+    const TriangleSoup& soup = model.model.soup;
+    const SoupEdges edges = edges_of(soup);
+    const PatchPieces pieces = pieces_between_lines(soup, edges);
+    const UncutBorders borders(model);
+    std::vector<std::uint8_t> removed(soup.triangles.size(), 0), near(pieces.count(), 2);
+    std::vector<double> largest(model.model.patches.size(), 0);
+    Removed sum;
     for (bool again = true; again;) {
         again = false;
-        const SoupEdges edges = edges_of(soup, keep);
-        const PatchPieces pieces = pieces_between_lines(soup, edges);
-        const auto all = gather(soup, edges, pieces);
-        std::vector<std::uint32_t> left(soup.patches.empty() ? 0 : *std::ranges::max_element(soup.patches) + 1, 0);
-        for (const std::uint32_t patch : pieces.patch) ++left[patch];
+        const auto all = gather(soup, edges, pieces, removed);
+        for (std::size_t p = 0; p < all.size(); ++p) largest[pieces.patch[p]] = std::max(largest[pieces.patch[p]], all[p].area);
         for (std::size_t p = 0; p < all.size(); ++p) {
-            if (all[p].free_edges == 0 || all[p].lines.empty() || left[pieces.patch[p]] == 1 || !is_narrow(soup, all[p], limit)) continue;
-            --left[pieces.patch[p]];
-            for (const std::uint32_t t : all[p].triangles) keep[t] = 0;
-            ++removed.pieces;
-            removed.triangles += all[p].triangles.size();
+            const Piece& piece = all[p];
+            if (piece.triangles.empty() || removed[piece.triangles[0]] != 0) continue;
+            if (!piece.has_line || !piece.ends || piece.area == largest[pieces.patch[p]]) continue;
+            if (near[p] == 2) near[p] = is_near_border(soup, piece, pieces.patch[p], borders, limit) ? 1 : 0;
+            if (near[p] == 0) continue;
+            for (const std::uint32_t t : piece.triangles) removed[t] = 1;
+            ++sum.pieces;
+            sum.triangles += piece.triangles.size();
             again = true;
         }
     }
-    return removed;
+    for (std::size_t t = 0; t < removed.size(); ++t) keep[t] = removed[t] != 0 ? 0 : 1;
+    return sum;
 }
 
 }  // namespace
@@ -103,7 +130,7 @@ Removed drop_narrow(const TriangleSoup& soup, double limit, std::vector<std::uin
 Result<StepOutcome> remove_tails(SurfaceModel& model, const SurfaceStepOptions& options) {
     const double limit = options.max_gap >= 0 ? options.max_gap : 1e-3 * model.lengths.diameter;
     std::vector<std::uint8_t> keep(model.model.soup.triangles.size(), 1);
-    const Removed narrow = drop_narrow(model.model.soup, limit, keep);
+    const Removed narrow = drop_narrow(model, limit, keep);
     auto outside = outside_of_boundary(model, keep);
     if (!outside) return std::move(outside).why();
     for (const std::uint32_t t : *outside) keep[t] = 0;

@@ -28,7 +28,7 @@ Mended mend(const Dataset& dataset, double max_gap) {
     EXPECT_TRUE(before);
     repair::SurfaceDriverOptions options;
     options.steps.max_gap = max_gap;
-    const auto plan = repair::plan_for(before->findings);
+    const auto plan = repair::plan_for(before->findings, max_gap >= 0);
     auto repaired = repair::repair_surfaces(dataset, before->findings, plan, options);
     EXPECT_TRUE(repaired);
     Mended mended;
