@@ -18,10 +18,6 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-/// A border that is no farther off than this part of the way along it since both met leaves too slowly: in a wedge of less than
-/// 3 degrees.
-constexpr double slow = 0.05;
-
 /// The triangle of a group (by its place in the tree) that is closest to a border edge, without those that share a vertex with it.
 struct Candidate {
     std::uint32_t group = 0, triangle = 0;
@@ -55,8 +51,15 @@ private:
 class BorderSearch {
 public:
     BorderSearch(const SurfaceDistance& soup, std::span<const Edge> edges, std::span<const std::uint32_t> groups, double near,
-                 double touching)
-        : soup_(soup), edges_(edges), groups_(groups), near_(near), touching_(touching), graph_(edges, groups), candidates_(edges.size()) {}
+                 double touching, double slow)
+        : soup_(soup),
+          edges_(edges),
+          groups_(groups),
+          near_(near),
+          touching_(touching),
+          slow_(slow),
+          graph_(edges, groups),
+          candidates_(edges.size()) {}
 
     /// Candidates, and which of them are smallest distances. False when stopped.
     bool find_candidates(const Monitor* monitor) {
@@ -134,7 +137,7 @@ private:
     const SurfaceDistance& soup_;
     std::span<const Edge> edges_;
     std::span<const std::uint32_t> groups_;
-    const double near_, touching_;
+    const double near_, touching_, slow_;
     const BorderGraph graph_;
     std::vector<std::vector<Candidate>> candidates_;  ///< of each edge, one per group
 
@@ -284,7 +287,7 @@ private:
             if (here.closest.distance == 0) return;
             if (here.closest.distance >= near_) {
                 // On the way there it may have left slowly for as long as it was near.
-                const double last = near_ / slow - way;
+                const double last = near_ / slow_ - way;
                 if (last > 0 && last < length) here = gap_at(plus(soup_.position(from), times(last / length, step)), group);
                 if (here.closest.distance > 0 && here.closest.distance < near_ && runs_beside(edge, here.closest)) {
                     path.push_back({edge, here});
@@ -294,7 +297,7 @@ private:
             }
             way += length;
             path.push_back({edge, here.closest.distance > before.closest.distance ? here : before});
-            if (here.closest.distance <= slow * way && runs_beside(edge, here.closest)) slowly = path.size();
+            if (here.closest.distance <= slow_ * way && runs_beside(edge, here.closest)) slowly = path.size();
             const std::vector<std::uint32_t> next = others(edge, to);
             if (next.empty()) return keep(path);
             if (next.size() > 1) break;
@@ -355,10 +358,11 @@ private:
 }  // namespace
 
 std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const std::uint32_t> groups, std::span<const Edge> border_edges,
-                                  std::span<const std::uint32_t> border_groups, double near, const Monitor* monitor, double touching) {
+                                  std::span<const std::uint32_t> border_groups, double near, const Monitor* monitor, double touching,
+                                  double slow) {
     if (border_edges.empty() || tree.size() == 0 || !(near > 0)) return {};
     const SurfaceDistance soup(tree, groups);
-    BorderSearch search(soup, border_edges, border_groups, near, touching);
+    BorderSearch search(soup, border_edges, border_groups, near, touching, slow);
     if (!search.find_candidates(monitor)) return {};
     search.spread();
     search.leave_out_stubs();

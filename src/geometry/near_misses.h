@@ -30,21 +30,22 @@ struct NearMiss {
 ///   only where there are no others);
 /// - a hole in a contact: a run of edges, all of whose vertices are closer than `near`, from a vertex of the other group to
 ///   another such vertex or to the end of the border;
-/// - a slow wedge: a run of edges from a vertex of the other group to the last place that is closer than `near` and than 1/20 of
+/// - a slow wedge: a run of edges from a vertex of the other group to the last place that is closer than `near` and than `slow` of
 ///   the way along the border up to there, where the surface leaves the other one more steeply across its border than along it.
 /// Edges of holes and wedges are told with the distance at the end that is farther off. So a border that leaves a surface at
-/// more than 3 degrees is no miss, nor is that of a bed that wedges out as a whole.
+/// more than 3 degrees (`slow` being 1/20) is no miss, nor is that of a bed that wedges out as a whole.
 /// At most one for each border edge and group of triangles: ascending by edge, then by group.
 /// \param groups the surface of each triangle; patches of one geological surface may share a group
 /// \param border_edges two vertex numbers each; \param border_groups the group of each, that of the triangle beside it
 /// \param near length; what is 0 apart (touches or crosses) is no near miss
 /// \param monitor may stop the search: nothing is returned then
 /// \param touching what is no farther off touches: it is told alone, as what touches by exact predicates is not told
+/// \param slow a border that is no farther off than this part of the way along it since both met leaves too slowly
 /// \pre arrays agree in length, indices are in range, coordinates finite, fewer than 1.4e9 triangles
 /// Cost: as the number of border edges, times the triangles within `near` of one; 18 bytes per triangle besides the tree.
 std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const std::uint32_t> groups,
                                   std::span<const std::array<std::uint32_t, 2>> border_edges, std::span<const std::uint32_t> border_groups,
-                                  double near, const Monitor* monitor = nullptr, double touching = 0);
+                                  double near, const Monitor* monitor = nullptr, double touching = 0, double slow = 0.05);
 /// The same, with a tree of its own.
 std::vector<NearMiss> near_misses(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                   std::span<const std::uint32_t> groups, std::span<const std::array<std::uint32_t, 2>> border_edges,

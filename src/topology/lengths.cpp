@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "topology/clusters.h"
 #include "topology/outlying_points.h"
+#include "topology/thickness.h"
 
 namespace geomend::topology {
 
@@ -21,28 +22,8 @@ constexpr double far_off = 10;  // diameters
 struct Cluster {
     std::vector<std::uint32_t> parts;
     Vec3 centroid{};
-    double radius = 0, edge = 0, steps = 0;
+    double radius = 0, edge = 0, steps = 0, flatness = 1;
 };
-
-/// The length up to which half of the weight lies. \pre not empty
-double weighted_median(std::vector<std::pair<double, double>>& lengths) {
-    double half = 0;
-    for (const auto& [length, weight] : lengths) half += weight / 2;
-    auto from = lengths.begin(), to = lengths.end();
-    while (to - from > 1) {
-        const auto middle = from + (to - from) / 2;
-        std::nth_element(from, middle, to);
-        double below = 0;
-        for (auto i = from; i != middle; ++i) below += i->second;
-        if (below > half) {
-            to = middle;
-        } else {
-            half -= below;
-            from = middle;
-        }
-    }
-    return from->first;
-}
 
 /// The middle one of the three edges.
 double middle_edge(const std::array<Vec3, 3>& t) {
@@ -142,16 +123,20 @@ void Survey::measure_cluster(Cluster& cluster) const {
     if (count == 0) return;
     cluster.centroid = plus(origin, weight > 0 ? times(1 / weight, weighted) : times(1 / count, plain));
     std::vector<std::pair<double, double>> edges;
+    std::vector<std::array<Vec3, 3>> faces;
     each_triangle(cluster, [&](std::uint32_t t) {
         const auto corners = used_.corners(t);
         for (const Vec3& p : corners) {
             const Vec3 d = minus(p, cluster.centroid);
             cluster.radius = std::max(cluster.radius, dot(d, d));
         }
-        if (used_.is_weighted(t)) edges.emplace_back(middle_edge(corners), used_.weight(t));
+        if (!used_.is_weighted(t)) return;
+        edges.emplace_back(middle_edge(corners), used_.weight(t));
+        if (used_.volumes[used_.object[t]].empty()) faces.push_back(corners);
     });
     cluster.radius = std::sqrt(cluster.radius);
-    if (!edges.empty()) cluster.edge = weighted_median(edges);
+    if (!edges.empty()) cluster.edge = weighted_quantile(edges, 0.5);
+    cluster.flatness = flatness(slab_of(faces), 2 * cluster.radius);
 }
 
 /// Per object the cluster in which most of it is; of equal ones the largest.
@@ -209,7 +194,8 @@ LocalLengths Survey::lengths(const LengthRules& rules) const {
             Lengths lengths;
             lengths.diameter = 2 * c.radius;
             lengths.tolerance = rules.tolerance >= 0 ? rules.tolerance : std::max(1e-7 * lengths.diameter, c.steps);
-            double near = 1e-3 * lengths.diameter;
+            lengths.flatness = c.flatness;
+            double near = 1e-3 * c.flatness * lengths.diameter;
             if (c.edge > 0) near = std::min(near, c.edge / 4);
             lengths.near = rules.near >= 0 ? rules.near : std::max(10 * lengths.tolerance, near);
             local.clusters.push_back(lengths);

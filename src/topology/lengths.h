@@ -14,6 +14,7 @@ struct Lengths {
     double diameter = 0;   ///< D, twice the largest distance of a point from the area-weighted centroid
     double tolerance = 0;  ///< up to which points count as one: max(1e-7 D, 4 steps of the stored coordinates), or as given
     double near = 0;       ///< search length for near misses, or as given
+    double flatness = 1;   ///< 1/100 to 1, as flatness() has it: how much the cluster is thinner than D/5
 };
 
 /// What the user says of lengths; negative: by rule.
@@ -50,7 +51,8 @@ struct LocalLengths {
 /// - D is twice the largest distance of a point from the area-weighted centroid, so that it does not depend on how finely
 ///   something is triangulated (of meshes that have cells of three dimensions only the volume takes the place of the area);
 /// - tolerance = max(1e-7 D, 4 steps of the largest coordinate as it is stored);
-/// - near = max(10 tolerances, min(1e-3 D, a quarter of the median edge)). The median is weighted by area.
+/// - near = max(10 tolerances, min(1e-3 D flatness, a quarter of the median edge)): so it is a two hundredth of the thickness of bodies
+///   that are thinner than D/5, as basins are (see thickness.h). The median is weighted by area.
 /// Outlying points take no part: see find_outlying_points().
 /// \pre all coordinates that elements use are finite and below 1e20. Cost: near-linear, about 0.15 s per million triangles.
 LocalLengths local_lengths(const Dataset& dataset, const LengthRules& rules);

@@ -75,6 +75,19 @@ TEST_P(RewrittenZoo, IsJudgedTheSame) {
     for (const Way& way : ways_of(animal.model.data)) EXPECT_EQ(verdict(way.data), known) << way.name;
 }
 
+TEST_P(RewrittenZoo, IsJudgedTheSameAsABasinManyTimesWiderThanThick) {
+    const Animal animal = GetParam().make();
+    const Verdict known = nameless(animal.model.data);
+    const bool is_body = animal.counts.regions > 0;  // single sheets have no thickness
+    for (const double wide : {5.0, 30.0, is_body ? 200.0 : 30.0}) {
+        Verdict basin = nameless(moved(animal.model.data, [&](const Vec3& p) { return Vec3{wide * p[0], wide * p[1], p[2]}; }));
+        for (const char* angle : {"Q01", "Q03", "Q04"}) {  // angles are smaller ones there
+            if (!known.findings.contains(angle)) basin.findings.erase(angle);
+        }
+        EXPECT_EQ(basin, known) << wide;
+    }
+}
+
 TEST_P(RewrittenZoo, IsJudgedTheSameWithoutItsRegionLists) {
     const Animal animal = GetParam().make();
     const Dataset data = without_lists(animal.model.data);

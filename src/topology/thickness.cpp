@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "topology/thickness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "geometry/principal_axes.h"
+#include "geometry/vectors.h"
+
+namespace geomend::topology {
+
+namespace {
+
+/// Twice the area along the normal.
+Vec3 area_vector(const std::array<Vec3, 3>& t) { return cross(minus(t[1], t[0]), minus(t[2], t[0])); }
+
+/// The direction that most of the area faces; its eigenvalue is the largest.
+Vec3 facing(std::span<const std::array<Vec3, 3>> triangles) {
+    std::array<double, 6> tensor{};
+    for (const auto& t : triangles) {
+        const Vec3 n = area_vector(t);
+        const double length = std::sqrt(dot(n, n));
+        if (!(length > 0)) continue;
+        std::size_t k = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = i; j < 3; ++j) tensor[k++] += n[i] * (n[j] / length);
+        }
+    }
+    return principal_axes(tensor)[2];
+}
+
+/// Sums up what is seen of an area along a direction.
+class SeenArea {
+public:
+    explicit SeenArea(const Vec3& up) {
+        const std::size_t k = std::abs(up[0]) <= std::abs(up[1]) && std::abs(up[0]) <= std::abs(up[2]) ? 0
+                              : std::abs(up[1]) <= std::abs(up[2])                                     ? 1
+                                                                                                       : 2;
+        Vec3 axis{};
+        axis[k] = 1;
+        u_ = cross(up, axis);
+        u_ = times(1 / std::sqrt(dot(u_, u_)), u_);
+        v_ = cross(up, u_);
+    }
+    void add(const Vec3& at, double weight) {
+        const double x = dot(u_, at), y = dot(v_, at);
+        weight_ += weight;
+        x_ += weight * x;
+        y_ += weight * y;
+        xx_ += weight * x * x;
+        xy_ += weight * x * y;
+        yy_ += weight * y * y;
+    }
+    double sheets() const {
+        if (!(weight_ > 0)) return 0;
+        const double x = x_ / weight_, y = y_ / weight_;
+        const double xx = xx_ / weight_ - x * x, xy = xy_ / weight_ - x * y, yy = yy_ / weight_ - y * y;
+        const double square = xx * yy - xy * xy;  // of a rectangle a twelfth of the area
+        return square > 0 ? weight_ / (12 * std::sqrt(square)) : 0;
+    }
+
+private:
+    Vec3 u_{}, v_{};
+    double weight_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;
+};
+
+}  // namespace
+
+double weighted_quantile(std::span<std::pair<double, double>> lengths, double share) {
+    double wanted = 0;
+    for (const auto& [length, weight] : lengths) wanted += weight * share;
+    auto from = lengths.begin(), to = lengths.end();
+    while (to - from > 1) {
+        const auto middle = from + (to - from) / 2;
+        std::nth_element(from, middle, to);
+        double below = 0;
+        for (auto i = from; i != middle; ++i) below += i->second;
+        if (below > wanted) {
+            to = middle;
+        } else {
+            wanted -= below;
+            from = middle;
+        }
+    }
+    return from->first;
+}
+
+Slab slab_of(std::span<const std::array<Vec3, 3>> triangles) {
+    constexpr double outer = 0.05;  // share of the area on either side
+    Slab slab;
+    if (triangles.empty()) return slab;
+    const Vec3 up = facing(triangles);
+    const Vec3& origin = triangles[0][0];
+    std::vector<std::pair<double, double>> heights;  // of the middles of edges, by which a triangle has its first two moments
+    heights.reserve(3 * triangles.size());
+    SeenArea seen(up);
+    for (const auto& t : triangles) {
+        const Vec3 n = area_vector(t);
+        const double area = 0.5 * std::sqrt(dot(n, n)), ahead = 0.5 * std::abs(dot(n, up));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 middle = times(0.5, plus(minus(t[k], origin), minus(t[(k + 1) % 3], origin)));
+            heights.emplace_back(dot(up, middle), area / 3);
+            seen.add(middle, ahead / 3);
+        }
+    }
+    const double low = weighted_quantile(heights, outer);
+    slab.thickness = weighted_quantile(heights, 1 - outer) - low;
+    slab.sheets = seen.sheets();
+    return slab;
+}
+
+double flatness(const Slab& slab, double diameter) {
+    constexpr double thin = 0.2, thinnest = 0.01, all_body = 1.5;
+    if (!(diameter > 0) || !(slab.thickness < thin * diameter)) return 1;
+    const double body = std::clamp((slab.sheets - 1) / (all_body - 1), 0.0, 1.0);
+    return std::pow(std::max(thinnest, slab.thickness / diameter / thin), body);
+}
+
+}  // namespace geomend::topology
