@@ -47,11 +47,11 @@ Snapped snapped(const TriangleSoup& soup, double tolerance) {
     return s;
 }
 
-/// Up to which distance features are one in a round: a thirty-second of the tolerance, where rounding to the grid does no harm. A few
-/// points close to one line can go round in circles at any distance, a thin lens that opens and closes; so after some rounds what is
-/// still new is looked at ever more widely, up to half of the tolerance, and the lens closes.
-double reach_of_round(const SnapGrid& grid, unsigned rounds) {
-    const double first = std::max(2.0, grid.tolerance_steps / 32), most = std::max(first, grid.tolerance_steps / 2);
+/// Up to which distance features are one in a round: a share of the tolerance, by default a thirty-second, where rounding to the grid does
+/// no harm. A few points close to one line can go round in circles at any distance, a thin lens that opens and closes; so after some rounds
+/// what is still new is looked at ever more widely, up to half of the tolerance, and the lens closes.
+double reach_of_round(const SnapGrid& grid, double share, unsigned rounds) {
+    const double first = std::max(2.0, grid.tolerance_steps * share), most = std::max(first, grid.tolerance_steps / 2);
     return rounds < 5 ? first : std::min(most, first * std::exp2((rounds - 3) / 2));
 }
 
@@ -124,7 +124,7 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     result.clean = false;
     const auto stopped = [&] { return options.monitor != nullptr && options.monitor->stopped(); };
     while (!result.clean && result.rounds < options.most_rounds && !stopped()) {
-        s.state.reach = reach_of_round(s.grid, result.rounds);
+        s.state.reach = reach_of_round(s.grid, options.reach, result.rounds);
         result.clean = cut_round(s.state, options.monitor);
         ++result.rounds;
     }

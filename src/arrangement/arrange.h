@@ -12,7 +12,8 @@
 namespace geomend::arrangement {
 
 struct ArrangeOptions {
-    double tolerance = 0;  ///< above 0: what is nearer to each other than this becomes one point; in the unit of the coordinates
+    double tolerance = 0;     ///< above 0: what is nearer to each other than this becomes one point; in the unit of the coordinates
+    double reach = 1.0 / 32;  ///< share of the tolerance within which a vertex becomes a part of an edge or a face; below 1
     unsigned most_rounds = 24;
     const Monitor* monitor = nullptr;
 };
@@ -32,8 +33,8 @@ struct Arrangement {
 };
 
 /// Cuts all triangles of a soup along everything that they have in common: crossings, contacts, overlaps, with others or within
-/// a patch. Vertices nearer than the tolerance become one (the first keeps its place); vertices within a thirty-second of
-/// it of an edge or a face become a part of it, which then bends that much; edges that pierce faces get a vertex there. All positions
+/// a patch. Vertices nearer than the tolerance become one (the first keeps its place); vertices within its `reach`
+/// of an edge or a face become a part of it, which then bends that much; edges that pierce faces get a vertex there. All positions
 /// lie on a grid of powers of two, some 500 times finer than the tolerance, apart from vertices that were there before and keep
 /// their own to the bit. The result is looked through again until nothing is found, so that nothing crosses in doubles, and cutting
 /// again changes nothing; where `most_rounds` do not suffice, `clean` says so. Triangles of

@@ -28,11 +28,9 @@ void note_uncut_borders(SurfaceModel& model) {
     }
 }
 
-}  // namespace
-
-Result<StepOutcome> cut_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
-    note_uncut_borders(model);
-    auto cut = arrangement::arrange(model.model.soup, {.tolerance = model.lengths.tolerance, .monitor = options.monitor});
+/// \param reach share of the tolerance within which a vertex becomes a part of an edge or a face
+Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach) {
+    auto cut = arrangement::arrange(model.model.soup, {.tolerance = model.lengths.tolerance, .reach = reach, .monitor = options.monitor});
     if (!cut) return std::move(cut).why();
     StepOutcome outcome;
     outcome.what.message = message_of(*cut);
@@ -43,6 +41,18 @@ Result<StepOutcome> cut_surfaces(SurfaceModel& model, const SurfaceStepOptions& 
     outcome.mean_displacement = d.mean;
     take_soup(model, std::move(cut->soup), cut->origin);
     return outcome;
+}
+
+}  // namespace
+
+Result<StepOutcome> weld_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
+    constexpr double nearly_all = 0.9;  // vertices keep the tolerance from each other, so that edges bend and do not fold
+    return arrange_model(model, options, nearly_all);
+}
+
+Result<StepOutcome> cut_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
+    note_uncut_borders(model);
+    return arrange_model(model, options, arrangement::ArrangeOptions().reach);
 }
 
 }  // namespace geomend::repair

@@ -61,6 +61,7 @@ Displacement displacement(const TriangleSoup& before, const TriangleSoup& after,
 
 // The steps.
 Result<StepOutcome> clean_surfaces(SurfaceModel&, const SurfaceStepOptions&);
+Result<StepOutcome> weld_surfaces(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> cut_surfaces(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> close_borders(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> remove_tails(SurfaceModel&, const SurfaceStepOptions&);
