@@ -134,9 +134,7 @@ bool loses_substance(const std::vector<Loss>& losses) {
 
 Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "stopped; nothing was written"); }
 
-using Change = std::function<Result<void>(Dataset&)>;
-
-Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Change& change) {
+Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const DatasetChange& change) {
     const auto format = target_format(request);
     if (!format) return format.why();
     LoadOptions options;
@@ -148,7 +146,7 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Cha
     if (monitor != nullptr && monitor->stopped()) return stopped();
     if (auto joined = join_properties(*dataset); !joined) return std::move(joined).why();
     if (change) {
-        if (auto changed = change(*dataset); !changed) return std::move(changed).why();
+        if (auto changed = change(*dataset, **format); !changed) return std::move(changed).why();
     }
     if (auto made = make_like(*dataset, **format, request); !made) return std::move(made).why();
     if (auto done = apply_grid_options(*dataset, **format, options.options); !done) return std::move(done).why();
@@ -177,7 +175,7 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Cha
 
 Result<ConvertReport> convert(const ConvertRequest& request) { return convert(request, nullptr); }
 
-Result<ConvertReport> convert(const ConvertRequest& request, const Change& change) {
+Result<ConvertReport> convert(const ConvertRequest& request, const DatasetChange& change) {
     try {
         return convert_unguarded(request, change);
     } catch (const std::bad_alloc&) {

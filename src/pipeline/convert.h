@@ -35,7 +35,10 @@ struct ConvertReport {
 /// system are refused (F016) unless option crs=ignore.
 Result<ConvertReport> convert(const ConvertRequest& request);
 
-/// The same with a change between reading and writing; its failure ends the conversion.
-Result<ConvertReport> convert(const ConvertRequest& request, const std::function<Result<void>(Dataset&)>& change);
+/// What is done to a Dataset between reading and writing it in a format.
+using DatasetChange = std::function<Result<void>(Dataset&, const Format& target)>;
+
+/// The same with a change between; its failure ends the conversion.
+Result<ConvertReport> convert(const ConvertRequest& request, const DatasetChange& change);
 
 }  // namespace geomend

@@ -86,16 +86,19 @@ Result<void> mend_surfaces(Dataset& dataset, const std::vector<Finding>& before,
     return {};
 }
 
-Result<void> mend(Dataset& dataset, const RepairRequest& request, RepairReport& report) {
+Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& request, RepairReport& report) {
     const std::string& path = request.files.inputs.front();
     flatten_meshes(dataset);
     auto before = validate(path, dataset, request.checks);
     if (!before) return std::move(before).why();
     report.valid_before = count_by_severity(before->findings).error == 0;
     std::vector<ReportedStep> steps;
+    const bool stated = !dataset.models.empty();
     const bool grids = std::ranges::any_of(dataset.objects, is_grid);
     auto mended = grids ? mend_grids(dataset, request, steps) : mend_surfaces(dataset, before->findings, request, steps);
     if (!mended) return mended;
+    // Regions that were found, and stated by none of the inputs, are no loss where the target holds none.
+    if (!stated && target.wants == WriterWants::objects) dataset.models.clear();
     auto after = validate(path, dataset, request.checks);
     if (!after) return std::move(after).why();
     report.file = std::move(*after);
@@ -119,7 +122,7 @@ Result<RepairReport> repair_file(const RepairRequest& request) {
     RepairReport report;
     ConvertRequest files = request.files;
     if (files.load.command.empty()) files.load.command = repair_option_rows();
-    const auto converted = convert(files, [&](Dataset& dataset) { return mend(dataset, request, report); });
+    const auto converted = convert(files, [&](Dataset& dataset, const Format& target) { return mend(dataset, target, request, report); });
     if (converted) {
         report.losses = converted->losses;
         return report;
