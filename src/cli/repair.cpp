@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
+#include "base/input.h"
 #include "base/number_text.h"
+#include "base/output.h"
 #include "cli/check_arguments.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -23,8 +26,9 @@ struct RepairOptions : CommonOptions, CheckArguments {
     std::string output;
     std::vector<std::string> steps;
     std::string step_list;  // separated by commas
-    double max_gap = -1, max_displacement = -1;
-    bool lossy = false, keep_invalid = false;
+    std::string recipe, write_recipe, box;
+    std::optional<double> max_gap, max_displacement;
+    bool lossy = false, keep_invalid = false, dry_run = false;
 };
 
 Result<std::optional<double>> gap_of(const FormatOptions& options) {
@@ -47,6 +51,27 @@ std::vector<std::string> steps_of(const RepairOptions& o) {
     return steps;
 }
 
+// The recipe that is named, if one is; what the command line says besides takes the place of its entries.
+Result<repair::Recipe> recipe_of(const RepairOptions& o) {
+    repair::Recipe recipe;
+    if (!o.recipe.empty()) {
+        auto input = Input::open(o.recipe);
+        if (!input) return std::move(input).why();
+        auto parsed = repair::parse_recipe(input->bytes(), o.recipe);
+        if (!parsed) return std::move(parsed).why();
+        recipe = std::move(*parsed);
+    }
+    if (auto steps = steps_of(o); !steps.empty()) recipe.steps = std::move(steps);
+    if (o.max_gap) recipe.max_gap = o.max_gap;
+    if (o.max_displacement) recipe.max_displacement = o.max_displacement;
+    if (!o.box.empty()) {
+        recipe.box.reset();
+        recipe.automatic_box = false;
+        if (auto box = repair::parse_box(o.box, recipe); !box) return std::move(box).why();
+    }
+    return recipe;
+}
+
 Result<RepairRequest> request_of(const RepairOptions& o, const Monitor& monitor) {
     auto options = format_options(o.options);
     if (!options) return std::move(options).why();
@@ -63,9 +88,12 @@ Result<RepairRequest> request_of(const RepairOptions& o, const Monitor& monitor)
     request.files.lossy = o.lossy;
     request.files.accept_unterminated = o.accept_unterminated;
     request.files.load = {o.from, std::move(*options), &monitor};
-    request.steps = steps_of(o);
-    request.max_gap = o.max_gap;
-    request.max_displacement = o.max_displacement;
+    auto recipe = recipe_of(o);
+    if (!recipe) return std::move(recipe).why();
+    if (request.checks.tolerance < 0 && recipe->tolerance) request.checks.tolerance = *recipe->tolerance;
+    if (request.checks.near < 0 && recipe->near) request.checks.near = *recipe->near;
+    request.recipe = std::move(*recipe);
+    request.dry_run = o.dry_run;
     request.keep_invalid = o.keep_invalid;
     return request;
 }
@@ -100,14 +128,20 @@ ExitStatus run(const RepairOptions& o) {
         if (auto written = write_report(all, file, &monitor); !written) status = worse(status, report(written.why()));
     }
     if (!o.quiet) tell_losses(repaired->losses, o.verbose);
-    if (o.json) return worse(status, print(report_json(all)));
+    if (!o.write_recipe.empty()) {
+        OutputSet output(o.write_recipe);
+        output.main_file() << repair::recipe_text(repaired->recipe);
+        if (auto written = output.commit(&monitor); !written) status = worse(status, report(written.why()));
+    }
+    if (o.json) return worse(status, print(repair_json(all)));
     if (!o.quiet) {
         // The model itself may go to standard output.
         const std::string text = report_text(all, ::isatty(o.output == "-" ? STDERR_FILENO : STDOUT_FILENO) == 1);
         if (o.output == "-") std::fputs(text.c_str(), stderr);
         else status = worse(status, print(text));
     }
-    if (!repaired->written) std::fputs("geomend: the result is not valid: nothing was written (--keep-invalid writes it)\n", stderr);
+    if (o.dry_run) std::fputs("geomend: a dry run: nothing was written\n", stderr);
+    else if (!repaired->written) std::fputs("geomend: the result is not valid: nothing was written (--keep-invalid writes it)\n", stderr);
     return status;
 }
 
@@ -125,10 +159,18 @@ void add_repair(CLI::App& program, ExitStatus& status) {
         ->type_name(names)
         ->allow_extra_args(false);
     command->add_option("--steps", o->step_list, "Steps, separated by commas, in the order in which they are taken")->type_name("A,B,...");
+    command->add_option("--recipe", o->recipe, "File (TOML) of steps, lengths and decisions; the command line goes before it")
+        ->type_name("FILE");
+    command->add_option("--write-recipe", o->write_recipe, "Writes the recipe with which the same is done again")->type_name("FILE");
+    command->add_flag("--dry-run", o->dry_run, "Does all but write: the plan, what each step would do, and what is left");
+    command->add_option("--box", o->box, "Adds the six sides of a box: auto, or x0,x1,y0,y1,z0,z1")->type_name("BOX");
     command
         ->add_option("--max-gap", o->max_gap, "Largest gap that is closed and overshoot that is trimmed (default 1e-3 of the model's size)")
-        ->type_name("L");
-    command->add_option("--max-displacement", o->max_displacement, "A step that moves a vertex farther is undone")->type_name("L");
+        ->type_name("L")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--max-displacement", o->max_displacement, "A step that moves a vertex farther is undone")
+        ->type_name("L")
+        ->check(CLI::NonNegativeNumber);
     command->add_flag("--keep-invalid", o->keep_invalid, "Write the result even where it still has errors");
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
     add_check_arguments(*command, *o);

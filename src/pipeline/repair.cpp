@@ -23,9 +23,9 @@ Result<void> known_step(const std::string& name) {
     return repair::known_grid_steps(std::array{name});
 }
 
-Result<void> mend_grids(Dataset& dataset, const RepairRequest& request, std::vector<ReportedStep>& steps) {
+Result<void> mend_grids(Dataset& dataset, const RepairRequest& request, RepairReport& report) {
     const auto usual = repair::usual_grid_steps();
-    std::vector<std::string> names = request.steps;
+    std::vector<std::string> names = request.recipe.steps;
     if (names.empty()) names.assign(usual.begin(), usual.end());
     if (auto known = repair::known_grid_steps(names); !known) return known;
     auto done = repair::run_grid_steps(dataset, names, {request.checks, request.gap});
@@ -35,8 +35,9 @@ Result<void> mend_grids(Dataset& dataset, const RepairRequest& request, std::vec
         reported.step = std::move(step);
         reported.what = std::move(what);
         reported.changed = reported.what.count;
-        steps.push_back(std::move(reported));
+        report.file.steps.push_back(std::move(reported));
     }
+    report.recipe.steps = names;
     return {};
 }
 
@@ -53,35 +54,50 @@ void replace_surfaces(Dataset& dataset, repair::SurfaceRepair repaired) {
     for (Loss& loss : made.losses) add_loss(dataset.losses, std::move(loss));
 }
 
-Result<void> mend_surfaces(Dataset& dataset, const std::vector<Finding>& before, const RepairRequest& request,
-                           std::vector<ReportedStep>& steps) {
-    std::vector<std::string> names = request.steps.empty() ? repair::plan_for(before, request.max_gap >= 0) : request.steps;
+repair::SurfaceDriverOptions driver_options(const RepairRequest& request) {
+    const repair::Recipe& recipe = request.recipe;
+    repair::SurfaceDriverOptions options;
+    options.steps.max_gap = recipe.max_gap.value_or(-1);
+    options.steps.box = recipe.box;
+    options.steps.automatic_box = recipe.automatic_box;
+    options.steps.contacts = recipe.contacts;
+    options.steps.monitor = request.checks.monitor;
+    options.max_displacement = recipe.max_displacement.value_or(-1);
+    options.keep_worse = request.keep_invalid;
+    options.checks = request.checks;
+    return options;
+}
+
+ReportedStep reported(repair::SurfaceStepDone& done) {
+    ReportedStep step;
+    step.step = done.step;
+    step.what = std::move(done.outcome.what);
+    step.kept = done.kept;
+    step.changed = done.outcome.changed;
+    step.max_displacement = done.outcome.max_displacement;
+    step.mean_displacement = done.outcome.mean_displacement;
+    step.seconds = done.seconds;
+    step.why = done.why;
+    for (auto& c : done.outcome.contacts) {
+        step.contacts.push_back({std::move(c.border), std::move(c.on), c.gap, std::move(c.decision), std::move(c.why)});
+    }
+    return step;
+}
+
+Result<void> mend_surfaces(Dataset& dataset, const std::vector<Finding>& before, const RepairRequest& request, RepairReport& report) {
+    const repair::Recipe& recipe = request.recipe;
+    const bool box = recipe.box.has_value() || recipe.automatic_box;
+    const auto names = recipe.steps.empty() ? repair::plan_for(before, recipe.max_gap.has_value(), box) : recipe.steps;
     for (const std::string& name : names) {
         if (repair::surface_step(name) == nullptr)
             return failure(FailureKind::usage, "F018", {}, "--step " + name + ": no such step of surfaces");
     }
-    repair::SurfaceDriverOptions options;
-    options.steps = {request.max_gap, request.checks.monitor};
-    options.max_displacement = request.max_displacement;
-    options.keep_worse = request.keep_invalid;
-    options.checks = request.checks;
-    auto repaired = repair::repair_surfaces(dataset, before, names, options);
+    auto repaired = repair::repair_surfaces(dataset, before, names, driver_options(request));
     if (!repaired) return std::move(repaired).why();
-    for (auto& s : repaired->steps) {
-        ReportedStep step{s.step,
-                          std::move(s.outcome.what),
-                          s.kept,
-                          s.outcome.changed,
-                          s.outcome.max_displacement,
-                          s.outcome.mean_displacement,
-                          s.seconds,
-                          s.why,
-                          {}};
-        for (auto& c : s.outcome.contacts) {
-            step.contacts.push_back({std::move(c.border), std::move(c.on), c.gap, std::move(c.decision), std::move(c.why)});
-        }
-        steps.push_back(std::move(step));
-    }
+    for (auto& done : repaired->steps) report.file.steps.push_back(reported(done));
+    report.recipe.steps = names;
+    report.recipe.tolerance = repaired->lengths.tolerance;
+    report.recipe.near = repaired->lengths.near;
     replace_surfaces(dataset, std::move(*repaired));
     return {};
 }
@@ -92,23 +108,24 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     auto before = validate(path, dataset, request.checks);
     if (!before) return std::move(before).why();
     report.valid_before = count_by_severity(before->findings).error == 0;
-    std::vector<ReportedStep> steps;
+    report.recipe = request.recipe;
     const bool stated = !dataset.models.empty();
     const bool grids = std::ranges::any_of(dataset.objects, is_grid);
-    auto mended = grids ? mend_grids(dataset, request, steps) : mend_surfaces(dataset, before->findings, request, steps);
+    auto mended = grids ? mend_grids(dataset, request, report) : mend_surfaces(dataset, before->findings, request, report);
     if (!mended) return mended;
     // Regions that were found, and stated by none of the inputs, are no loss where the target holds none.
     if (!stated && target.wants == WriterWants::objects) dataset.models.clear();
     auto after = validate(path, dataset, request.checks);
     if (!after) return std::move(after).why();
+    after->steps = std::move(report.file.steps);
     report.file = std::move(*after);
-    report.file.steps = std::move(steps);
     if (request.inspect) {
         if (auto inspected = request.inspect(dataset, dataset.breps, report.file); !inspected) return inspected;
     }
     const bool errors = count_by_severity(report.file.findings).error > 0;
     if (errors && !request.keep_invalid)
         return failure(FailureKind::cannot_hold, "F021", {request.files.output}, "the result is not valid: nothing was written");
+    if (request.dry_run) return failure(FailureKind::cannot_hold, "F021", {request.files.output}, "a dry run writes nothing");
     report.written = true;
     return {};
 }
@@ -116,7 +133,7 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
 }  // namespace
 
 Result<RepairReport> repair_file(const RepairRequest& request) {
-    for (const std::string& name : request.steps) {
+    for (const std::string& name : request.recipe.steps) {
         if (auto known = known_step(name); !known) return std::move(known).why();
     }
     RepairReport report;

@@ -8,15 +8,16 @@
 #include "base/result.h"
 #include "pipeline/convert.h"
 #include "pipeline/validate.h"
+#include "repair/recipe.h"
 
 namespace geomend {
 
 struct RepairRequest {
-    ConvertRequest files;                        ///< one input
-    std::vector<std::string> steps;              ///< in the order in which they are taken; empty: those that mend what is found
-    std::optional<double> gap;                   ///< for close-gaps of grids
-    double max_gap = -1, max_displacement = -1;  ///< of surfaces; negative: by rule, no limit
-    bool keep_invalid = false;                   ///< write a result that still has errors
+    ConvertRequest files;       ///< one input
+    repair::Recipe recipe;      ///< steps in the order in which they are taken; none: those that mend what is found
+    std::optional<double> gap;  ///< for close-gaps of grids
+    bool dry_run = false;       ///< all is done, but nothing is written
+    bool keep_invalid = false;  ///< write a result that still has errors
     validators::CheckOptions checks;
     Inspect inspect;  ///< sees the result with its findings and steps, whether it is written or not
 };
@@ -26,6 +27,7 @@ struct RepairReport {
     ReportedFile file;         ///< what is found after it, and what each step did
     bool valid_before = true;  ///< no error was found before
     bool written = false;
+    repair::Recipe recipe;  ///< with which the same is done again: the steps that were taken, and the lengths
     std::vector<Loss> losses;
 };
 

@@ -77,6 +77,15 @@ void decide(const Votes& votes, Contact& contact) {
     }
 }
 
+void obey(std::span<const PatchWish> wishes, Contact& contact) {
+    for (const PatchWish& wish : wishes) {
+        if (wish.patch != contact.patch || (wish.on != no_index && wish.on != contact.on)) continue;
+        const bool can_close = contact.on != no_index;
+        contact.decision = wish.close && can_close ? GapDecision::closed : GapDecision::left;
+        contact.why = wish.close && !can_close ? "to be closed by the recipe, but no surface lies ahead within the limit" : "by the recipe";
+    }
+}
+
 }  // namespace
 
 const char* to_string(GapDecision decision) {
@@ -85,7 +94,7 @@ const char* to_string(GapDecision decision) {
 }
 
 std::vector<Contact> decide_contacts(const TriangleSoup& soup, const FreeBorders& borders, const GapSearch& search, double tolerance,
-                                     std::vector<GapHit>& hits) {
+                                     std::span<const PatchWish> wishes, std::vector<GapHit>& hits) {
     hits.assign(borders.edges.size(), {});
     std::vector<Contact> contacts;
     for (std::uint32_t p = 0; p < borders.pieces.size(); ++p) {
@@ -93,6 +102,7 @@ std::vector<Contact> decide_contacts(const TriangleSoup& soup, const FreeBorders
         contact.piece = p;
         contact.patch = soup.patches[borders.edges[borders.pieces[p].front()].triangle];
         decide(count_votes(soup, borders, borders.pieces[p], search, tolerance, hits), contact);
+        obey(wishes, contact);
         contacts.push_back(std::move(contact));
     }
     return contacts;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,17 @@ struct Contact {
     std::string why;
 };
 
+/// What the user decided about the borders of a patch.
+struct PatchWish {
+    std::uint32_t patch, on = no_index;  ///< on: no_index for any
+    bool close = true;
+};
+
 /// Decides for each piece of the free borders, by votes of its edges weighted by length: closed where at least 60 % of it has a surface
 /// ahead, and more of it has one ahead than sticks through one within the same limit (trimmed, once all is cut).
+/// \param wishes come before votes
 /// \param hits per edge gets what lies ahead of its middle
 std::vector<Contact> decide_contacts(const TriangleSoup& soup, const FreeBorders& borders, const GapSearch& search, double tolerance,
-                                     std::vector<GapHit>& hits);
+                                     std::span<const PatchWish> wishes, std::vector<GapHit>& hits);
 
 }  // namespace geomend::repair

@@ -98,7 +98,7 @@ std::vector<std::vector<const SurfaceStepRow*>> chains_of(std::span<const std::s
         if (!open) chains.emplace_back();
         chains.back().push_back(row);
         if (row->leads_to_cut) open = true;
-        else if (row->name != "cut") open = false;
+        else if (row->name == "tails") open = false;
     }
     return chains;
 }
@@ -144,14 +144,15 @@ std::string why_worse(const ErrorCounts& before, const ErrorCounts& after) {
     return {};
 }
 
-std::vector<std::string> plan_for(std::span<const Finding> findings, bool close_gaps) {
+std::vector<std::string> plan_for(std::span<const Finding> findings, bool close_gaps, bool box) {
     std::vector<std::string> plan;
     for (const SurfaceStepRow& row : surface_steps()) {
         const bool mends = std::ranges::any_of(findings, [&](const Finding& f) {
             return f.severity != Severity::info && std::ranges::find(row.mends, std::string_view(f.code)) != row.mends.end();
         });
-        const bool closes = close_gaps && (row.name == "close" || row.name == "cut" || row.name == "tails");
-        if (mends || closes) plan.emplace_back(row.name);
+        const bool cuts = row.name == "cut" || row.name == "tails";
+        const bool asked = (close_gaps && (cuts || row.name == "close")) || (box && (cuts || row.name == "box"));
+        if (mends || asked) plan.emplace_back(row.name);
     }
     return plan;
 }
@@ -170,7 +171,7 @@ Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Fi
         if (auto taken = take_chain(chain, options, state, steps); !taken) return std::move(taken).why();
     }
     for (Loss& loss : state.model.losses) add_loss(state.result.dataset.losses, std::move(loss));
-    return SurfaceRepair{std::move(state.result), std::move(steps), std::move(state.model.objects)};
+    return SurfaceRepair{std::move(state.result), std::move(steps), state.model.lengths, std::move(state.model.objects)};
 }
 
 }  // namespace geomend::repair

@@ -37,11 +37,13 @@ std::string why_worse(const ErrorCounts& before, const ErrorCounts& after);
 
 /// The steps that mend what was found, in their order; empty: nothing was found that a step mends.
 /// \param close_gaps borders that stop short are closed also where no check finds them near
-std::vector<std::string> plan_for(std::span<const Finding> findings, bool close_gaps);
+/// \param box a box is added
+std::vector<std::string> plan_for(std::span<const Finding> findings, bool close_gaps, bool box = false);
 
 struct SurfaceRepair {
     SurfaceResult result;
     std::vector<SurfaceStepDone> steps;
+    topology::Lengths lengths;           ///< by which the model was mended and judged
     std::vector<std::uint32_t> objects;  ///< of the Dataset that the result takes the place of, ascending
 };
 

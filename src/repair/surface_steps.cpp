@@ -13,6 +13,7 @@ namespace {
 constexpr std::array<std::string_view, 7> clean_mends = {"B01", "M02", "M03", "M04", "M05", "M08", "B26"};
 constexpr std::array<std::string_view, 14> cut_mends = {"B05", "B06", "B09", "B12", "B23", "B02", "B08",
                                                         "B10", "B11", "B20", "B22", "B26", "B27", "B28"};
+constexpr std::array<std::string_view, 4> holes_mends = {"B05", "B06", "B12", "M07"};
 constexpr std::array<std::string_view, 6> weld_mends = {"M01", "B05", "B07", "B11", "B12", "B27"};
 constexpr std::array<std::string_view, 6> close_mends = {"B05", "B06", "B07", "B09", "B12", "B23"};
 constexpr std::array<std::string_view, 12> tails_mends = {"B02", "B05", "B06", "B08", "B09", "B10",
@@ -21,6 +22,8 @@ constexpr std::array<std::string_view, 8> rebuild_mends = {"B05", "B06", "B12", 
 
 constexpr std::array steps = {
     SurfaceStepRow{"clean", "triangles without area, doubles and small stray parts are removed", clean_mends, clean_surfaces},
+    SurfaceStepRow{"box", "six sides are added around the surfaces, or as --box says", {}, add_box, true},
+    SurfaceStepRow{"holes", "small holes in a surface, and missing single triangles, are filled", holes_mends, fill_holes},
     SurfaceStepRow{"weld", "what lies within the tolerance of each other becomes one: points, and points on edges and faces", weld_mends,
                    weld_surfaces},
     SurfaceStepRow{"close", "borders that stop short of a surface are brought onto it along their own surface", close_mends, close_borders,

@@ -13,9 +13,18 @@
 
 namespace geomend::repair {
 
+/// What the user decides about the borders of a surface, or about those of them that lie near another one.
+struct ContactWish {
+    std::string border, on;  ///< names of surfaces; `on` empty: any
+    bool close = true;       ///< false: left as they are
+};
+
 /// What the user says of the steps.
 struct SurfaceStepOptions {
-    double max_gap = -1;  ///< largest gap that is closed and largest overshoot that is trimmed; negative: 1e-3 D
+    double max_gap = -1;                      ///< largest gap that is closed and largest overshoot that is trimmed; negative: 1e-3 D
+    std::optional<std::array<Vec3, 2>> box;   ///< low and high corner of the box that is added
+    bool automatic_box = false;               ///< a box is added that fits the surfaces
+    std::span<const ContactWish> contacts{};  ///< what the user decided about borders
     const Monitor* monitor = nullptr;
 };
 
@@ -61,6 +70,8 @@ Displacement displacement(const TriangleSoup& before, const TriangleSoup& after,
 
 // The steps.
 Result<StepOutcome> clean_surfaces(SurfaceModel&, const SurfaceStepOptions&);
+Result<StepOutcome> add_box(SurfaceModel&, const SurfaceStepOptions&);
+Result<StepOutcome> fill_holes(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> weld_surfaces(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> cut_surfaces(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> close_borders(SurfaceModel&, const SurfaceStepOptions&);

@@ -33,6 +33,28 @@ Result<const Form*> form_of(const std::string& path) {
 
 }  // namespace
 
+Json contacts_json(const ReportedStep& s) {
+    Json contacts = Json::array();
+    for (const ReportedContact& c : s.contacts) {
+        contacts.push_back({{"border", c.border}, {"on", c.on}, {"gap", c.gap}, {"decision", c.decision}, {"why", c.why}});
+    }
+    return contacts;
+}
+
+Json step_json(const ReportedStep& s) {
+    Json step{{"step", s.step}, {"name", s.step}, {"kept", s.kept}, {"changed", s.changed}};
+    step["max_displacement"] = s.max_displacement;
+    step["mean_displacement"] = s.mean_displacement;
+    step["seconds"] = s.seconds;
+    if (!s.kept) step["why"] = s.why;
+    Json what = finding_json(s.what);
+    for (auto& [key, value] : what.items()) {
+        if (key != "code" && key != "severity" && key != "fix") step[key] = std::move(value);
+    }
+    step["count"] = s.what.count;
+    return step;
+}
+
 Json file_json(const ReportedFile& file, std::size_t most) {
     Json j{{"file", file.file}};
     if (file.valid) j["valid"] = *file.valid;
@@ -55,22 +77,7 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     if (file.steps.empty()) return j;
     Json steps = Json::array();
     for (const ReportedStep& s : file.steps) {
-        Json all = finding_json(s.what), step{{"step", s.step}};
-        step["name"] = s.step;
-        step["kept"] = s.kept;
-        step["changed"] = s.changed;
-        step["max_displacement"] = s.max_displacement;
-        step["mean_displacement"] = s.mean_displacement;
-        step["seconds"] = s.seconds;
-        if (!s.kept) step["why"] = s.why;
-        for (const ReportedContact& c : s.contacts) {
-            step["contacts"].push_back({{"border", c.border}, {"on", c.on}, {"gap", c.gap}, {"decision", c.decision}, {"why", c.why}});
-        }
-        for (auto& [key, value] : all.items()) {
-            if (key != "code" && key != "severity" && key != "fix") step[key] = std::move(value);
-        }
-        step["count"] = s.what.count;
-        steps.push_back(std::move(step));
+        steps.push_back(step_json(s));
     }
     j["steps"] = std::move(steps);
     return j;
@@ -101,7 +108,9 @@ std::vector<const Finding*> worst_first(std::span<const Finding> findings, std::
     return all;
 }
 
-std::string report_json(const Report& report) {
+namespace {
+
+Json report_object(const Report& report) {
     double tolerance = 0, near = 0;  // of several files the largest; each has its own
     Json files = Json::array();
     for (const ReportedFile& file : report.files) {
@@ -112,6 +121,22 @@ std::string report_json(const Report& report) {
     Json all{{"schema", 1}, {"tool", report.tool}, {"tolerance", tolerance}, {"near", near}};
     if (report.summary) all["summary"] = summary_json(*report.summary);
     all["files"] = std::move(files);
+    return all;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) { return json_text(report_object(report)); }
+
+std::string repair_json(const Report& report) {
+    Json all{{"steps", Json::array()}, {"contacts", Json::array()}};
+    for (const ReportedFile& file : report.files) {
+        for (const ReportedStep& s : file.steps) {
+            all["steps"].push_back(step_json(s));
+            for (Json& contact : contacts_json(s)) all["contacts"].push_back(std::move(contact));
+        }
+    }
+    all["report"] = report_object(report);
     return json_text(all);
 }
 

@@ -74,6 +74,8 @@ struct Report {
 
 /// The schema that INTERFACE states (1): files with findings, worst first.
 std::string report_json(const Report& report);
+/// What INTERFACE states of a repair: its steps, what was decided about borders, and the whole report of the result.
+std::string repair_json(const Report& report);
 /// For people: grouped by entity, worst first. \param colour with the escapes of terminals
 std::string report_text(const Report& report, bool colour);
 /// JUnit XML: a suite for each file, a case for each finding; errors are failures.

@@ -123,10 +123,10 @@ TEST(Repair, MendsWithTheUsualStepsAndTellsWhatItDid) {
     const auto run = run_geomend({"repair", folder / "in.grdecl", "-o", folder / "out.grdecl", "--json"});
     EXPECT_EQ(run.status, 0) << run.err;
     const auto j = json_of(run);
-    ASSERT_EQ(j["files"][0]["steps"].size(), 3u) << run.out;
-    EXPECT_EQ(j["files"][0]["steps"][0]["step"], "monotone");
-    EXPECT_EQ(j["files"][0]["steps"][0]["elements"], nlohmann::json::parse("[[1,1,2]]"));
-    EXPECT_EQ(j["files"][0]["steps"][2]["count"], 1) << "the inverted cell has no thickness now";
+    ASSERT_EQ(j["steps"].size(), 3u) << run.out;
+    EXPECT_EQ(j["steps"][0]["step"], "monotone");
+    EXPECT_EQ(j["steps"][0]["elements"], nlohmann::json::parse("[[1,1,2]]"));
+    EXPECT_EQ(j["steps"][2]["count"], 1) << "the inverted cell has no thickness now";
     EXPECT_EQ(run_geomend({"validate", "--fail-on", "warning", folder / "out.grdecl"}).status, 0);
 }
 
