@@ -560,6 +560,39 @@ def pillar_grid():
     return "".join(out)
 
 
+def plain_surface(name, role, points, triangles):
+    """A TSurf by itself."""
+    lines = ["GOCAD TSurf 1\nHEADER {\nname: %s\n}\nGEOLOGICAL_TYPE %s\nTFACE\n" % (name, role)]
+    lines += ["VRTX %d %g %g %g\n" % ((i + 1,) + tuple(p)) for i, p in enumerate(points)]
+    lines += ["TRGL %d %d %d\n" % tuple(v + 1 for v in t) for t in triangles]
+    return "".join(lines) + "END\n"
+
+
+def crossing_sheets():
+    """A box of six loose sides with a horizon and a fault that stick out of it and cross: nothing is cut."""
+    corners = [(x, y, z) for z in (0, 4) for y in (0, 8) for x in (0, 10)]
+    sides = {"base": (0, 2, 3, 1), "top": (4, 5, 7, 6), "south": (0, 1, 5, 4), "north": (2, 6, 7, 3), "west": (0, 4, 6, 2),
+             "east": (1, 3, 7, 5)}
+    halves = [(0, 1, 2), (0, 2, 3)]
+    out = [plain_surface(name, "boundary", [corners[c] for c in ring], halves) for name, ring in sides.items()]
+    out.append(plain_surface("H1", "top", [(-0.5, -0.5, 1.9), (10.5, -0.5, 2.1), (10.5, 8.5, 2.3), (-0.5, 8.5, 2.1)], halves))
+    out.append(plain_surface("F1", "fault", [(4, -0.4, -0.2), (4, 8.4, -0.2), (6, 8.4, 4.2), (6, -0.4, 4.2)], halves))
+    return "".join(out)
+
+
+def open_layers():
+    """Two wavy horizons without sides."""
+    n = 6
+    triangles = []
+    for a in (j * (n + 1) + i for j in range(n) for i in range(n)):
+        triangles += [(a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1)]
+    out = []
+    for h in range(2):
+        points = [(100 * i / n, 80 * j / n, round(-10 * h + 2 * math.sin(i / 2) + math.cos(j / 2), 3)) for j in range(n + 1) for i in range(n + 1)]
+        out.append(plain_surface("H%d" % (h + 1), "top", points, triangles))
+    return "".join(out)
+
+
 def main(folder):
     lattice = Lattice(3, 3, 3)
     patches = patches_of(lattice)
@@ -578,6 +611,8 @@ def main(folder):
         "h1_grid.irap": irap_grid(),
         "h1_grid.zmap": zmap_grid(),
         "faulted_grid.grdecl": pillar_grid(),
+        "crossing_sheets.ts": crossing_sheets(),
+        "open_layers.ts": open_layers(),
     }
     for name, content in files.items():
         with open(os.path.join(folder, name), "w", encoding="ascii", newline="\n") as file:

@@ -30,6 +30,7 @@ void note_uncut_borders(SurfaceModel& model) {
 
 /// \param reach share of the tolerance within which a vertex becomes a part of an edge or a face
 Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach) {
+    note_uncut_borders(model);
     auto cut = arrangement::arrange(model.model.soup, {.tolerance = model.lengths.tolerance, .reach = reach, .monitor = options.monitor});
     if (!cut) return std::move(cut).why();
     StepOutcome outcome;
@@ -51,7 +52,6 @@ Result<StepOutcome> weld_surfaces(SurfaceModel& model, const SurfaceStepOptions&
 }
 
 Result<StepOutcome> cut_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
-    note_uncut_borders(model);
     return arrange_model(model, options, arrangement::ArrangeOptions().reach);
 }
 
