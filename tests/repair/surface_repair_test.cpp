@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/program.h"
+
+// Repair of models of surfaces from the command line, as a user runs it.
+
+namespace geomend {
+namespace {
+
+using test::info;
+using test::read_file;
+using test::run_geomend;
+using test::TemporaryFolder;
+using test::write_file;
+
+using Point = std::array<double, 3>;
+using Triangles = std::vector<std::array<int, 3>>;
+
+std::string number(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
+}
+
+std::string tsurf(const std::string& name, const std::vector<Point>& points, const Triangles& triangles, const std::string& property = {},
+                  const std::vector<double>& values = {}) {
+    std::string text = "GOCAD TSurf 1\nHEADER {\nname: " + name + "\n}\n";
+    if (!property.empty()) text += "PROPERTIES " + property + "\n";
+    text += "TFACE\n";
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        text += std::string(property.empty() ? "VRTX " : "PVRTX ") + std::to_string(i + 1);
+        for (const double x : points[i]) text += ' ' + number(x);
+        if (!property.empty()) text += ' ' + number(values[i]);
+        text += '\n';
+    }
+    for (const auto& t : triangles) {
+        text += "TRGL " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' + std::to_string(t[2] + 1) + '\n';
+    }
+    return text + "END\n";
+}
+
+const Triangles halves = {{0, 1, 2}, {0, 2, 3}};
+
+/// Six squares of a cube of 10, each moved outwards by `apart`, so that they do not meet.
+std::string cube_of_squares(double apart) {
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int high = 0; high < 2; ++high) {
+            const double at = high != 0 ? 10 + apart : -apart;
+            std::vector<Point> square;
+            for (const auto& [u, v] : {std::pair{0, 0}, {10, 0}, {10, 10}, {0, 10}}) {
+                Point p{};
+                p[static_cast<std::size_t>(axis)] = at;
+                p[static_cast<std::size_t>((axis + 1) % 3)] = u;
+                p[static_cast<std::size_t>((axis + 2) % 3)] = v;
+                square.push_back(p);
+            }
+            text += tsurf("side_" + std::to_string(2 * axis + high), square, halves);
+        }
+    }
+    return text;
+}
+
+nlohmann::json brep_of(const std::string& file) { return info(file)["brep"]; }
+
+std::vector<int> counts(const nlohmann::json& brep) {
+    std::vector<int> all;
+    for (const char* key : {"corners", "lines", "surfaces", "regions"}) all.push_back(brep[key].get<int>());
+    return all;
+}
+
+double total_volume(const nlohmann::json& brep) {
+    double sum = 0;
+    for (const auto& region : brep["region_volumes"]) sum += region["volume"].get<double>();
+    return sum;
+}
+
+TEST(SurfaceRepair, SquaresThatStopShortOfEachOtherBecomeASealedBox) {
+    const TemporaryFolder folder;
+    for (const double apart : {0.01, 0.2, 0.3}) {
+        write_file(folder / "in.ts", cube_of_squares(apart));
+        const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--max-gap", "0.4"});
+        EXPECT_EQ(run.status, 0) << run.out << run.err;
+        const auto brep = brep_of(folder / "out.ml");
+        EXPECT_EQ(counts(brep), (std::vector<int>{8, 12, 6, 1})) << apart;
+        EXPECT_NEAR(total_volume(brep), std::pow(10 + 2 * apart, 3), 1e-5) << "each square is extended in its own plane";
+    }
+}
+
+TEST(SurfaceRepair, GapsBeyondTheLimitAreLeftAndNothingIsWritten) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", cube_of_squares(0.6));
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--max-gap", "0.4", "--json"});
+    const auto j = nlohmann::json::parse(run.out, nullptr, false);
+    ASSERT_TRUE(j.contains("contacts")) << run.out << run.err;
+    EXPECT_FALSE(j["contacts"].empty());
+    for (const auto& contact : j["contacts"]) EXPECT_EQ(contact["decision"], "left");
+}
+
+TEST(SurfaceRepair, ACubeWithAnUncutSheetBecomesTwoRegions) {
+    const TemporaryFolder folder;
+    const std::string sheet = tsurf("sheet", {{-1, -1, 4}, {11, -1, 4}, {11, 11, 6}, {-1, 11, 6}}, halves);
+    write_file(folder / "in.ts", cube_of_squares(0) + sheet);
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    const auto brep = brep_of(folder / "out.ml");
+    EXPECT_EQ(brep["regions"], 2);
+    EXPECT_NEAR(total_volume(brep), 1000, 1e-6);
+    for (const auto& region : brep["region_volumes"]) EXPECT_NEAR(region["volume"].get<double>(), 500, 1e-6);
+    EXPECT_EQ(run_geomend({"validate", folder / "out.ml", "--fail-on", "warning"}).status, 0);
+}
+
+TEST(SurfaceRepair, PropertiesAreThoseOfThePlaceWhereATriangleLay) {
+    const TemporaryFolder folder;
+    const std::vector<Point> corners = {{-1, -1, 4}, {11, -1, 4}, {11, 11, 6}, {-1, 11, 6}};
+    std::vector<double> values;
+    for (const Point& p : corners) values.push_back(3 * p[0] - 2 * p[1] + 7);
+    write_file(folder / "in.ts", cube_of_squares(0) + tsurf("sheet", corners, halves, "linear", values));
+    ASSERT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ts"}).status, 0);
+    const std::string text = read_file(folder / "out.ts");
+    std::istringstream lines(text);
+    std::size_t seen = 0;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string key;
+        double id = 0, x = 0, y = 0, z = 0, value = 0;
+        if (!(words >> key >> id >> x >> y >> z >> value) || key != "PVRTX") continue;
+        EXPECT_NEAR(value, 3 * x - 2 * y + 7, 1e-9) << line;
+        ++seen;
+    }
+    EXPECT_GT(seen, 4u) << text;
+}
+
+TEST(SurfaceRepair, LooseSurfacesInAndOutNeedNoAcceptedLoss) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", cube_of_squares(0.2));
+    EXPECT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ts", "--max-gap", "0.4"}).status, 0);
+    EXPECT_EQ(run_geomend({"validate", folder / "out.ts"}).status, 0);
+}
+
+TEST(SurfaceRepair, ASealedModelKeepsItsNamesAndCounts) {
+    const TemporaryFolder folder;
+    const std::string sample = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.ml";
+    const auto run = run_geomend({"repair", sample, "-o", folder / "out.ml", "--steps", "clean,weld,cut,tails,rebuild"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    const auto before = brep_of(sample), after = brep_of(folder / "out.ml");
+    EXPECT_EQ(counts(after), counts(before));
+    const auto by_name = [](const nlohmann::json& brep) {
+        std::map<std::string, double> volumes;
+        for (const auto& region : brep["region_volumes"]) volumes[region["name"]] = region["volume"];
+        return volumes;
+    };
+    const auto had = by_name(before), has = by_name(after);
+    ASSERT_EQ(had.size(), has.size());
+    for (const auto& [name, volume] : had) {
+        ASSERT_TRUE(has.contains(name)) << name;
+        EXPECT_NEAR(has.at(name), volume, 1e-6 * volume) << name;
+    }
+    EXPECT_EQ(after["layers"], before["layers"]);
+    EXPECT_EQ(after["features"], before["features"]);
+}
+
+TEST(SurfaceRepair, PointsMovedWithinTheToleranceAreWeldedToTheSameModel) {
+    const TemporaryFolder folder;
+    const std::string sample = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.ml";
+    ASSERT_EQ(run_geomend({"convert", sample, "-o", folder / "loose.ts", "--lossy"}).status, 0);
+    constexpr double tolerance = 0.01;
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        std::mt19937 engine(seed);
+        std::istringstream lines(read_file(folder / "loose.ts"));
+        std::string moved;
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream words(line);
+            std::string key, id, rest;
+            Point p{};
+            if ((words >> key) && (key == "VRTX" || key == "PVRTX") && (words >> id >> p[0] >> p[1] >> p[2])) {
+                std::getline(words, rest);
+                moved += key + ' ' + id;
+                for (const double x : p) moved += ' ' + number(x + tolerance / 4 * (engine() / 2147483648.0 - 1));
+                moved += rest + '\n';
+            } else if (key != "ATOM" && key != "PATOM") {
+                moved += line + '\n';
+            }
+        }
+        write_file(folder / "moved.ts", moved);
+        const auto run = run_geomend({"repair", folder / "moved.ts", "-o", folder / "out.ml", "--tolerance", "0.01"});
+        EXPECT_EQ(run.status, 0) << run.out << run.err;
+        const auto before = brep_of(sample), after = brep_of(folder / "out.ml");
+        EXPECT_EQ(counts(after), counts(before)) << "seed " << seed;
+        EXPECT_NEAR(total_volume(after), total_volume(before), 1e-5 * total_volume(before));
+    }
+}
+
+TEST(SurfaceRepair, SeveralInputsAreOneModel) {
+    const TemporaryFolder folder;
+    write_file(folder / "box.ts", cube_of_squares(0));
+    write_file(folder / "sheet.ts", tsurf("sheet", {{-1, -1, 5}, {11, -1, 5}, {11, 11, 5}, {-1, 11, 5}}, halves));
+    const auto run = run_geomend({"repair", folder / "box.ts", folder / "sheet.ts", "-o", folder / "out.ml"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(brep_of(folder / "out.ml")["regions"], 2);
+}
+
+TEST(SurfaceRepair, ABoxMakesAVolumeOfAnOpenSetOfSurfaces) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", tsurf("H1", {{0, 0, 5}, {10, 0, 5}, {10, 10, 5}, {0, 10, 5}}, halves));
+    ASSERT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--box", "1,9,2,8,0,20"}).status, 0);
+    const auto brep = brep_of(folder / "out.ml");
+    EXPECT_EQ(brep["regions"], 2);
+    EXPECT_NEAR(total_volume(brep), 8 * 6 * 20, 1e-9);
+    EXPECT_EQ(brep["features"]["boundary"], 6);
+    EXPECT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--box", "1,9,2"}).status, 2);
+    EXPECT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--box", "9,1,2,8,0,20"}).status, 2);
+}
+
+TEST(SurfaceRepair, ARecipeGivesTheSameBytesAgain) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", cube_of_squares(0.2));
+    ASSERT_EQ(
+        run_geomend({"repair", folder / "in.ts", "-o", folder / "a.ml", "--max-gap", "0.4", "--write-recipe", folder / "r.toml"}).status,
+        0);
+    ASSERT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "b.ml", "--recipe", folder / "r.toml"}).status, 0);
+    EXPECT_EQ(read_file(folder / "a.ml"), read_file(folder / "b.ml"));
+    ASSERT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "c.ml", "--max-gap", "0.4", "--threads", "1"}).status, 0);
+    EXPECT_EQ(read_file(folder / "a.ml"), read_file(folder / "c.ml"));
+}
+
+TEST(SurfaceRepair, ADecisionOfTheRecipeComesBeforeVotes) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", cube_of_squares(0.2));
+    write_file(folder / "r.toml", "steps = [\"close\"]\nmax_gap = 0.4\n[[contact]]\nborder = \"side_0\"\ndecision = \"leave\"\n");
+    const auto run =
+        run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--recipe", folder / "r.toml", "--json", "--keep-invalid"});
+    const auto j = nlohmann::json::parse(run.out, nullptr, false);
+    ASSERT_TRUE(j.contains("contacts")) << run.out << run.err;
+    std::size_t own = 0, closed = 0;
+    for (const auto& contact : j["contacts"]) {
+        if (contact["border"] == "side_0") {
+            EXPECT_EQ(contact["decision"], "left");
+            ++own;
+        } else {
+            closed += contact["decision"] == "closed" ? 1u : 0u;
+        }
+    }
+    EXPECT_EQ(own, 4u);
+    EXPECT_EQ(closed, 20u);
+}
+
+TEST(SurfaceRepair, AMisspeltRecipeIsRefusedWithItsLine) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", cube_of_squares(0.2));
+    for (const char* text : {"steps = [\"cut\"]\nmax_gapp = 3\n", "steps = [\"cut\"]\nmax_gap = -3\n", "steps = [\"cut\"]\nmax_gap =\n",
+                             "steps = [\"cut\",\n\"glue\"]\n", "steps = [\"cut\"]\nbox = [1, 2]\n", "a = 1\n[[contact]]\non = \"x\"\n"}) {
+        write_file(folder / "r.toml", text);
+        const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--recipe", folder / "r.toml"});
+        EXPECT_EQ(run.status, 2) << text;
+        EXPECT_NE(run.err.find("r.toml:"), std::string::npos) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out.ml"));
+    }
+}
+
+TEST(SurfaceRepair, ADryRunWritesNothing) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", cube_of_squares(0.2));
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--max-gap", "0.4", "--dry-run"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_NE(run.out.find("close"), std::string::npos) << run.out;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.ml"));
+}
+
+TEST(SurfaceRepair, AStepThatMovesTooFarIsUndone) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", cube_of_squares(0.2));
+    const auto run = run_geomend(
+        {"repair", folder / "in.ts", "-o", folder / "out.ml", "--max-gap", "0.4", "--max-displacement", "0.1", "--keep-invalid", "--json"});
+    const auto j = nlohmann::json::parse(run.out, nullptr, false);
+    ASSERT_TRUE(j.contains("steps")) << run.out << run.err;
+    bool undone = false;
+    for (const auto& step : j["steps"])
+        undone |= step["name"] == "close" && step["kept"] == false && !step["why"].get<std::string>().empty();
+    EXPECT_TRUE(undone) << run.out;
+}
+
+TEST(SurfaceRepair, AMissingTriangleOfAClosedSurfaceIsFilled) {
+    const TemporaryFolder folder;
+    // An octahedron with seven of its eight faces.
+    const std::vector<Point> points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    const Triangles faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}};
+    write_file(folder / "in.ts", tsurf("shell", points, faces));
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--steps", "holes,rebuild"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    const auto brep = brep_of(folder / "out.ml");
+    EXPECT_EQ(brep["triangles"], 8);
+    EXPECT_NEAR(total_volume(brep), 4.0 / 3, 1e-12);
+}
+
+TEST(SurfaceRepair, DoublesAndTrianglesWithoutAreaAreRemoved) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", tsurf("s", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0, 0}},
+                                       {{0, 1, 2}, {0, 2, 3}, {2, 0, 1}, {0, 4, 1}, {3, 3, 0}}));
+    EXPECT_EQ(run_geomend({"validate", folder / "in.ts"}).status, 1);
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ts"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(info(folder / "out.ts")["objects"][0]["counts"]["triangles"], 2);
+}
+
+}  // namespace
+}  // namespace geomend
