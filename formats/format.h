@@ -63,11 +63,15 @@ struct Format {
     std::string_view lossy_note;              ///< what does not go in, by class; one line
     std::string_view tried_on;                ///< "real files", "real files and clients", or "fixtures only: no real file was found"
     std::span<const OptionRow> options = {};  ///< all that its reader and its writer look at
-    bool deck_companions = false;             ///< names further files with geometry or properties in keywords (GDFILE, IMPORT)
-    bool map_axes = false;                    ///< can say where the origin of its coordinates lies on the map
-    bool flat_meshes = false;                 ///< holds cells of every dimension in one mesh; elsewhere a mesh of cells is a volume
-    bool statements = false;                  ///< carries beside a mesh all that a StatedModel says, and bounds surfaces by lines
-    bool elevations = false;                  ///< its files store elevations, whatever sign the model came with
+    /// A deck of a simulator, which finds the connections of the geometry itself. It names further files with geometry or properties in
+    /// keywords (GDFILE, IMPORT); records that are not understood are kept as text.
+    bool deck = false;
+    bool map_axes = false;         ///< can say where the origin of its coordinates lies on the map
+    bool flat_meshes = false;      ///< holds cells of every dimension in one mesh; elsewhere a mesh of cells is a volume
+    bool statements = false;       ///< carries beside a mesh all that a StatedModel says, and bounds surfaces by lines
+    bool elevations = false;       ///< its files store elevations, whatever sign the model came with
+    bool pore_volumes = false;     ///< states the pore volume of every cell
+    bool bounded_regions = false;  ///< holds regions by the surfaces around them, not by cells alone
 };
 
 }  // namespace geomend

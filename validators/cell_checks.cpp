@@ -251,7 +251,7 @@ void check_cell_points(const CellScope& scope, std::vector<Finding>& findings) {
     }
     if (finding.count == 0) return;
     // Where all are equal, cells are disconnected on purpose, as along faults: that is worth knowing, but no defect.
-    if (equal == finding.count) finding.severity = Severity::info;
+    if (equal == finding.count) use_other_severity(finding);
     finding.entities.push_back({"cell-mesh", mesh.info.name});
     finding.element_kind = "node";
     finding.message = counted(finding.count, "node", "nodes") + in_mesh(scope) + (finding.count == 1 ? " lies" : " lie") + " within " +

@@ -162,7 +162,7 @@ void tell_loose_contacts(const CellScope& scope, const OuterFaces& outer, const 
         scope, "M36",
         counted(cells.size(), "cell", "cells") + in_mesh(scope) + " meet others at edges or corners only: no face joins their parts",
         cells);
-    if (!has_tetrahedra) finding.severity = Severity::info;
+    if (!has_tetrahedra) use_other_severity(finding);
     const auto nodes = static_cast<double>(std::ranges::count(meets, 1));
     finding.measures = {{"nodes", nodes}};
     findings.push_back(std::move(finding));

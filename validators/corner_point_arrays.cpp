@@ -10,10 +10,7 @@ namespace geomend::validators {
 
 void check_array_lengths(const CornerPointGrid& grid, std::vector<Finding>& findings) {
     const auto wrong = [&](std::string message) {
-        Finding f;
-        f.code = "C01";
-        f.severity = Severity::error;
-        f.message = std::move(message);
+        Finding f = make_finding("C01", std::move(message), {}, 0);
         f.entities = {{"corner-point-grid", grid.info.name}};
         findings.push_back(std::move(f));
     };

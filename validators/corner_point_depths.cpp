@@ -100,7 +100,7 @@ void check_vertical_neighbours(const GridScope& scope, std::vector<Finding>& fin
                                   counted(gaps.count, "cell leaves", "cells leave") + " a gap above the one below, at most of " +
                                       rounded(gaps.worst) + " under " + cell_text(scope.grid(), gaps.worst_cell),
                                   gaps);
-        f.severity = Severity::warning;
+        use_other_severity(f);
         f.measures = {{"gap", gaps.worst}};
         findings.push_back(std::move(f));
     }

@@ -69,7 +69,7 @@ void tell_idle(const GridScope& scope, const std::vector<const Fault*>& faults, 
     if (without_record > 0) message += "; " + std::to_string(without_record) + " of them without any FAULTS record here";
     if (multiplied) message += faults.size() > 1 ? "; their multipliers act on nothing" : "; its multiplier acts on nothing";
     Finding f = cells_finding(scope, "C25", std::move(message), found);
-    if (multiplied) f.severity = Severity::warning;
+    if (multiplied) use_other_severity(f);
     f.count = std::max<std::uint64_t>(1, found.count);
     for (const Fault* fault : faults) {
         if (f.entities.size() <= listed_elements) f.entities.push_back({"fault", fault->name});

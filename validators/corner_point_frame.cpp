@@ -60,7 +60,7 @@ void check_handedness(const GridScope& scope, std::vector<Finding>& findings) {
                                    : "the cells are right-handed in the axes of the file, but left-handed on the map";
     if (mirrored) message += left > 0 ? ", but right-handed on the map, because MAPAXES mirrors" : ", because MAPAXES mirrors";
     Finding f = grid_finding(scope, "C12", std::move(message));
-    f.severity = Severity::info;
+    use_other_severity(f);
     f.count = std::max(left, right);
     f.measures = {{"right_handed", static_cast<double>(right)}, {"left_handed", static_cast<double>(left)}};
     findings.push_back(std::move(f));

@@ -28,7 +28,7 @@ bool takes_part(const CornerPointGrid& grid, std::uint64_t cell) {
 }
 
 void tell_connections(const GridScope& scope, const std::vector<const CornerPointGrid::Connection*>& wrong, const std::string& what,
-                      Severity severity, std::vector<Finding>& findings) {
+                      bool to_inactive, std::vector<Finding>& findings) {
     if (wrong.empty()) return;
     const CornerPointGrid& grid = scope.grid();
     FoundCells cells;
@@ -41,7 +41,7 @@ void tell_connections(const GridScope& scope, const std::vector<const CornerPoin
                               counted(wrong.size(), "stated connection", "stated connections") + ' ' + what + ": " +
                                   connection_text(grid, *wrong.front()) + (wrong.size() > 1 ? ", ..." : ""),
                               cells);
-    f.severity = severity;
+    if (to_inactive) use_other_severity(f);
     f.count = wrong.size();
     findings.push_back(std::move(f));
 }
@@ -73,9 +73,9 @@ void check_stated_connections(const GridScope& scope, std::vector<Finding>& find
         else if (!takes_part(grid, c.first) || !takes_part(grid, c.second)) inactive.push_back(&c);
         if (c.transmissibility && *c.transmissibility < 0) negative.push_back(&c);
     }
-    tell_connections(scope, self, "join a cell with itself", Severity::error, findings);
-    tell_connections(scope, negative, "have a transmissibility below 0", Severity::error, findings);
-    tell_connections(scope, inactive, "lead to inactive cells: nothing flows there", Severity::warning, findings);
+    tell_connections(scope, self, "join a cell with itself", false, findings);
+    tell_connections(scope, negative, "have a transmissibility below 0", false, findings);
+    tell_connections(scope, inactive, "lead to inactive cells: nothing flows there", true, findings);
 }
 
 void check_radial_angles(const GridScope& scope, std::vector<Finding>& findings) {
@@ -108,12 +108,11 @@ void check_local_grids(std::span<const CornerPointGrid* const> grids, std::vecto
                 else owner[cell] = static_cast<std::uint32_t>(locals.size());
             }
             if (other == nullptr) continue;
-            Finding f;
-            f.code = "C30";
-            f.severity = Severity::error;
-            f.message = "local grids '" + other->info.name + "' and '" + local->info.name + "' refine the same " +
-                        counted(shared.count, "cell", "cells") + ", the first is " + cell_text(*host, shared.first.front());
-            f.count = shared.count;
+            Finding f =
+                make_finding("C30",
+                             "local grids '" + other->info.name + "' and '" + local->info.name + "' refine the same " +
+                                 counted(shared.count, "cell", "cells") + ", the first is " + cell_text(*host, shared.first.front()),
+                             {}, shared.count);
             f.entities = {{"corner-point-grid", other->info.name}, {"corner-point-grid", local->info.name}};
             list_cells(*host, shared, f);
             findings.push_back(std::move(f));

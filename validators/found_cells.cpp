@@ -13,10 +13,7 @@ std::string cell_text(const CornerPointGrid& grid, std::size_t cell) {
 }
 
 Finding grid_finding(const GridScope& scope, std::string_view code, std::string message) {
-    Finding f;
-    f.code = code;
-    if (const CodeInfo* row = find_code(code)) f.severity = row->severity;
-    f.message = std::move(message);
+    Finding f = make_finding(code, std::move(message), {}, 0);
     f.entities = {{"corner-point-grid", scope.grid().info.name}};
     return f;
 }

@@ -323,7 +323,7 @@ Result<void> check_grid_model(const GridScope& scope, const grid::ModelRequest& 
     auto dataset = grid::boundary_model(scope.grid(), request, &sources);
     if (!dataset && dataset.why().kind == FailureKind::usage) {  // of many grids some have other attributes and layers
         Finding f = grid_finding(scope, "F162", dataset.why().error.message + ": the boundary representation was not judged");
-        f.severity = Severity::warning;
+        use_other_severity(f);
         findings.push_back(std::move(f));
         return {};
     }

@@ -138,7 +138,7 @@ Finding order_finding(const ModelScope& scope, const Circle& circle) {
     }
     Finding finding = finding_of("G04", text);
     if (!surely_wrong(circle)) {
-        finding.severity = Severity::warning;
+        use_other_severity(finding);
         finding.message += ": right only if layers are overturned there, as normals say that point the other way";
     }
     for (const Above& a : circle) finding.entities.push_back({"interface", brep.interfaces[a.roof].name, a.roof});

@@ -106,7 +106,7 @@ void check_lattice_cells(const ObjectScope& scope, std::vector<Finding>& finding
         // Layers that pinch out are drawn so on purpose.
         findings.push_back(
             lattice_finding(scope, cells, "M20", counted(empty.count, "cell", "cells") + of_object(scope) + ": without volume", empty));
-        findings.back().severity = Severity::warning;
+        use_other_severity(findings.back());
     }
     if (folded.count > 0) {
         findings.push_back(lattice_finding(scope, cells, "M21",

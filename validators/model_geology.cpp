@@ -103,7 +103,7 @@ void check_names_of_model(const ModelScope& scope, std::vector<Finding>& finding
     for (Finding& finding : findings) {
         const bool repeat = finding.code == "G01" && finding.element_kind == "region";
         if (repeat && is_one_group(scope, static_cast<std::uint32_t>(finding.entities[0].id))) {
-            finding.severity = Severity::info;
+            use_other_severity(finding);
             finding.message += ", as parts of one group";
         }
     }
@@ -161,7 +161,7 @@ void check_list_members(const ModelScope& scope, std::vector<Finding>& findings)
                                              counted(none.size(), "region is", "regions are") + " in no " + kind + ", although " +
                                                  counted(lists.size(), "is", "are") + " stated: " + quoted(none[0].name),
                                              none));
-            findings.back().severity = Severity::info;
+            use_other_severity(findings.back());
         }
     };
     judge(brep.layers, "layer");

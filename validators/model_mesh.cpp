@@ -147,7 +147,7 @@ void check_winding(const ModelScope& scope, std::vector<Finding>& findings) {
                                                (winding.wrong.size() == 1 ? " is" : " are") + " wound against " +
                                                (winding.wrong.size() == 1 ? "its" : "their") + " neighbours",
                                            winding.wrong);
-        if (!scope.model().stated) finding.severity = Severity::warning;
+        if (!scope.model().stated) use_other_severity(finding);
         return finding;
     });
 }

@@ -258,7 +258,7 @@ void check_stated_regions(const ModelScope& scope, std::vector<Finding>& finding
                                        std::ranges::all_of(foreign, [&](std::uint32_t side) { return is_its_own(side ^ 1u); });
         if (runs_into_its_own) message += ": no surface parts it from other volumes of its group";
         Finding finding = finding_of("B13", std::move(message));
-        if (runs_into_its_own) finding.severity = Severity::warning;
+        if (runs_into_its_own) use_other_severity(finding);
         finding.entities.push_back(region_ref(scope, r));
         std::set<std::uint32_t> named;
         for (const auto* list : {&missing, &foreign}) {

@@ -155,14 +155,7 @@ std::int64_t ModelScope::file_number(std::uint32_t surface, std::uint32_t polygo
     return static_cast<std::int64_t>(model_.first_polygon[surface] + inside + 1);
 }
 
-Finding finding_of(std::string_view code, std::string message) {
-    Finding finding;
-    finding.code = code;
-    const CodeInfo* info = find_code(code);
-    finding.severity = info == nullptr ? Severity::warning : info->severity;
-    finding.message = std::move(message);
-    return finding;
-}
+Finding finding_of(std::string_view code, std::string message) { return make_finding(code, std::move(message), {}, 0); }
 
 Finding polygons_finding(const ModelScope& scope, std::string_view code, std::uint32_t s, std::string message,
                          std::span<const std::uint32_t> polygons) {

@@ -174,7 +174,7 @@ void check_seams(const ModelScope& scope, std::vector<Finding>& findings) {
     for (auto& [s, lines] : of_surface) {
         Finding finding = finding_of("B07", quoted(brep.surfaces[s].name) + " is open along " + counted(lines.count, "seam", "seams") +
                                                 " where no other surface meets it: points at one position are not joined there");
-        if (!scope.model().stated) finding.severity = Severity::warning;
+        if (!scope.model().stated) use_other_severity(finding);
         finding.count = lines.count;
         finding.element_kind = "line";
         finding.index = std::move(lines.index);

@@ -106,24 +106,26 @@ std::string_view consequence_of(const Finding& f, const Target& target) {
 
 // One finding for each code that matters.
 void check_other_findings(const Target& target, std::span<const Finding> found, std::vector<Finding>& findings) {
-    std::map<std::string, Finding> by_code;
+    struct Consequence {
+        Finding finding;
+        bool of_error = false;
+    };
+    std::map<std::string, Consequence> by_code;
     for (const Finding& f : found) {
         const std::string_view consequence = consequence_of(f, target);
         if (consequence.empty()) continue;
         const auto [at, is_new] = by_code.try_emplace(f.code);
-        Finding& s = at->second;
-        if (is_new) {
-            s = target_finding("S02", {});
-            s.severity = Severity::warning;
-            s.message = std::string(consequence);
-        }
-        if (f.severity == Severity::error) s.severity = Severity::error;
+        if (is_new) at->second.finding = target_finding("S02", std::string(consequence));
+        at->second.of_error |= f.severity == Severity::error;
+        Finding& s = at->second.finding;
         ++s.count;
         const std::size_t room = listed_elements - std::min(listed_elements, s.entities.size());
         s.entities.insert(s.entities.end(), f.entities.begin(),
                           f.entities.begin() + static_cast<std::ptrdiff_t>(std::min(room, f.entities.size())));
     }
-    for (auto& [code, s] : by_code) {
+    for (auto& [code, of_code] : by_code) {
+        Finding& s = of_code.finding;
+        if (!of_code.of_error) use_other_severity(s);
         const CodeInfo* row = find_code(code);
         s.message = code + " (" + counted(s.count, "finding", "findings") +
                     (row != nullptr ? ": " + std::string(row->meaning) : std::string()) + "): for " + std::string(target.title) +
@@ -141,14 +143,7 @@ const Target* find_target(std::string_view name) {
     return row == targets.end() ? nullptr : &*row;
 }
 
-Finding target_finding(std::string_view code, std::string message) {
-    Finding f;
-    f.code = code;
-    const CodeInfo* row = find_code(code);
-    f.severity = row != nullptr ? row->severity : Severity::error;
-    f.message = std::move(message);
-    return f;
-}
+Finding target_finding(std::string_view code, std::string message) { return make_finding(code, std::move(message), {}, 0); }
 
 Result<std::vector<Finding>> readiness(const Dataset& dataset, const Target& target, const topology::LocalLengths& lengths,
                                        std::span<const Finding> found) {

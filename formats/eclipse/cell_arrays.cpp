@@ -51,8 +51,8 @@ void add_attribute(const Target& to, std::string name, std::vector<T> values, bo
     const std::string_view keyword = to.array.name;
     if (const std::uint64_t count = drop_not_finite(values); count != 0) {
         has_missing = true;
-        to.findings.push_back(make_finding("F120", Severity::warning, "values of '" + name + "' that are not finite are taken as missing",
-                                           place_of(to.file, to.array), count));
+        to.findings.push_back(
+            make_finding("F120", "values of '" + name + "' that are not finite are taken as missing", place_of(to.file, to.array), count));
         to.findings.back().entities = {{"attribute", name}};
     }
     a.name = std::move(name);

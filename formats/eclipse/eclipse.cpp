@@ -93,6 +93,11 @@ constexpr Keeps deck_keeps() {
 
 using enum WriterWants;
 
+constexpr Format with_pore_volumes(Format row) {
+    row.pore_volumes = true;
+    return row;
+}
+
 constexpr std::array rows = {
     Format{"egrid",
            "eclipse",
@@ -122,10 +127,10 @@ constexpr std::array rows = {
            {},
            false,
            true},
-    Format{"init", "eclipse", "INIT, properties of a simulator's cells", init_extensions, sniff<Kind::init, false>, read_init, write_init,
-           corner_point, property_keeps(), init_note, "real files"},
-    Format{"finit", "eclipse", "FINIT, the same as text", finit_extensions, sniff<Kind::init, true>, read_init, write_finit, corner_point,
-           property_keeps(), init_note, "real files"},
+    with_pore_volumes({"init", "eclipse", "INIT, properties of a simulator's cells", init_extensions, sniff<Kind::init, false>, read_init,
+                       write_init, corner_point, property_keeps(), init_note, "real files"}),
+    with_pore_volumes({"finit", "eclipse", "FINIT, the same as text", finit_extensions, sniff<Kind::init, true>, read_init, write_finit,
+                       corner_point, property_keeps(), init_note, "real files"}),
     Format{"unrst",
            "eclipse",
            "UNRST, restart file: properties at report steps",

@@ -192,9 +192,8 @@ void turn_elevations(CornerPointGrid& grid, const Location& where, std::vector<F
     });
     for (std::size_t i = 2; i < grid.pillars.size(); i += 3) turn(grid.pillars[i]);
     grid.info.crs.z_positive = ZPositive::elevation;
-    findings.push_back(
-        make_finding("F132", Severity::warning,
-                     "the corner depths are negative and decrease downwards: they are elevations, and were turned into depths", where));
+    findings.push_back(make_finding(
+        "F132", "the corner depths are negative and decrease downwards: they are elevations, and were turned into depths", where));
     findings.back().entities = {{"corner-point-grid", grid.info.name}};
 }
 

@@ -130,7 +130,7 @@ Result<void> PropertyGrids::find_companion(const std::vector<PropertyPart>& part
     const auto name = companion_name(file_.input, file_.formatted);
     if (!name) return {};
     const auto unused = [&](const std::string& why) {
-        findings.push_back(make_finding("F133", Severity::warning, "the grid '" + *name + "' is not used: " + why, {file_.input.name()}));
+        findings.push_back(make_finding("F133", "the grid '" + *name + "' is not used: " + why, {file_.input.name()}));
     };
     const auto input = file_.input.neighbour(*name);
     if (!input) {
@@ -186,7 +186,7 @@ Result<void> PropertyGrids::take_pores_as_activity(const PropertyPart& part, con
         }
         const std::size_t before = active_count(grid);
         if (auto done = activity_from_volumes(file, *volumes, dual, grid); !done) return done.why();
-        findings.push_back(make_finding("F134", Severity::info,
+        findings.push_back(make_finding("F134",
                                         "cells are active in the grid file, but have no pore volume and no values: they are inactive",
                                         {file_.input.name()}, before - active_count(grid)));
         return true;

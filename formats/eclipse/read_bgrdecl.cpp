@@ -65,8 +65,8 @@ Result<CornerPointGrid> bare_grid(const ArrayFile& file, GridParts&& parts) {
 
 void tell_unknown(const ArrayFile& file, const std::vector<const Array*>& unknown, std::vector<Finding>& findings) {
     if (unknown.empty()) return;
-    Finding f = make_finding("F102", Severity::info,
-                             "arrays that are not of the grid are kept as they are:", place_of(file, *unknown.front()), unknown.size());
+    Finding f =
+        make_finding("F102", "arrays that are not of the grid are kept as they are:", place_of(file, *unknown.front()), unknown.size());
     for (std::size_t i = 0; i < std::min<std::size_t>(100, unknown.size()); ++i) {
         f.message += ' ' + unknown[i]->name;
         f.entities.push_back({"array", unknown[i]->name});

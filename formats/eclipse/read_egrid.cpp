@@ -196,9 +196,9 @@ private:
         }
         const bool stated = grid.host->first != std::array<std::uint32_t, 3>{} || grid.host->last != std::array<std::uint32_t, 3>{};
         if (stated && (grid.host->first != first || grid.host->last != last)) {
-            data_.findings.push_back(make_finding(
-                "F113", Severity::warning, "the box of host cells of " + name + " in GRIDHEAD is not that of HOSTNUM, which is taken",
-                place_of(file_, array)));
+            data_.findings.push_back(
+                make_finding("F113", "the box of host cells of " + name + " in GRIDHEAD is not that of HOSTNUM, which is taken",
+                             place_of(file_, array)));
             data_.findings.back().entities = {{"corner-point-grid", grid.info.name}};
         }
         grid.host->first = first;

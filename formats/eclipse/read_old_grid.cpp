@@ -143,9 +143,9 @@ private:
         const std::uint8_t whole = two ? 3 : 1;
         if (std::ranges::all_of(grid.activity, [&](std::uint8_t state) { return state == whole; })) grid.activity.clear();
         if (missing != 0) {
-            data_.findings.push_back(make_finding(
-                "F134", Severity::info, "cells are not in the file: they are inactive, and their corners are put between those around them",
-                where, missing));
+            data_.findings.push_back(
+                make_finding("F134", "cells are not in the file: they are inactive, and their corners are put between those around them",
+                             where, missing));
             data_.findings.back().entities = {{"corner-point-grid", grid.info.name}};
         }
         if (coarse_)

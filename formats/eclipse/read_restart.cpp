@@ -18,7 +18,7 @@ struct Step {
     std::size_t first = 0, last = 0;
     std::int64_t number = -1;
     std::string compact_date, date;  ///< YYYYMMDD and YYYY-MM-DD; empty: not stated
-    std::string days;                ///< since the start
+    std::optional<double> days;      ///< since the start
 };
 
 /// Steps start with SEQNUM; a single restart file is one step, whose number is in its extension (.X0012, .F0012).
@@ -29,10 +29,10 @@ Result<std::vector<Step>> find_steps(const ArrayFile& file) {
         const auto number = integers(file, file.arrays[i]);
         if (!number) return number.why();
         if (!steps.empty()) steps.back().last = i;
-        steps.push_back({i, file.arrays.size(), number->empty() ? -1 : number->front(), "", "", ""});
+        steps.push_back({i, file.arrays.size(), number->empty() ? -1 : number->front(), "", "", {}});
     }
     if (!steps.empty()) return steps;
-    Step step{0, file.arrays.size(), -1, "", "", ""};
+    Step step{0, file.arrays.size(), -1, "", "", {}};
     const std::string name = file.input.base_name();
     if (const std::size_t dot = name.rfind('.'); dot != std::string::npos && name.size() - dot == 6) {
         std::int64_t number = 0;
@@ -91,8 +91,8 @@ private:
             auto read = read_init(*input, options_);
             if (!read) {
                 if (read.why().kind == FailureKind::cancelled) return read.why();
-                grids_.findings.push_back(make_finding("F133", Severity::warning, "'" + name + "' is not used: " + read.why().error.message,
-                                                       {file_.input.name()}));
+                grids_.findings.push_back(
+                    make_finding("F133", "'" + name + "' is not used: " + read.why().error.message, {file_.input.name()}));
                 return {};
             }
             for (Object& object : read->objects) {
@@ -126,7 +126,7 @@ private:
         if (const Array* array = find_array(file_, parts.front(), "DOUBHEAD")) {
             const auto values = reals(file_, *array);
             if (!values) return values.why();
-            if (!values->empty()) step.days = number_text(values->front());
+            if (!values->empty()) step.days = values->front();
         }
         return {};
     }
@@ -169,9 +169,8 @@ private:
     }
 
     static void annotate(const Step& step, Attribute& a) {
-        if (!step.date.empty()) a.annotations.emplace_back("time.date", step.date);
-        if (!step.days.empty()) a.annotations.emplace_back("time.days", step.days);
-        if (step.number >= 0) a.annotations.emplace_back("time.step", std::to_string(step.number));
+        a.time = TimeStep{step.date, step.days, {}};
+        if (step.number >= 0) a.time->number = step.number;
     }
 
     void tell_others(Dataset& data) const {

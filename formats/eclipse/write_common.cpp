@@ -103,9 +103,9 @@ Result<ChosenGrids> choose_grids(const Dataset& dataset, std::string_view title,
     for (const StatedModel& model : dataset.models) {
         add_loss(losses, {LossClass::substance, model.name, "regions, contacts and layers", std::string(title) + " files hold no model"});
     }
-    if (!dataset.annotations.empty()) {
-        add_loss(losses, {LossClass::style, "", "records of the source format", std::string(title) + " files have no place for them",
-                          dataset.annotations.size()});
+    if (const std::size_t records = kept_records(dataset); records > 0) {
+        add_loss(losses,
+                 {LossClass::style, "", "records of the source format", std::string(title) + " files have no place for them", records});
     }
     return chosen;
 }

@@ -80,6 +80,8 @@ public:
             }
             add_cell(mesh.types[i], corners, entity);
         }
+        if (mesh.twins && !mesh.twins->empty())
+            lose(LossClass::identity, mesh.info, "twin nodes that cut a surface", "several objects become one mesh", mesh.twins->size());
         if (!mesh.facet_tags.empty()) lose(LossClass::identity, mesh.info, "stated surfaces behind facets", "MSH has no place for them");
         end(mesh.info);
     }

@@ -117,17 +117,12 @@ void replace(std::vector<Value>& values, double from, double to) {
 std::string geomend_line(const Dataset& dataset, const CellMesh& mesh, const WritePlan& plan, const std::vector<Attribute>& described,
                          bool v41, std::vector<Loss>& losses) {
     Dataset shell;
+    shell.groups = dataset.groups;
     shell.annotations = dataset.annotations;
     CellMesh out;
-    out.info.name = mesh.info.name;
-    out.info.role = mesh.info.role;
-    out.info.role_text = mesh.info.role_text;
-    out.info.feature = mesh.info.feature;
-    out.info.crs = mesh.info.crs;
-    out.info.groups = mesh.info.groups;
-    for (const Annotation& a : mesh.info.annotations) {
-        if (!is_own_section(a)) out.info.annotations.push_back(a);
-    }
+    out.info = words_of(mesh.info);
+    std::erase_if(out.info.annotations, is_own_section);
+    out.twins = mesh.twins;
     for (const Attribute& a : described) {
         if (a.components > 0) out.info.attributes.push_back(a);
     }

@@ -69,6 +69,7 @@ std::span<const Format> formats() {
              .flat_meshes = true,
              .statements = true,
              .elevations = true,
+             .bounded_regions = true,
          }}};
     return rows;
 }

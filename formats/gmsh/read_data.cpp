@@ -6,6 +6,7 @@
 
 #include "base/text_cursor.h"
 #include "formats/gmsh/reading.h"
+#include "model/annotations.h"
 
 namespace geomend::gmsh {
 
@@ -95,21 +96,14 @@ double free_no_data(std::span<const double> values) {
 
 void annotate(Attribute& a, const char* key, std::string value) { a.annotations.emplace_back(key, std::move(value)); }
 
-std::string* annotation(Attribute& a, std::string_view key) {
-    for (auto& [k, v] : a.annotations) {
-        if (k == key) return &v;
-    }
-    return nullptr;
-}
-
 // Another part (partition, entity) of the same view and step: fills what is missing.
 Attribute* same_view(Reading& r, const DataHead& head, AttributeLocation location, std::size_t components, bool per_node) {
     for (Attribute& a : r.mesh.info.attributes) {
         if (a.location != location || a.components != components || !a.no_data) continue;
-        const std::string* view = annotation(a, "gmsh.view");
-        const std::string* step = annotation(a, "gmsh.step");
+        const std::string* view = find_annotation(a, "gmsh.view");
+        const std::string* step = find_annotation(a, "gmsh.step");
         const bool same = (view != nullptr ? *view : a.name) == head.name && (step != nullptr ? *step : "0") == std::to_string(head.step) &&
-                          (annotation(a, "gmsh.element_node_data") != nullptr) == per_node;
+                          a.corner_values.has_value() == per_node;
         if (same) return &a;
     }
     return nullptr;
@@ -143,12 +137,8 @@ bool fill_missing(Attribute& into, const Values& from) {
 }
 
 void tell_twice(Reading& r, const std::string& name, std::uint64_t count) {
-    Finding f;
-    f.code = "F107";
-    f.severity = Severity::warning;
-    f.message = "data '" + name + "' give values twice for the same node or element: the first ones are kept";
-    f.where.file = r.input.name();
-    f.count = count;
+    Finding f = make_finding("F107", "data '" + name + "' give values twice for the same node or element: the first ones are kept",
+                             {r.input.name()}, count);
     f.element_kind = "value";
     r.findings.push_back(std::move(f));
 }
@@ -168,7 +158,7 @@ void add_attribute(Reading& r, const DataHead& head, DataKind kind, std::size_t 
     if (head.step != 0) annotate(a, "gmsh.step", std::to_string(head.step));
     if (head.time != 0) annotate(a, "gmsh.time", number_text(head.time));
     if (!head.interpolation.empty()) annotate(a, "gmsh.interpolation", head.interpolation);
-    if (kind == DataKind::element_node) annotate(a, "gmsh.element_node_data", std::to_string(head.components));
+    if (kind == DataKind::element_node) a.corner_values = CornerValues{static_cast<std::uint32_t>(head.components), {}, false};
     if (partial) {
         a.no_data = free_no_data(values.data);
         for (std::size_t i = 0; i < values.has.size(); ++i) {

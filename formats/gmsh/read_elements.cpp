@@ -181,13 +181,10 @@ BlockPlace place_of_block(Reading& r, int dimension, std::int64_t tag) {
     }
     const bool known = r.entity_of.contains(key);
     if (!known && r.entities_stated) {
-        Finding f;
-        f.code = "F113";
-        f.severity = Severity::warning;
-        f.message = "elements belong to entity " + std::to_string(tag) + " of dimension " + std::to_string(dimension) +
-                    ", which $Entities does not hold";
-        f.where.file = r.input.name();
-        f.count = 1;
+        Finding f = make_finding("F113",
+                                 "elements belong to entity " + std::to_string(tag) + " of dimension " + std::to_string(dimension) +
+                                     ", which $Entities does not hold",
+                                 {r.input.name()});
         if (r.findings.size() < most_listed) r.findings.push_back(std::move(f));
     }
     return {entity_index(r, dimension, tag), 0};

@@ -249,14 +249,8 @@ std::uint64_t drop_cells(Reading& r, Merged& merged) {
     return dropped;
 }
 
-void tell(Reading& r, const char* code, Severity severity, std::string message, std::uint64_t count) {
-    Finding f;
-    f.code = code;
-    f.severity = severity;
-    f.message = std::move(message);
-    f.where.file = r.input.name();
-    f.count = count;
-    r.findings.push_back(std::move(f));
+void tell(Reading& r, const char* code, std::string message, std::uint64_t count) {
+    r.findings.push_back(make_finding(code, std::move(message), {r.input.name()}, count));
 }
 
 // An entity whose elements are in different sets of groups cannot be in a group as a whole: each set makes an
@@ -300,7 +294,7 @@ void entities_of_sets(Reading& r, const Merged& merged) {
         mesh.cell_entity[cell] = at->second;
     }
     if (splits > 0) {
-        tell(r, "F122", Severity::info,
+        tell(r, "F122",
              "elements of one elementary entity are in different physical groups: each set of groups was made an entity of its own",
              splits);
     }
@@ -340,8 +334,7 @@ Result<void> entities_from_classes(Reading& r) {
         merged = merge_repeated(r, shared);
         if (!merged.of.empty()) {
             const std::uint64_t dropped = drop_cells(r, merged);
-            tell(r, "F123", Severity::info, "elements are repeated because their entity is in several physical groups: each is kept once",
-                 dropped);
+            tell(r, "F123", "elements are repeated because their entity is in several physical groups: each is kept once", dropped);
         }
     }
     entities_of_sets(r, merged);

@@ -36,19 +36,13 @@ Result<void> read_all_named(Reading& r, std::initializer_list<std::string_view> 
     return {};
 }
 
-Finding finding_about(const Reading& r, const char* code, Severity severity, std::string message, std::uint64_t count) {
-    Finding f;
-    f.code = code;
-    f.severity = severity;
-    f.message = std::move(message);
-    f.where.file = r.input.name();
-    f.count = count;
-    return f;
+Finding finding_about(const Reading& r, const char* code, std::string message, std::uint64_t count) {
+    return make_finding(code, std::move(message), {r.input.name()}, count);
 }
 
 void report_elements(Reading& r) {
     if (r.degenerate > 0) {
-        Finding f = finding_about(r, "F103", Severity::warning, "elements use a node more than once", r.degenerate);
+        Finding f = finding_about(r, "F103", "elements use a node more than once", r.degenerate);
         for (const std::uint32_t cell : r.degenerate_cells) {
             f.index.push_back(cell);
             f.elements.push_back(r.mesh.cell_labels[cell]);
@@ -64,7 +58,7 @@ void report_elements(Reading& r) {
              std::string("they are read as ") + to_string(type.cell), count});
     }
     if (r.mesh.cell_count() == 0) {
-        r.findings.push_back(finding_about(r, "F119", Severity::warning, "the file holds nodes, but no elements", r.mesh.points.size()));
+        r.findings.push_back(finding_about(r, "F119", "the file holds nodes, but no elements", r.mesh.points.size()));
     }
 }
 
@@ -73,8 +67,7 @@ void report_interfaces(Reading& r) {
     if (r.partitioned.empty()) return;
     for (const std::uint32_t e : r.mesh.cell_entity) loose += e == no_index ? 1 : 0;
     if (loose == 0) return;
-    r.findings.push_back(
-        finding_about(r, "F102", Severity::info, "elements on interfaces between partitions belong to no entity of the model", loose));
+    r.findings.push_back(finding_about(r, "F102", "elements on interfaces between partitions belong to no entity of the model", loose));
 }
 
 void add_partitions(Reading& r) {

@@ -4,17 +4,11 @@
 #include <set>
 
 #include "formats/gmsh/writing.h"
+#include "model/annotations.h"
 
 namespace geomend::gmsh {
 
 namespace {
-
-const std::string* annotation(const Attribute& a, std::string_view key) {
-    for (const auto& [k, v] : a.annotations) {
-        if (k == key) return &v;
-    }
-    return nullptr;
-}
 
 // Clients show views of 1, 3 and 9 components.
 std::uint32_t padded_components(std::uint32_t n) { return n <= 1 ? 1 : n <= 3 ? 3 : n <= 9 ? 9 : n; }
@@ -138,14 +132,14 @@ private:
 };
 
 void write_data_head(const Writing& w, const char* section, const Attribute& described, std::uint32_t components, std::uint64_t entries) {
-    const std::string* view = annotation(described, "gmsh.view");
-    const std::string* interpolation = annotation(described, "gmsh.interpolation");
+    const std::string* view = find_annotation(described, "gmsh.view");
+    const std::string* interpolation = find_annotation(described, "gmsh.interpolation");
     double time = 0;
     std::int64_t step = 0;
-    if (const std::string* text = annotation(described, "gmsh.time")) {
+    if (const std::string* text = find_annotation(described, "gmsh.time")) {
         if (parse_real(*text, time) != NumberStatus::ok || !std::isfinite(time)) time = 0;
     }
-    if (const std::string* text = annotation(described, "gmsh.step")) {
+    if (const std::string* text = find_annotation(described, "gmsh.step")) {
         if (parse_integer(*text, step) != NumberStatus::ok) step = 0;
     }
     w.out << "$" << section << "\n"
@@ -186,7 +180,7 @@ void write_plain(const Writing& w, const Attribute& a, const Attribute& describe
     w.out << (nodes ? "$EndNodeData\n" : "$EndElementData\n");
 }
 
-// A cell property that came from $ElementNodeData goes back there: node by node, in the order of MSH.
+// A cell property with values at the corners goes to $ElementNodeData: node by node, in the order of MSH.
 void write_per_node(const Writing& w, const Attribute& a, const Attribute& described, std::uint32_t per_node) {
     const Values values(a, described.components);
     const auto goes_out = [&](std::size_t i) {
@@ -227,12 +221,10 @@ void write_per_node(const Writing& w, const Attribute& a, const Attribute& descr
     w.out << "$EndElementNodeData\n";
 }
 
-// Components per node of an attribute that came from $ElementNodeData; 0 for others.
+// Components per node of an attribute that goes to $ElementNodeData; 0 for others.
 std::uint32_t components_per_node(const Attribute& a) {
-    const std::string* text = annotation(a, "gmsh.element_node_data");
-    std::int64_t n = 0;
-    if (text == nullptr || parse_integer(*text, n) != NumberStatus::ok || n < 1 || n > 256 || a.components % n != 0) return 0;
-    return static_cast<std::uint32_t>(n);
+    const std::uint32_t n = a.corner_values ? a.corner_values->components : 0;
+    return n < 1 || n > 256 || a.components % n != 0 ? 0 : n;
 }
 
 }  // namespace
@@ -256,6 +248,7 @@ std::vector<Attribute> describe_attributes(const CellMesh& mesh, std::vector<Los
             all.push_back(std::move(d));
             continue;
         }
+        d = without_values(a);
         d.location = a.location == AttributeLocation::polygon ? AttributeLocation::cell : a.location;
         const std::string clean = a.name.empty() ? "data" : quotable(a.name);
         std::string name = clean;
@@ -263,15 +256,6 @@ std::vector<Attribute> describe_attributes(const CellMesh& mesh, std::vector<Los
             name = quotable(clean.substr(0, 110) + " (" + std::to_string(i) + ")");
         d.name = name;
         d.components = components_per_node(a) > 0 ? a.components : padded_components(a.components);
-        d.unit = a.unit;
-        d.kind = a.kind;
-        d.property_class = a.property_class;
-        d.no_data = a.no_data;
-        d.legal_min = a.legal_min;
-        d.legal_max = a.legal_max;
-        d.component_names = a.component_names;
-        d.code_names = a.code_names;
-        d.annotations = a.annotations;
         if (d.name != a.name) d.annotations.emplace_back("geomend.name", a.name);
         if (a.values.index() != 0) d.annotations.emplace_back("geomend.type", type_name(a.values));
         if (d.components != a.components) {

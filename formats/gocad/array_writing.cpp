@@ -10,17 +10,11 @@
 #include "formats/gocad/ascii_data_file.h"
 #include "formats/gocad/object_head.h"
 #include "formats/gocad/region_flags.h"
+#include "model/annotations.h"
 
 namespace geomend::gocad {
 
 namespace {
-
-std::string_view annotation(const Attribute& a, std::string_view key) {
-    for (const auto& [k, v] : a.annotations) {
-        if (k == key) return v;
-    }
-    return {};
-}
 
 bool is_flags(const Attribute& a) { return !annotation(a, flags_annotation).empty(); }
 

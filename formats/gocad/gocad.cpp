@@ -36,6 +36,7 @@ Format row(std::string_view name, std::string_view title, std::span<const std::s
     format.read = read_gocad;
     format.write = write;
     format.wants = wants;
+    format.bounded_regions = wants != WriterWants::objects;
     using enum Keeping;
     Keeps& keeps = format.keeps;
     keeps.points = keeps.polylines = keeps.surfaces = keeps.wells = yes;

@@ -19,7 +19,6 @@ struct Model3dClaims {
         std::uint64_t line = 0;
     };
     std::vector<TSurf> tsurfs;
-    std::vector<std::uint64_t> face_lines;  ///< of the TFACE records
 };
 
 /// Reads the body of a `GOCAD Model3d`: TSURF, TFACE with its key triangle, REGION, SURFACE, LAYER and FAULT_BLOCK,
@@ -27,8 +26,7 @@ struct Model3dClaims {
 /// elsewhere.
 Result<Model3dClaims> read_model3d(ObjectScanner& scanner);
 
-/// Gives the faces their objects and parts, and compares their key triangles with those (F106 reversed, F116 not a
-/// triangle of the part). Unknown TSurfs are F007, another number of parts than of TFACE records F008.
+/// Gives the faces their objects and parts. Unknown TSurfs are F007, another number of parts than of TFACE records F008.
 /// \param objects     all objects
 /// \param candidates  indices of the TSurfs that follow this Model3d, in file order
 /// \pre every Surface among the candidates has valid indices

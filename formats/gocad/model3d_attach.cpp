@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <map>
 #include <unordered_map>
 
-#include "base/parallel.h"
 #include "formats/gocad/model3d.h"
 
 namespace geomend::gocad {
@@ -60,48 +58,6 @@ std::vector<std::uint32_t> match_names(const Model3dClaims& claims, const std::v
     return found;
 }
 
-enum class KeyFit : std::uint8_t { same, reversed, none };
-
-KeyFit fit_key(const Surface& surface, std::uint32_t part, const std::array<Vec3, 3>& key) {
-    std::uint64_t first = 0, last = surface.polygons.size();
-    if (part < surface.parts.size()) {
-        first = surface.parts[part].first_polygon;
-        if (part + 1 < surface.parts.size()) last = surface.parts[part + 1].first_polygon;
-    }
-    KeyFit fit = KeyFit::none;
-    for (std::uint64_t i = first; i != last; ++i) {
-        const auto corners = surface.polygons[i];
-        for (std::size_t turn = 0; turn != 3; ++turn) {
-            if (surface.points[corners[turn]] != key[0]) continue;
-            const Vec3& b = surface.points[corners[(turn + 1) % 3]];
-            const Vec3& c = surface.points[corners[(turn + 2) % 3]];
-            if (b == key[1] && c == key[2]) return KeyFit::same;
-            if (c == key[1] && b == key[2]) fit = KeyFit::reversed;
-        }
-    }
-    return fit;
-}
-
-void compare_keys(const Model3dClaims& claims, const std::vector<Object>& objects, ObjectLog& log) {
-    const auto& faces = claims.model.faces;
-    std::vector<KeyFit> fits(faces.size(), KeyFit::same);
-    parallel_for_each_index(faces.size(), [&](std::size_t i) {
-        if (faces[i].object == no_index || !faces[i].key) return;
-        fits[i] = fit_key(std::get<Surface>(objects[faces[i].object]), faces[i].part, *faces[i].key);
-    });
-    for (std::size_t i = 0; i != faces.size(); ++i) {
-        if (fits[i] == KeyFit::same) continue;
-        const bool reversed = fits[i] == KeyFit::reversed;
-        log.add(
-            reversed ? "F106" : "F116", claims.face_lines[i], 0,
-            [&] {
-                return "TFACE " + std::to_string(faces[i].number) + " of '" + faces[i].interface_name + "': its key triangle " +
-                       (reversed ? "is reversed against the surface" : "is not among the triangles of the surface");
-            },
-            {}, faces[i].number);
-    }
-}
-
 }  // namespace
 
 bool goes_by(const ObjectInfo& info, const std::string& name) {
@@ -121,7 +77,7 @@ void attach_faces(Model3dClaims& claims, const std::vector<Object>& objects, std
         const auto tsurf = tsurf_of.find(faces[i].interface_name);
         if (tsurf == tsurf_of.end()) {
             log.add(
-                "F007", claims.face_lines[i], 0,
+                "F007", faces[i].line, 0,
                 [&] {
                     return "TFACE " + std::to_string(faces[i].number) + " names '" + faces[i].interface_name +
                            "', which no TSURF record lists";
@@ -138,7 +94,7 @@ void attach_faces(Model3dClaims& claims, const std::vector<Object>& objects, std
         std::ranges::stable_sort(records[t], {}, [&](std::uint32_t i) { return faces[i].number; });
         if (tsurf_of.at(claims.tsurfs[t].name) == t && records[t].size() != parts) {
             log.add(
-                "F008", records[t].empty() ? claims.tsurfs[t].line : claims.face_lines[records[t].front()], 0,
+                "F008", records[t].empty() ? claims.tsurfs[t].line : faces[records[t].front()].line, 0,
                 [&] {
                     return "TSurf '" + claims.tsurfs[t].name + "' has " + std::to_string(parts) + " parts (TFACE), but " +
                            std::to_string(records[t].size()) + " TFACE records name it";
@@ -161,7 +117,6 @@ void attach_faces(Model3dClaims& claims, const std::vector<Object>& objects, std
             }
         }
     }
-    compare_keys(claims, objects, log);
 }
 
 }  // namespace geomend::gocad

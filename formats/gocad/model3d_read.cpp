@@ -90,7 +90,7 @@ private:
 
     void read_face() {
         StatedModel::Face face;
-        claims_.face_lines.push_back(line_.line());
+        face.line = line_.line();
         if (read_number(face.number, "TFACE")) add_number(face_numbers_, face.number, "TFACE");
         face.role_text = line_.token();
         face.role = feature_role(face.role_text);
@@ -108,7 +108,7 @@ private:
                 const std::uint64_t number = line_.line() + 1;
                 if (line_.next_line() && (line_.at_line_end() || starts_number())) continue;
                 line_.jump(here, number);
-                const std::uint64_t at = claims_.face_lines.back();
+                const std::uint64_t at = face.line;
                 const auto text = [&] {
                     return "TFACE " + std::to_string(face.number) + ": expected a key triangle of nine numbers, found " + std::to_string(i);
                 };

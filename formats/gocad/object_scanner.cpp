@@ -22,12 +22,7 @@ Finding* ObjectLog::find(std::string_view code, std::string_view subject) {
 }
 
 Finding& ObjectLog::start(std::string_view code, std::uint64_t line, std::uint32_t column, std::string text, std::string_view subject) {
-    Finding finding;
-    finding.code = code;
-    const CodeInfo* info = find_code(code);
-    finding.severity = info != nullptr ? info->severity : Severity::error;
-    finding.message = std::move(text);
-    finding.where = {file_, line, column};
+    Finding finding = make_finding(code, std::move(text), {file_, line, column}, 0);
     if (code == "F107" && subject.empty()) finding.element_kind = "value";  // of a point or element, not of a header
     has_error_ |= finding.severity == Severity::error;
     findings_.push_back(std::move(finding));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/annotations.h"
+
 namespace geomend::gocad {
 
 namespace {
@@ -207,12 +209,6 @@ void write_property_lists(OutputFile& out, const std::vector<const Attribute*>& 
     const auto or_else = [](const std::string& text, std::string_view other) {
         return name_token(text.empty() ? other : std::string_view(text));
     };
-    const auto annotation = [](const Attribute& a, std::string_view key, std::string_view other) {
-        for (const auto& [k, v] : a.annotations) {
-            if (k == key) return v;
-        }
-        return std::string(other);
-    };
     const auto range = [](std::optional<double> end) { return end ? number_text(*end) : std::string(no_range); };
     list("PROPERTIES", [](const Attribute& a) { return name_token(a.name); });
     list("PROP_LEGAL_RANGES", [&](const Attribute& a) { return range(a.legal_min) + ' ' + range(a.legal_max); });
@@ -226,8 +222,8 @@ void write_property_lists(OutputFile& out, const std::vector<const Attribute*>& 
     }
     for (const std::string_view keyword : {"READ_ONLY", "FIXED", "INTERPOLATION_METHODS"}) {
         const std::string key = "gocad.list." + std::string(keyword);
-        const bool all = std::ranges::all_of(attributes, [&](const Attribute* a) { return !annotation(*a, key, "").empty(); });
-        if (all) list(keyword, [&](const Attribute& a) { return name_token(annotation(a, key, "")); });
+        const bool all = std::ranges::all_of(attributes, [&](const Attribute* a) { return !annotation(*a, key).empty(); });
+        if (all) list(keyword, [&](const Attribute& a) { return name_token(annotation(a, key)); });
     }
     // What no property states is not invented: the reader of a file without the line knows as little.
     const auto stated_by_any = [&](auto&& text_of) {
@@ -242,8 +238,11 @@ void write_property_lists(OutputFile& out, const std::vector<const Attribute*>& 
     list_if_stated(
         "PROPERTY_KINDS", [](const Attribute& a) { return a.kind; }, [&](const Attribute& a) { return or_else(a.kind, "unknown"); });
     list_if_stated(
-        "PROPERTY_SUBCLASSES", [&](const Attribute& a) { return annotation(a, "gocad.subclass", ""); },
-        [&](const Attribute& a) { return annotation(a, "gocad.subclass", "QUANTITY Float"); });
+        "PROPERTY_SUBCLASSES", [](const Attribute& a) { return annotation(a, "gocad.subclass"); },
+        [](const Attribute& a) {
+            const std::string* stated = find_annotation(a, "gocad.subclass");
+            return stated == nullptr ? std::string("QUANTITY Float") : *stated;
+        });
     list("ESIZES", [](const Attribute& a) { return std::to_string(a.components); });
     list_if_stated(
         "UNITS", [](const Attribute& a) { return a.unit; }, [&](const Attribute& a) { return or_else(a.unit, "none"); });

@@ -93,19 +93,14 @@ private:
     }
 
     void keep_group(std::size_t i) {
-        std::string text;
-        for (const std::string& name : paths_[i]) {
-            if (!text.empty()) text += group_separator;
-            text += name;
-        }
-        if (!group_paths_.insert(text).second) {
+        if (!group_paths_.insert(paths_[i]).second) {
             parts_[i].scanner->log.add("F115", frame(i).line, 0, "a group of this name stands here already");
         }
-        text += "\nGOCAD " + std::string(frame(i).type) + " 1\n";
+        std::string text = "GOCAD " + std::string(frame(i).type) + " 1\n";
         text += trimmed(frame(i).body);
         const std::string_view tail = trimmed(frame(i).tail);
         if (!tail.empty()) (text += '\n') += tail;
-        dataset_.annotations.push_back({std::string(group_annotation), std::move(text)});
+        dataset_.groups.push_back({paths_[i], std::move(text)});
     }
 
     void read_objects() {
@@ -231,7 +226,9 @@ private:
             std::vector<Finding> of_part = parts_[i].scanner->log.take(std::string(frame(i).type), name);
             if (object.empty() && !dataset_.objects.empty() && lacks_only_companions(of_part)) {
                 // The other objects of the file are whole: this one is told as lost instead.
-                for (Finding& finding : of_part) finding.severity = std::min(finding.severity, Severity::warning);
+                for (Finding& finding : of_part) {
+                    if (finding.severity == Severity::error) use_other_severity(finding);
+                }
                 add_loss(dataset_.losses,
                          {LossClass::substance, name, "the whole " + std::string(frame(i).type), "a file that it names is missing"});
             } else failed |= parts_[i].scanner->log.has_error();
@@ -276,7 +273,7 @@ private:
     std::vector<Part> parts_;
     std::vector<std::vector<std::string>> paths_;  // per frame: the groups it is in (groups: and itself)
     std::vector<CoordinateSystem> group_crs_;
-    std::set<std::string> group_paths_;
+    std::set<std::vector<std::string>> group_paths_;
     Dataset dataset_;
 };
 

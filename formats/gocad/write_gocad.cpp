@@ -41,20 +41,10 @@ Result<void> write_object(std::uint32_t index, bool light, GocadOutput& to) {
     return std::visit(Visitor{to, index, light}, to.dataset.objects[index]);
 }
 
-std::string path_text(std::span<const std::string> path) {
-    std::string text;
-    for (const std::string& name : path) {
-        if (!text.empty()) text += group_separator;
-        text += name;
-    }
-    return text;
-}
-
 void open_group(std::span<const std::string> path, GocadOutput& to) {
-    const std::string wanted = path_text(path) + '\n';
-    for (const Annotation& a : to.dataset.annotations) {
-        if (a.key != group_annotation || !a.value.starts_with(wanted)) continue;
-        to.out << std::string_view(a.value).substr(wanted.size()) << "\nBEGIN_MEMBERS\n";
+    const auto stated = std::ranges::find_if(to.dataset.groups, [&](const StatedGroup& g) { return std::ranges::equal(g.path, path); });
+    if (stated != to.dataset.groups.end()) {
+        to.out << stated->head << "\nBEGIN_MEMBERS\n";
         return;
     }
     to.out << "GOCAD HeterogeneousGroup 1\nHEADER {\nname:" << line_name(path.back()) << "\n}\nBEGIN_MEMBERS\n";

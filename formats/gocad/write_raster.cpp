@@ -7,6 +7,7 @@
 #include "formats/gocad/object_head.h"
 #include "formats/gocad/object_writers.h"
 #include "formats/gocad/region_flags.h"
+#include "model/turned_signs.h"
 
 namespace geomend::gocad {
 
@@ -87,18 +88,7 @@ Result<void> write_grid2d(const Raster& raster, GocadOutput& to) {
     auto& attributes = turned.info.attributes;
     std::rotate(attributes.begin(), attributes.begin() + raster.height_attribute, attributes.begin() + raster.height_attribute + 1);
     Attribute& height = attributes.front();
-    if (raster.info.crs.z_positive == ZPositive::depth) {
-        std::visit(
-            [&](auto& values) {
-                using Value = typename std::decay_t<decltype(values)>::value_type;
-                if constexpr (std::is_floating_point_v<Value>) {
-                    for (Value& v : values) {
-                        if (!is_no_data(height, v)) v = -v;
-                    }
-                }
-            },
-            height.values);
-    }
+    if (raster.info.crs.z_positive == ZPositive::depth) turn_signs(height);
     WriteOptions binary = to.options;
     binary.options.emplace_back("data", "binary");  // this object has no text form
     GocadOutput as_binary{to.files, to.out, binary, to.dataset, to.losses};

@@ -36,4 +36,12 @@ std::string companion_loss(std::string_view keyword, std::string_view path) {
     return (keyword == "GDFILE" ? "the geometry, which GDFILE takes from " : "what IMPORT takes from ") + std::string(path);
 }
 
+void forget_companion(const DeckCompanion& companion, ObjectInfo& info, std::vector<Loss>& losses) {
+    const std::string lost = companion_loss(companion.keyword, companion.path);
+    std::erase_if(losses, [&](const Loss& loss) { return loss.what == lost; });
+    std::erase_if(info.annotations, [&](const Annotation& a) {
+        return a.key == "grdecl.record" && a.value.starts_with(companion.keyword) && a.value.find(companion.path) != std::string::npos;
+    });
+}
+
 }  // namespace geomend::grdecl

@@ -22,4 +22,8 @@ std::vector<DeckCompanion> deck_companions(const Dataset& dataset);
 /// What the reader lists as lost for a companion.
 std::string companion_loss(std::string_view keyword, std::string_view path);
 
+/// Takes away the record of a companion that was read, and its loss.
+/// \param info of the grid that names it
+void forget_companion(const DeckCompanion& companion, ObjectInfo& info, std::vector<Loss>& losses);
+
 }  // namespace geomend::grdecl

@@ -17,13 +17,7 @@ Failure missing_item(const Scanner& in, const Record& record, std::string_view w
 }  // namespace
 
 Finding finding(std::string code, Location where, std::string message, std::uint64_t count) {
-    Finding f;
-    if (const CodeInfo* row = find_code(code)) f.severity = row->severity;
-    f.code = std::move(code);
-    f.where = std::move(where);
-    f.message = std::move(message);
-    f.count = count;
-    return f;
+    return make_finding(code, std::move(message), std::move(where), count);
 }
 
 Result<Record> take_record(Scanner& in, std::string_view keyword, std::vector<Finding>& findings) {

@@ -233,10 +233,9 @@ Result<std::vector<Loss>> write_whole_deck(const Dataset& dataset, OutputSet& ou
     for (const Section section : {Section::solution, Section::summary, Section::schedule}) write_section(section, to);
     name_companion(to);
     to.main << "END\n";
-    for (const Annotation& a : dataset.annotations) {
-        if (a.key != "grdecl.section")
-            add_loss(to.losses, {LossClass::style, {}, "header lines of the file", "decks have no place for them"});
-    }
+    const auto sections = std::ranges::count(dataset.annotations, "grdecl.section", &Annotation::key);
+    for (auto others = kept_records(dataset) - static_cast<std::size_t>(sections); others > 0; --others)
+        add_loss(to.losses, {LossClass::style, {}, "header lines of the file", "decks have no place for them"});
     if (was_stopped(options)) return failure(FailureKind::cancelled, "F022", {outputs.main_path().string()}, "writing was stopped");
     return std::move(to.losses);
 }

@@ -48,11 +48,7 @@ Failure stopped(const Input& input) { return failure(FailureKind::cancelled, "F0
 void tell_missing_line_end(const Input& input, Dataset& dataset) {
     const std::string_view bytes = input.bytes();
     if (bytes.empty() || bytes.back() == '\n' || bytes.back() == '\r') return;
-    Finding finding;
-    finding.code = "F101";
-    finding.severity = Severity::warning;
-    finding.message = "the last line has no line end: the file may have been cut short";
-    finding.where.file = input.name();
+    Finding finding = make_finding("F101", "the last line has no line end: the file may have been cut short", {input.name()}, 0);
     dataset.findings.push_back(std::move(finding));
 }
 

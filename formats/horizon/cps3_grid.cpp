@@ -115,11 +115,8 @@ Result<GridFrame> frame_of(const Cps3Header& header, const Input& input, std::ve
         return count > 1 && std::abs(step - limit) * (count - 1.0) > 1e-3 * std::abs(limit);
     };
     if (disagrees(steps[0], limits[0], frame.nx) || disagrees(steps[1], limits[1], frame.ny)) {
-        Finding finding;
-        finding.code = "F113";
-        finding.severity = Severity::warning;
-        finding.message = "the steps of FSXINC disagree with the limits of FSLIMI; the limits are taken";
-        finding.where.file = input.name();
+        Finding finding =
+            make_finding("F113", "the steps of FSXINC disagree with the limits of FSLIMI; the limits are taken", {input.name()}, 0);
         findings.push_back(std::move(finding));
         steps = limits;
     }

@@ -70,11 +70,7 @@ IrapHeader irap_header(const FileGrid& grid) {
 }
 
 Finding irap_warning(const std::string& warning, const Location& where) {
-    Finding finding;
-    finding.code = "F113";
-    finding.severity = Severity::warning;
-    finding.message = warning;
-    finding.where = where;
+    Finding finding = make_finding("F113", warning, where, 0);
     return finding;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/text_cursor.h"
+#include "model/turned_signs.h"
 
 namespace geomend::horizon {
 
@@ -40,18 +41,7 @@ Raster make_horizon(const GridFrame& frame, AttributeValues heights, double no_d
     height.kind = "Length";
     height.no_data = no_data;
     height.values = std::move(heights);
-    if (file_sign == ZPositive::depth) {
-        std::visit(
-            [&](auto& values) {
-                using Value = typename std::decay_t<decltype(values)>::value_type;
-                if constexpr (std::is_floating_point_v<Value>) {
-                    for (Value& v : values) {
-                        if (!is_no_data(height, v)) v = -v;
-                    }
-                }
-            },
-            height.values);
-    }
+    if (file_sign == ZPositive::depth) turn_signs(height);
     raster.height_attribute = 0;
     raster.info.attributes.push_back(std::move(height));
     return raster;

@@ -56,12 +56,7 @@ Dataset finish(const Input& input, LineCollector& lines, std::string variant, co
     info.crs.z_positive_stated = sign.has_value();
     Dataset dataset = dataset_of(std::move(variant), std::move(lines.set));
     if (lines.empty_lines > 0) {
-        Finding finding;
-        finding.code = "F119";
-        finding.severity = Severity::warning;
-        finding.message = "lines without points are left out";
-        finding.where.file = input.name();
-        finding.count = lines.empty_lines;
+        Finding finding = make_finding("F119", "lines without points are left out", {input.name()}, lines.empty_lines);
         dataset.findings.push_back(std::move(finding));
     }
     tell_missing_line_end(input, dataset);

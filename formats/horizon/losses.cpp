@@ -63,9 +63,8 @@ void add_other_losses(const Dataset& dataset, std::size_t index, std::string_vie
     for (const StatedModel& model : dataset.models) {
         add_loss(losses, {LossClass::substance, model.name, "regions, contacts and layers", std::string(title) + " hold no model"});
     }
-    if (!dataset.annotations.empty()) {
-        add_loss(losses, {LossClass::style, "", "header lines of the file", std::string(title) + " have no place for them",
-                          dataset.annotations.size()});
+    if (const std::size_t records = kept_records(dataset); records > 0) {
+        add_loss(losses, {LossClass::style, "", "header lines of the file", std::string(title) + " have no place for them", records});
     }
 }
 

@@ -134,13 +134,10 @@ void apply_decimals(ZmapHeights& heights, const ZmapHeader& header, const Input&
         ++scaled;
     }
     if (scaled == 0) return;
-    Finding finding;
-    finding.code = "F113";
-    finding.severity = Severity::warning;
-    finding.message =
-        "no height has a decimal point: the last " + std::to_string(header.decimals) + " digits are taken for decimals, as the header says";
-    finding.where.file = input.name();
-    finding.count = scaled;
+    Finding finding = make_finding(
+        "F113",
+        "no height has a decimal point: the last " + std::to_string(header.decimals) + " digits are taken for decimals, as the header says",
+        {input.name()}, scaled);
     findings.push_back(std::move(finding));
 }
 

@@ -40,9 +40,8 @@ Result<const CornerPointGrid*> choose_grid(const Dataset& dataset, const OutputS
     for (const StatedModel& model : dataset.models) {
         add_loss(losses, {LossClass::substance, model.name, "regions, contacts and layers", "ROFF files hold no model"});
     }
-    if (!dataset.annotations.empty()) {
-        add_loss(losses,
-                 {LossClass::style, "", "records of the source format", "ROFF files have no place for them", dataset.annotations.size()});
+    if (const std::size_t records = kept_records(dataset); records > 0) {
+        add_loss(losses, {LossClass::style, "", "records of the source format", "ROFF files have no place for them", records});
     }
     return chosen;
 }

@@ -318,8 +318,7 @@ private:
                 ++count;
             }
             if (count == 0) return;
-            data_.findings.push_back(make_finding("F120", Severity::warning,
-                                                  "values of '" + a.name + "' that are not finite are taken as missing",
+            data_.findings.push_back(make_finding("F120", "values of '" + a.name + "' that are not finite are taken as missing",
                                                   place_at(doc_, data.place), count));
             data_.findings.back().entities = {{"attribute", a.name}};
         }
@@ -354,8 +353,7 @@ private:
         for (std::size_t v = 2; v < grid_.pillars.size(); v += 3) grid_.pillars[v] = 0.0 - grid_.pillars[v];
         crs.z_positive = ZPositive::elevation;
         data_.findings.push_back(
-            make_finding("F132", Severity::warning,
-                         "the corner depths are negative and decrease downwards: they are elevations, and were turned into depths",
+            make_finding("F132", "the corner depths are negative and decrease downwards: they are elevations, and were turned into depths",
                          place_at(doc_, find_tag(doc_, "zvalues")->place), 1));
     }
 

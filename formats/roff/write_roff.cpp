@@ -11,6 +11,7 @@
 #include "formats/roff/read_roff.h"
 #include "formats/roff/tag_text.h"
 #include "formats/roff/write_parameters.h"
+#include "model/annotations.h"
 
 namespace geomend::roff {
 
@@ -21,11 +22,6 @@ struct Frame {
     Vec3 offset{0, 0, 0}, scale{1, 1, -1};
     bool stated = false;
 };
-
-const std::string* annotation(const CornerPointGrid& grid, std::string_view key) {
-    const auto found = std::ranges::find(grid.info.annotations, key, &Annotation::key);
-    return found == grid.info.annotations.end() ? nullptr : &found->value;
-}
 
 /// Three numbers that are floats, as the file stores them.
 bool take_three(const std::string* text, Vec3& to) {
@@ -51,9 +47,9 @@ double offset_for(double low, double high) {
 
 Frame frame_of(const CornerPointGrid& grid) {
     Frame frame;
-    const bool has_offset = take_three(annotation(grid, translate_key), frame.offset);
+    const bool has_offset = take_three(find_annotation(grid.info, translate_key), frame.offset);
     const bool has_scale =
-        take_three(annotation(grid, scale_key), frame.scale) && frame.scale[0] != 0 && frame.scale[1] != 0 && frame.scale[2] != 0;
+        take_three(find_annotation(grid.info, scale_key), frame.scale) && frame.scale[0] != 0 && frame.scale[1] != 0 && frame.scale[2] != 0;
     if (!has_scale) frame.scale = {1, 1, grid.info.crs.z_positive == ZPositive::elevation ? 1.0 : -1.0};
     if (has_offset && has_scale) return frame;
     frame.offset = {0, 0, 0};

@@ -17,13 +17,6 @@ namespace {
 constexpr std::size_t longest_name = 255;
 constexpr std::size_t values_per_line = 9;
 
-std::string_view note(const Attribute& a, std::string_view key) {
-    for (const auto& [k, v] : a.annotations) {
-        if (k == key) return v;
-    }
-    return {};
-}
-
 template <class T>
 void append_big_endian(std::string& out, T value) {
     std::array<char, sizeof(T)> bytes;
@@ -175,7 +168,7 @@ void LegacyArraysOut::connectivity(std::span<const std::uint64_t> offsets, std::
 // The word of the file that the attribute came from, where the values still fit it.
 LegacyType LegacyArraysOut::type_of(const Attribute& a) {
     const LegacyType usual = default_type(a.values, major_);
-    const LegacyType noted = legacy_type(note(a, "vtk.type"));
+    const LegacyType noted = legacy_type(annotation(a, "vtk.type"));
     switch (noted) {
         case LegacyType::char8:
             return as<std::int8_t>(a) != nullptr ? noted : usual;
@@ -259,7 +252,7 @@ void LegacyArraysOut::values(const Attribute& a, LegacyType type, std::size_t pe
 // Component names, the unit and what else the file said; ends with an empty line.
 void LegacyArraysOut::metadata(const Attribute& a) {
     const bool names = !a.component_names.empty() && a.component_names.size() == a.components;
-    std::string lines(note(a, "vtk.information"));
+    std::string lines(annotation(a, "vtk.information"));
     if (!lines.empty()) lines += '\n';
     if (!a.unit.empty() && as<std::string>(a) == nullptr && a.unit.size() < 80)
         lines += "NAME UNITS_LABEL LOCATION vtkDataArray\nDATA " + percent_encoded(a.unit) + '\n';
@@ -291,7 +284,7 @@ void LegacyArraysOut::array(const Attribute& a, Shape shape) {
 
 void LegacyArraysOut::lookup_table(const Attribute& a, const std::string& name) {
     std::vector<double> colours;
-    const std::string_view text = note(a, "vtk.lookup_values");
+    const std::string_view text = annotation(a, "vtk.lookup_values");
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find(' ', at), text.size());
         double value = 0;
@@ -316,7 +309,7 @@ void LegacyArraysOut::lookup_table(const Attribute& a, const std::string& name) 
 
 // Arrays that VTK is to take as its active scalars, vectors, ...: the first of each role.
 bool LegacyArraysOut::role_record(const Attribute& a, std::uint64_t count, std::vector<std::string>& used_roles) {
-    const std::string role(note(a, attribute_role_key));
+    const std::string role(annotation(a, attribute_role_key));
     const bool text_values = as<std::string>(a) != nullptr;
     const std::uint64_t n = a.components;
     std::string_view record;
@@ -332,7 +325,8 @@ bool LegacyArraysOut::role_record(const Attribute& a, std::uint64_t count, std::
     if (record.empty() || std::ranges::find(used_roles, role) != used_roles.end() || stored_values(a) != n * count) return false;
     used_roles.push_back(role);
     const LegacyType type = type_of(a);
-    const bool colours = note(a, "vtk.record") == "COLOR_SCALARS" && (binary_ ? as<std::uint8_t>(a) != nullptr : as<float>(a) != nullptr);
+    const bool colours =
+        annotation(a, "vtk.record") == "COLOR_SCALARS" && (binary_ ? as<std::uint8_t>(a) != nullptr : as<float>(a) != nullptr);
     out_ << (colours ? "COLOR_SCALARS" : record) << ' ' << name_of(a) << ' ';
     if (colours) {
         out_.number(n) << '\n';
@@ -345,7 +339,7 @@ bool LegacyArraysOut::role_record(const Attribute& a, std::uint64_t count, std::
     out_ << '\n';
     std::string table;
     if (record == "SCALARS") {
-        table = percent_encoded(note(a, "vtk.lookup_table"));
+        table = percent_encoded(annotation(a, "vtk.lookup_table"));
         out_ << "LOOKUP_TABLE " << (table.empty() ? "default" : table) << '\n';
     }
     values(a, type, n > 1 ? n : values_per_line);
@@ -393,7 +387,7 @@ void LegacyArraysOut::object_field(std::span<const Attribute* const> attributes,
         const Attribute& a = *at;
         if (a.location != AttributeLocation::object || stored_values(a) == 0) continue;
         Shape shape{stored_values(a), 1};
-        const std::string_view noted = note(a, "vtk.shape");
+        const std::string_view noted = annotation(a, "vtk.shape");
         const std::size_t blank = noted.find(' ');
         std::uint64_t components = 0, tuples = 0;
         if (blank != std::string_view::npos && parse_integer(noted.substr(0, blank), components) == NumberStatus::ok &&

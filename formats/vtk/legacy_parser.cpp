@@ -39,7 +39,7 @@ private:
     bool attribute(std::string_view keyword, std::uint64_t at, bool& known);
     bool unknown(std::string_view keyword, std::uint64_t at);
     bool trailing(std::uint64_t at);
-    void note(const char* code, Severity severity, std::string message, std::uint64_t at);
+    void note(const char* code, std::string message, std::uint64_t at);
 
     bool dimensions(std::uint64_t at);
     bool three_reals(std::optional<Vec3>& out, const char* what);
@@ -53,6 +53,7 @@ private:
 
     bool section(std::uint64_t at, bool of_cells);
     bool named_array(LegacyArray array, bool counted, std::uint32_t components);
+    bool component_count(LegacyArray& array);
     bool scalars(LegacyArray array);
     bool color_scalars(LegacyArray array);
     bool lookup_table();
@@ -77,13 +78,13 @@ bool Parser::whole() {
     const bool with_points = file_.kind == structured_grid || file_.kind == unstructured_grid || file_.kind == polydata;
     if (with_points && !need(file_.points_stated, "POINTS")) return false;
     if (file_.kind == unstructured_grid && (!need(file_.cells.stated, "CELLS") || !need(file_.types_stated, "CELL_TYPES"))) return false;
-    if (file_.kind == structured_points && !file_.spacing) note("F105", Severity::warning, "there is no SPACING: 1 1 1 is taken", end);
-    if (file_.kind == structured_points && !file_.origin) note("F105", Severity::warning, "there is no ORIGIN: 0 0 0 is taken", end);
+    if (file_.kind == structured_points && !file_.spacing) note("F105", "there is no SPACING: 1 1 1 is taken", end);
+    if (file_.kind == structured_points && !file_.origin) note("F105", "there is no ORIGIN: 0 0 0 is taken", end);
     const bool open_section = !file_.sections.empty() && file_.sections.back().arrays.empty() && file_.sections.back().count != 0;
     const char last = s_.bytes().back();
     const bool open_line = !file_.binary && last != '\n' && last != ' ' && last != '\r' && last != '\t';
-    if (open_section) note("F101", Severity::warning, "the file ends after POINT_DATA or CELL_DATA, without the data", end);
-    else if (open_line) note("F101", Severity::warning, "the file ends without a line end: its last value may be cut", end);
+    if (open_section) note("F101", "the file ends after POINT_DATA or CELL_DATA, without the data", end);
+    else if (open_line) note("F101", "the file ends without a line end: its last value may be cut", end);
     return true;
 }
 
@@ -222,7 +223,7 @@ bool Parser::unknown(std::string_view word, std::uint64_t at) {
             if (s_.binary)
                 return s_.fail("F008", at,
                                "a keyword is expected here: the record before is longer than stated, or of a kind that is not known");
-            note("F102", Severity::info, "the record '" + name + "' is not known and was not read", at);
+            note("F102", "the record '" + name + "' is not known and was not read", at);
             add_loss(file_.losses, {LossClass::substance, "", "record '" + name + "'", "it is not a record of the legacy VTK format"});
             return true;
         }
@@ -231,20 +232,15 @@ bool Parser::unknown(std::string_view word, std::uint64_t at) {
     return trailing(at);
 }
 
-void Parser::note(const char* code, Severity severity, std::string message, std::uint64_t at) {
-    Finding finding;
-    finding.code = code;
-    finding.severity = severity;
-    finding.message = std::move(message);
-    finding.where = s_.location(at);
-    finding.count = 1;
-    file_.findings.push_back(std::move(finding));
+void Parser::note(const char* code, std::string message, std::uint64_t at) {
+    file_.findings.push_back(make_finding(code, std::move(message), s_.location(at)));
 }
 
 bool Parser::trailing(std::uint64_t at) {
     if (file_.kind == LegacyKind::none && file_.fields.empty()) return s_.fail("F012", at, "a DATASET or FIELD record is expected");
     const std::uint64_t size = s_.bytes().size() - at;
-    note("F102", Severity::warning, std::to_string(size) + " bytes after the last record were not read", at);
+    note("F102", std::to_string(size) + " bytes after the last record were not read", at);
+    use_other_severity(file_.findings.back());
     add_loss(file_.losses, {LossClass::style, "", "bytes after the last record", "they belong to no record"});
     s_.take_rest();
     return true;
@@ -462,6 +458,16 @@ bool Parser::named_array(LegacyArray array, bool counted, std::uint32_t componen
 }
 
 // SCALARS name type [components] LOOKUP_TABLE table; files without the LOOKUP_TABLE line exist and are taken.
+bool Parser::component_count(LegacyArray& array) {
+    std::uint64_t n = 0;
+    const std::uint64_t at = s_.offset();
+    if (!s_.count(n, "a number of components")) return false;
+    if (n < 1 || n > most_components)
+        return s_.fail("F012", at, "a number of components from 1 is expected, " + std::to_string(n) + " was found");
+    array.components = static_cast<std::uint32_t>(n);
+    return true;
+}
+
 bool Parser::scalars(LegacyArray array) {
     array.role = LegacyRole::scalars;
     array.name = percent_decoded(s_.word());
@@ -470,12 +476,7 @@ bool Parser::scalars(LegacyArray array) {
     const std::string_view rest =
         trimmed(std::string_view(s_.bytes()).substr(s_.offset(), s_.bytes().find('\n', s_.offset()) - s_.offset()));
     if (!rest.empty() && !same_word(rest.substr(0, 12), "LOOKUP_TABLE")) {
-        std::uint64_t n = 0;
-        const std::uint64_t at = s_.offset();
-        if (!s_.count(n, "a number of components")) return false;
-        if (n < 1 || n > most_components)
-            return s_.fail("F012", at, "a number of components from 1 is expected, " + std::to_string(n) + " was found");
-        array.components = static_cast<std::uint32_t>(n);
+        if (!component_count(array)) return false;
     }
     const std::uint64_t before = s_.offset();
     if (same_word(s_.peek_word(), "LOOKUP_TABLE")) {
@@ -491,12 +492,7 @@ bool Parser::color_scalars(LegacyArray array) {
     array.role = LegacyRole::color_scalars;
     array.name = percent_decoded(s_.word());
     array.tuples = file_.sections.back().count;
-    std::uint64_t n = 0;
-    const std::uint64_t at = s_.offset();
-    if (!s_.count(n, "a number of components")) return false;
-    if (n < 1 || n > most_components)
-        return s_.fail("F012", at, "a number of components from 1 is expected, " + std::to_string(n) + " was found");
-    array.components = static_cast<std::uint32_t>(n);
+    if (!component_count(array)) return false;
     array.type = s_.binary ? LegacyType::unsigned_char : LegacyType::float32;  // bytes, or 0..1 in text
     return array_values(array, "COLOR_SCALARS") && keep(std::move(array));
 }

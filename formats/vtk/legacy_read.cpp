@@ -129,8 +129,7 @@ bool Mapper::sections(ObjectInfo& info, std::uint64_t points, std::uint64_t cell
             info.attributes.push_back(
                 attribute_of(std::move(array), section.of_cells ? AttributeLocation::cell : AttributeLocation::point));
             if (strange != 0)
-                findings_.push_back(make_finding("F120", Severity::warning,
-                                                 "attribute '" + info.attributes.back().name + "' has values that are not finite",
+                findings_.push_back(make_finding("F120", "attribute '" + info.attributes.back().name + "' has values that are not finite",
                                                  s_.location(at), strange));
         }
     }
@@ -335,8 +334,7 @@ bool Mapper::unstructured(CellMesh& mesh) {
         if (problem != CellProblem::none) return cell_fault(problem, i);
     }
     if (builder.empty_cells() != 0)
-        findings_.push_back(
-            make_finding("F119", Severity::warning, "empty cells are left out", s_.location(file_.types_offset), builder.empty_cells()));
+        findings_.push_back(make_finding("F119", "empty cells are left out", s_.location(file_.types_offset), builder.empty_cells()));
     const std::uint64_t point_count = file_.points.size();
     mesh.points = std::move(file_.points);
     note_points(mesh.info, "UnstructuredGrid");
@@ -446,7 +444,7 @@ bool Mapper::run(Dataset& data) {
         fields(none);
         for (const Attribute& a : none.attributes)
             add_loss(data.losses, {LossClass::substance, a.name, "array '" + a.name + "'", "it stands on no geometry"});
-        findings_.push_back(make_finding("F119", Severity::warning, "the file holds arrays only, and no geometry", s_.location(0), 1));
+        findings_.push_back(make_finding("F119", "the file holds arrays only, and no geometry", s_.location(0), 1));
     } else {
         ObjectInfo& info = info_of(object);
         fields(info);

@@ -86,6 +86,7 @@ constexpr std::array xml_options{
 constexpr Format of_family(Format row) {
     row.family = "vtk";
     row.flat_meshes = row.elevations = true;
+    row.bounded_regions = row.wants == WriterWants::brep;
     if (row.write != nullptr) row.options = row.write == write_legacy ? std::span<const OptionRow>(legacy_options) : xml_options;
     return row;
 }

@@ -32,13 +32,6 @@ bool known_type(std::int64_t number) {
 
 }  // namespace
 
-std::string_view annotation(const ObjectInfo& info, std::string_view key) {
-    for (const Annotation& a : info.annotations) {
-        if (a.key == key) return a.value;
-    }
-    return {};
-}
-
 void MeshBuilder::reserve(std::size_t cells, std::size_t corners) {
     mesh_.types.reserve(cells);
     mesh_.offsets.reserve(cells + 1);

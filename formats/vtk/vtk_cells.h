@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/annotations.h"
 #include "model/objects.h"
 
 // How cells of VTK become ours and back, for the legacy and the XML formats alike. Nothing here reads or writes
@@ -21,9 +22,6 @@ inline constexpr std::string_view dataset_key = "vtk.dataset";
 inline constexpr std::string_view attribute_role_key = "vtk.role";
 /// Annotation of an edge attribute whose values stood on whole polylines ("polyline").
 inline constexpr std::string_view attribute_per_key = "vtk.per";
-
-/// The value of an annotation, or an empty view.
-std::string_view annotation(const ObjectInfo& info, std::string_view key);
 
 /// Lists of point numbers: cell i has corners[offsets[i] .. offsets[i+1]).
 struct CellList {

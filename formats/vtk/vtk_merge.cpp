@@ -8,6 +8,7 @@
 
 #include "formats/vtk/vtk_cells.h"
 #include "formats/vtk/vtk_structure.h"
+#include "model/dataset_text.h"
 
 namespace geomend::vtk {
 
@@ -255,25 +256,16 @@ PolylineSet polyline_of_well(const Well& well, std::vector<Loss>& losses) {
 
 Dataset text_only(const Dataset& dataset, const std::vector<Object>& objects, const std::vector<std::size_t>& source) {
     Dataset shells;
+    shells.groups = dataset.groups;
     shells.annotations = dataset.annotations;
     for (const Object& object : objects) {
         std::visit(
             [&](const auto& o) {
                 std::decay_t<decltype(o)> shell;
-                for (const Attribute& a : o.info.attributes) {  // all but the values
-                    Attribute words{
-                        a.name,      a.location,  a.components,      {},           a.unit,       a.kind, a.property_class, a.no_data,
-                        a.legal_min, a.legal_max, a.component_names, a.code_names, a.annotations};
-                    shell.info.attributes.push_back(std::move(words));
-                }
-                shell.info.name = o.info.name;
-                shell.info.role = o.info.role;
-                shell.info.role_text = o.info.role_text;
-                shell.info.feature = o.info.feature;
-                shell.info.crs = o.info.crs;
-                shell.info.annotations = o.info.annotations;
-                shell.info.groups = o.info.groups;
+                shell.info = words_of(o.info);
+                for (const Attribute& a : o.info.attributes) shell.info.attributes.push_back(without_values(a));
                 if constexpr (requires { shell.entities; }) shell.entities = o.entities;
+                if constexpr (requires { shell.twins; }) shell.twins = o.twins;
                 shells.objects.emplace_back(std::move(shell));
             },
             object);

@@ -270,6 +270,7 @@ private:
 
     static std::vector<StatedModel::Side> sides(const std::vector<BrepData::Side>& all) {
         std::vector<StatedModel::Side> out;
+        out.reserve(all.size());
         for (const BrepData::Side& s : all) out.push_back({s.surface.value, s.front});
         return out;
     }
@@ -282,6 +283,7 @@ private:
         const auto lists = [&](const std::vector<BrepData::RegionList>& from, std::vector<StatedModel::RegionList>& to) {
             for (const BrepData::RegionList& l : from) {
                 to.push_back({l.name, {}, l.unresolved});
+                to.back().regions.reserve(l.regions.size());
                 for (const RegionId r : l.regions) to.back().regions.push_back(first + r.value);
             }
         };

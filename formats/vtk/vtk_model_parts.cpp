@@ -2,28 +2,16 @@
 #include "formats/vtk/vtk_model_parts.h"
 
 #include <algorithm>
-#include <cstring>
-#include <limits>
+#include <bit>
 
 #include "formats/vtk/vtk_cells.h"
+#include "model/attribute_operations.h"
 
 namespace geomend::vtk {
 
 namespace {
 
 constexpr std::array<std::string_view, 4> group_names{"Corners", "Lines", "Surfaces", "Regions"};
-
-void fill_missing(Attribute& a, std::size_t things) {
-    std::visit(
-        [&](auto& v) {
-            using Value = typename std::decay_t<decltype(v)>::value_type;
-            Value nothing{};
-            if constexpr (std::is_floating_point_v<Value>)
-                nothing = a.no_data ? static_cast<Value>(*a.no_data) : std::numeric_limits<Value>::quiet_NaN();
-            v.resize(things * a.components, nothing);
-        },
-        a.values);
-}
 
 bool same_shape(const Attribute& a, const Attribute& b) { return a.components == b.components && a.values.index() == b.values.index(); }
 
@@ -36,19 +24,20 @@ void copy_value(Attribute& to, std::size_t i, const Attribute& from, std::size_t
         to.values);
 }
 
-// Bit by bit, so that NaN equals itself.
-bool same_value(const Attribute& a, std::size_t i, const Attribute& b, std::size_t k) {
+// Bit by bit, so that NaN equals itself and zeros differ by their signs.
+template <class Value>
+bool same_bits(const Value& x, const Value& y) {
+    if constexpr (std::is_same_v<Value, double>) return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+    else if constexpr (std::is_same_v<Value, float>) return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+    else return x == y;
+}
+
+bool same_values(const Attribute& a, std::size_t i, const Attribute& b, std::size_t k) {
     return std::visit(
         [&](const auto& v) {
             const auto& w = std::get<std::decay_t<decltype(v)>>(b.values);
-            using Value = typename std::decay_t<decltype(v)>::value_type;
             for (std::size_t c = 0; c < a.components; ++c) {
-                const Value &x = v[i * a.components + c], &y = w[k * a.components + c];
-                if constexpr (std::is_arithmetic_v<Value>) {
-                    if (std::memcmp(&x, &y, sizeof(Value)) != 0) return false;
-                } else if (x != y) {
-                    return false;
-                }
+                if (!same_bits(v[i * a.components + c], w[k * a.components + c])) return false;
             }
             return true;
         },
@@ -92,7 +81,7 @@ void append_attributes(std::vector<Attribute>& to, std::vector<Attribute>& from,
             same = &to.back();
             std::visit([](auto& v) { v.clear(); }, same->values);
         }
-        fill_missing(*same, a.location == AttributeLocation::point ? points : polygons);
+        resize_with_missing(*same, a.location == AttributeLocation::point ? points : polygons);
         std::visit(
             [&](auto& v) {
                 auto& more = std::get<std::decay_t<decltype(v)>>(a.values);
@@ -127,8 +116,8 @@ public:
                 if (!add_cells(object, block++, entity++)) return std::nullopt;
             }
         }
-        for (Attribute& a : point_attributes_) fill_missing(a, mesh_.points.size());
-        for (Attribute& a : cell_attributes_) fill_missing(a, mesh_.cell_count());
+        for (Attribute& a : point_attributes_) resize_with_missing(a, mesh_.points.size());
+        for (Attribute& a : cell_attributes_) resize_with_missing(a, mesh_.cell_count());
         mesh_.info.attributes = std::move(point_attributes_);
         std::ranges::move(cell_attributes_, std::back_inserter(mesh_.info.attributes));
         if (std::ranges::any_of(alias_, [](std::uint32_t a) { return a != no_index; })) mesh_.alias = std::move(alias_);
@@ -175,12 +164,12 @@ private:
                 add_loss(losses_, {LossClass::substance, info.name, "attribute '" + like.name + "'", "blocks give it different types", 1});
                 return nullptr;
             }
-            fill_missing(a, things);
+            resize_with_missing(a, things);
             return &a;
         }
         all.push_back(like);
         std::visit([](auto& v) { v.clear(); }, all.back().values);
-        fill_missing(all.back(), things);
+        resize_with_missing(all.back(), things);
         return &all.back();
     }
 
@@ -195,7 +184,7 @@ private:
             const Attribute* c = column(point_attributes_, a, mesh_.points.size(), region.info);
             if (c != nullptr) columns.emplace_back(static_cast<std::size_t>(c - point_attributes_.data()), &a);
         }
-        for (Attribute& a : point_attributes_) fill_missing(a, mesh_.points.size());
+        for (Attribute& a : point_attributes_) resize_with_missing(a, mesh_.points.size());
         for (std::size_t i = 0; i < vertices.size(); ++i) point_of_.back().push_back(place(region.points[i], vertices[i], i, columns));
         return true;
     }
@@ -206,7 +195,7 @@ private:
         const std::uint32_t first = rank(vertex);
         const auto agrees = [&](std::uint32_t p) {
             return mesh_.points[p] == position &&
-                   std::ranges::all_of(columns, [&](const auto& c) { return same_value(point_attributes_[c.first], p, *c.second, i); });
+                   std::ranges::all_of(columns, [&](const auto& c) { return same_values(point_attributes_[c.first], p, *c.second, i); });
         };
         std::uint32_t point = first;
         if (claimed_[first] && !agrees(first)) {
@@ -214,7 +203,7 @@ private:
             mesh_.points.push_back(position);
             alias_.push_back(mesh_.points[first] == position ? first : no_index);
             claimed_.push_back(true);
-            for (Attribute& a : point_attributes_) fill_missing(a, mesh_.points.size());
+            for (Attribute& a : point_attributes_) resize_with_missing(a, mesh_.points.size());
         } else if (claimed_[first]) {
             return first;
         }
@@ -345,7 +334,7 @@ std::vector<Object> surfaces_of_blocks(SortedBlocks& blocks, const std::vector<s
             }
             whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
             for (Attribute& a : whole.info.attributes)
-                fill_missing(a, a.location == AttributeLocation::point ? whole.points.size() : whole.polygons.size());
+                resize_with_missing(a, a.location == AttributeLocation::point ? whole.points.size() : whole.polygons.size());
             whole.info.annotations = std::move(part.info.annotations);
         }
         objects.emplace_back(std::move(whole));

@@ -7,13 +7,6 @@ namespace geomend::vtk {
 
 namespace {
 
-std::string_view annotated(const Attribute& a, std::string_view key) {
-    for (const auto& [k, value] : a.annotations) {
-        if (k == key) return value;
-    }
-    return {};
-}
-
 /// When the values of an attribute hold: in days where those are stated, else the number of the report step.
 struct Moment {
     double time = 0;
@@ -22,19 +15,19 @@ struct Moment {
 };
 
 bool moment_of(const Attribute& a, Moment& moment) {
-    const std::string_view days = annotated(a, "time.days"), step = annotated(a, "time.step");
-    moment.date = annotated(a, "time.date");
-    const std::string_view text = days.empty() ? step : days;
-    return !text.empty() && parse_real(text, moment.time) == NumberStatus::ok;
+    if (!a.time || !(a.time->days || a.time->number)) return false;
+    moment.date = a.time->date;
+    moment.time = a.time->days ? *a.time->days : static_cast<double>(*a.time->number);
+    return true;
 }
 
 /// The name without the date or the number of the step that readers put behind it.
 std::string plain_name(const Attribute& a) {
     std::string suffix = "_";
-    for (const char c : annotated(a, "time.date")) {
+    for (const char c : a.time->date) {
         if (c != '-') suffix += c;
     }
-    if (suffix.size() == 1) suffix += annotated(a, "time.step");
+    if (suffix.size() == 1 && a.time->number) suffix += std::to_string(*a.time->number);
     const std::size_t at = a.name.rfind(suffix);
     return suffix.size() == 1 || at == 0 || at == std::string::npos ? a.name : a.name.substr(0, at);
 }

@@ -140,10 +140,7 @@ void drop_duplicate_cells(CellMesh& mesh, const std::string& file, ReadNotes& no
         if (a.location == AttributeLocation::cell) take_values(a, kept);
     }
     mesh = std::move(out);
-    Finding finding;
-    finding.code = "F130";
-    finding.severity = Severity::info;
-    finding.where.file = file;
+    Finding finding = make_finding("F130", {}, {file}, 0);
     finding.element_kind = "cell";
     finding.count = dropped;
     finding.message = std::to_string(dropped) + " ghost cells, which another piece owns, are left out";

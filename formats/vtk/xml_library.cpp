@@ -109,12 +109,7 @@ struct MakeArray {
     Made operator()(std::vector<std::string>& v) const { return strings(v, components); }
 };
 
-std::string role_of(const Attribute& a) {
-    for (const auto& [key, value] : a.annotations) {
-        if (key == attribute_role_key) return value;
-    }
-    return {};
-}
+std::string role_of(const Attribute& a) { return std::string(annotation(a, attribute_role_key)); }
 
 void mark_active(vtkDataSetAttributes& data, const std::string& role, const char* name) {
     if (role == "Scalars") data.SetActiveScalars(name);

@@ -84,11 +84,8 @@ Result<Dataset> read_multiblock(const XmlDocument& document, const Input& input,
     if (dataset.objects.empty()) return unreadable("F017", document.where(*blocks), "the file names no blocks with data");
     if (is_model_text(own.structure)) {
         if (auto model = model_from_blocks(own.structure, own.dataset, dataset)) return std::move(*model);
-        Finding finding;
-        finding.code = "F113";
-        finding.severity = Severity::warning;
-        finding.where.file = document.file;
-        finding.message = "the blocks do not fit the model that the file states: they are read as single objects";
+        Finding finding = make_finding("F113", "the blocks do not fit the model that the file states: they are read as single objects",
+                                       {document.file}, 0);
         dataset.findings.push_back(std::move(finding));
         return dataset;
     }

@@ -97,10 +97,7 @@ private:
         std::size_t empty = 0;
         for (const Piece& p : pieces_) empty += p.empty_cells;
         if (empty != 0) {
-            Finding finding;
-            finding.code = "F119";
-            finding.severity = Severity::warning;
-            finding.where.file = doc_.file;
+            Finding finding = make_finding("F119", {}, {doc_.file}, 0);
             finding.element_kind = "cell";
             finding.count = empty;
             finding.message = std::to_string(empty) + " empty cells are left out";
@@ -246,11 +243,8 @@ Result<Input> open_named(const XmlDocument& document, const XmlElement& element,
     // Copied without its folder, as happens with downloads: the same name beside this file.
     const std::string beside = file.substr(file.find_last_of('/') + 1);
     if (beside != file && !beside.empty() && !input.has_companion(file) && input.has_companion(beside)) {
-        Finding finding;
-        finding.code = "F131";
-        finding.severity = Severity::warning;
-        finding.where = document.where(element);
-        finding.message = "'" + file + "' is missing: read '" + beside + "' beside the file instead";
+        Finding finding =
+            make_finding("F131", "'" + file + "' is missing: read '" + beside + "' beside the file instead", document.where(element), 0);
         notes.findings.push_back(std::move(finding));
         return input.companion(beside);
     }

@@ -24,8 +24,8 @@ Result<std::vector<Loss>> write_vtr(const Dataset& dataset, OutputSet& out, cons
 /// beside the .vtm that has its name.
 Result<std::vector<Loss>> write_vtm(const Dataset& dataset, OutputSet& out, const WriteOptions& options);
 
-/// A series in time: a file per report step and object, in a folder beside the .pvd. Attributes annotated with time.days
-/// (or time.step) stand in the file of their moment under their keyword alone; the others stand in all files.
+/// A series in time: a file per report step and object, in a folder beside the .pvd. Attributes with a TimeStep
+/// stand in the file of their moment under their keyword alone; the others stand in all files.
 Result<std::vector<Loss>> write_pvd(const Dataset& dataset, OutputSet& out, const WriteOptions& options);
 
 Result<XmlWriteSettings> write_settings(const WriteOptions& options);

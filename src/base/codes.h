@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -8,12 +9,18 @@
 
 namespace geomend {
 
+/// The severity of a code in one case that differs from the others.
+struct OtherSeverity {
+    Severity severity;
+    std::string_view when;  ///< "where ...", without the word
+};
+
 /// One row of the catalogue of findings. Codes are stable and never reused.
 struct CodeInfo {
     std::string_view code;
     Severity severity;
     std::string_view meaning;  ///< one line
-    std::string_view fix;      ///< what repairs it; empty where nothing does
+    std::optional<OtherSeverity> other = std::nullopt;
 };
 
 /// All codes, in order.

@@ -49,7 +49,12 @@ struct Finding {
     std::vector<std::pair<std::string, double>> measures;
 };
 
-/// A finding of no entity yet; `count` says how often.
-Finding make_finding(std::string_view code, Severity severity, std::string message, Location where = {}, std::uint64_t count = 1);
+/// A finding of no entity yet, with the severity that the catalogue gives its code (error, where the code has no row).
+/// \param count how often
+Finding make_finding(std::string_view code, std::string message, Location where = {}, std::uint64_t count = 1);
+
+/// Gives a finding the other severity that the catalogue states for its code, in the case that it states there.
+/// \pre the row of the code has one
+void use_other_severity(Finding& finding);
 
 }  // namespace geomend

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "base/result.h"
 
+#include "base/codes.h"
+
 namespace geomend {
 
 std::string to_string(const Location& where) {
@@ -14,14 +16,21 @@ std::string to_string(const Location& where) {
     return text;
 }
 
-Finding make_finding(std::string_view code, Severity severity, std::string message, Location where, std::uint64_t count) {
+Finding make_finding(std::string_view code, std::string message, Location where, std::uint64_t count) {
     Finding f;
     f.code = code;
-    f.severity = severity;
+    const CodeInfo* row = find_code(code);
+    f.severity = row != nullptr ? row->severity : Severity::error;
     f.message = std::move(message);
     f.where = std::move(where);
     f.count = count;
     return f;
+}
+
+void use_other_severity(Finding& finding) {
+    const CodeInfo* row = find_code(finding.code);
+    assert(row != nullptr && row->other);
+    finding.severity = row->other->severity;
 }
 
 Failure failure(FailureKind kind, std::string code, Location where, std::string message) {

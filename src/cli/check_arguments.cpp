@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "drawing/scene.h"
 #include "pipeline/grids.h"
-#include "pipeline/scene.h"
 
 namespace geomend::cli {
 

@@ -7,6 +7,8 @@
 #include "base/codes.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "repair/code_steps.h"
+#include "report/advice.h"
 #include "report/json.h"
 #include "validators/registry.h"
 
@@ -22,12 +24,30 @@ std::string condition_of(std::string_view code) {
     return {};
 }
 
+// "error", or "error; warning where ...".
+std::string severity_of(const CodeInfo& row) {
+    std::string text = to_string(row.severity);
+    if (row.other) text += std::string("; ") + to_string(row.other->severity) + " where " + std::string(row.other->when);
+    return text;
+}
+
+// The steps of repair that mend it, with commas.
+std::string steps_of(const CodeInfo& row) {
+    std::string text;
+    for (const std::string_view step : repair::steps_for(row.code)) text += (text.empty() ? "" : ", ") + std::string(step);
+    return text;
+}
+
 std::string table_json() {
     Json all = Json::array();
     for (const CodeInfo& row : code_catalogue()) {
         Json j{{"code", row.code}, {"severity", to_string(row.severity)}, {"meaning", row.meaning}};
+        if (row.other) j["other_severity"] = {{"severity", to_string(row.other->severity)}, {"when", row.other->when}};
         if (std::string condition = condition_of(row.code); !condition.empty()) j["condition"] = std::move(condition);
-        j["fix"] = row.fix.empty() ? Json() : Json(row.fix);
+        const std::string_view advice = advice_for(row.code);
+        j["fix"] = advice.empty() ? Json() : Json(advice);
+        j["steps"] = repair::steps_for(row.code);
+        if (const auto why = repair::why_unmended(row.code); !why.empty()) j["why_no_steps"] = why;
         all.push_back(std::move(j));
     }
     return json_text(all);
@@ -36,9 +56,10 @@ std::string table_json() {
 std::string table_text() {
     std::string text;
     for (const CodeInfo& row : code_catalogue()) {
-        text += std::string(row.code) + "  " + to_string(row.severity) + ": " + std::string(row.meaning) + '\n';
+        text += std::string(row.code) + "  " + severity_of(row) + ": " + std::string(row.meaning) + '\n';
         if (const std::string condition = condition_of(row.code); !condition.empty()) text += "      when: " + condition + '\n';
-        if (!row.fix.empty()) text += "      to mend it: " + std::string(row.fix) + '\n';
+        if (const auto advice = advice_for(row.code); !advice.empty()) text += "      to mend it: " + std::string(advice) + '\n';
+        if (const std::string steps = steps_of(row); !steps.empty()) text += "      steps of repair: " + steps + '\n';
     }
     return text;
 }
@@ -74,9 +95,10 @@ std::string table_scdoc() {
             const auto at = std::ranges::find(families, family, &std::pair<char, const char*>::first);
             text += std::string("\n# ") + (at == std::end(families) ? "OTHERS" : at->second) + "\n";
         }
-        text += "\n*" + std::string(row.code) + "* (" + to_string(row.severity) + ")\n\t" + plain(row.meaning) + ".\n";
+        text += "\n*" + std::string(row.code) + "* (" + plain(severity_of(row)) + ")\n\t" + plain(row.meaning) + ".\n";
         if (const std::string condition = condition_of(row.code); !condition.empty()) text += "\n\tWhen: " + plain(condition) + ".\n";
-        if (!row.fix.empty()) text += "\n\tTo mend it: " + plain(row.fix) + ".\n";
+        if (const auto advice = advice_for(row.code); !advice.empty()) text += "\n\tTo mend it: " + plain(advice) + ".\n";
+        if (const std::string steps = steps_of(row); !steps.empty()) text += "\n\tSteps of *geomend repair*: " + plain(steps) + ".\n";
     }
     return text + "\n# SEE ALSO\n\n*geomend-checks*(1), *geomend-validate*(1)\n";
 }

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <mutex>
 
-#include "base/codes.h"
+#include "report/advice.h"
 
 namespace geomend::cli {
 
@@ -108,13 +108,13 @@ ExitStatus report(const Failure& f) {
     end_progress();
     std::string where = to_string(f.error.where);
     if (!where.empty()) where += ": ";
-    const CodeInfo* row = find_code(f.error.code);
+    const std::string_view advice = advice_for(f.error.code);
     std::fprintf(stderr, "geomend: %s%s [%s]\n", where.c_str(), f.error.message.c_str(), f.error.code.c_str());
     constexpr std::size_t shown = 20;
     for (std::size_t i = 0; i < f.also.size() && i < shown; ++i) print_finding(f.also[i]);
     if (f.also.size() > shown) std::fprintf(stderr, "  ... and %zu more\n", f.also.size() - shown);
-    if (row != nullptr && !row->fix.empty() && f.error.severity == Severity::error) {
-        std::fprintf(stderr, "  what to do: %.*s\n", static_cast<int>(row->fix.size()), row->fix.data());
+    if (!advice.empty() && f.error.severity == Severity::error) {
+        std::fprintf(stderr, "  what to do: %.*s\n", static_cast<int>(advice.size()), advice.data());
     }
     return exit_status(f.kind);
 }

@@ -11,9 +11,9 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/validate_many.h"
+#include "drawing/scene.h"
 #include "formats/options.h"
 #include "pipeline/command_options.h"
-#include "pipeline/scene.h"
 #include "report/baseline.h"
 #include "validators/readiness.h"
 

@@ -2,7 +2,6 @@
 #include "exchange/attribute_merge.h"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "model/attribute_operations.h"
 
@@ -12,15 +11,6 @@ namespace {
 
 void grow(Attribute& a, std::size_t things) {
     if (value_count(a) < things * a.components) resize_with_missing(a, things);
-}
-
-template <class Value>
-bool same_value(const Value& a, const Value& b) {
-    if constexpr (std::is_floating_point_v<Value>) {
-        return a == b || (a != a && b != b);
-    } else {
-        return a == b;
-    }
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ CellMesh tagged_mesh(const Brep& brep, std::vector<Loss>& losses);
 /// The same as tagged_mesh(), for formats that carry text along (dataset_text): the mesh, and beside it a StatedModel
 /// whose faces are the mesh's two-dimensional entities, with layers, fault blocks, features and interfaces. Where
 /// surfaces have different values at a shared point, the values go to the corners of cells (see corner_values.h), and
-/// an annotation tells of twin nodes (twin_nodes.h), so that build_breps() gives the same model.
+/// the mesh states its twins (twin_nodes.h), so that build_breps() gives the same model.
 Dataset tagged_model(const Brep& brep, std::vector<Loss>& losses);
 
 }  // namespace geomend::exchange

@@ -209,13 +209,13 @@ private:
     /// What shared points and entities do not say: values of the surfaces' own nodes, and which of them are twins.
     void add_statements() {
         std::vector<std::int64_t> tags;
-        topology::Twins twins;
+        Twins twins;
         for (std::uint32_t s = 0; s < b_.surfaces.size(); ++s) {
             tags.push_back(tag_of(s));
             if (auto own = topology::twins_of(b_.surfaces[s]); !own.empty()) twins.emplace(tag_of(s), std::move(own));
             lose_loose_nodes(b_.surfaces[s]);
         }
-        out_.info.annotations.push_back(topology::twins_annotation(twins));
+        out_.twins = std::move(twins);
         for (Attribute& a : topology::shared_node_attributes(b_, first_cell_, tags, out_.cell_count()))
             out_.info.attributes.push_back(std::move(a));
     }

@@ -49,6 +49,8 @@ Attribute without_values(const Attribute& a) {
     copy.legal_max = a.legal_max;
     copy.component_names = a.component_names;
     copy.code_names = a.code_names;
+    copy.corner_values = a.corner_values;
+    copy.time = a.time;
     copy.annotations = a.annotations;
     return copy;
 }

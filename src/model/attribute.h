@@ -20,6 +20,23 @@ using AttributeValues =
                  std::vector<std::uint16_t>, std::vector<std::int32_t>, std::vector<std::uint32_t>, std::vector<std::int64_t>,
                  std::vector<std::uint64_t>, std::vector<std::string>>;
 
+/// How the values of a cell attribute stand on the corners of each cell, corner after corner: surfaces that differ at
+/// points which they share, and data of elements' nodes in MSH.
+struct CornerValues {
+    std::uint32_t components = 1;                       ///< per corner; Attribute::components is that times the corners of the largest cell
+    std::optional<std::vector<std::int64_t>> surfaces;  ///< tags of the surface entities that have it; else all cells with values
+    bool made_no_data = false;                          ///< no_data stands for cells of other surfaces: the property itself has none
+    bool operator==(const CornerValues&) const = default;
+};
+
+/// The report step of a simulation that the values belong to.
+struct TimeStep {
+    std::string date;            ///< "YYYY-MM-DD"; empty: not stated
+    std::optional<double> days;  ///< since the start
+    std::optional<std::int64_t> number;
+    bool operator==(const TimeStep&) const = default;
+};
+
 /// A named property. values.size() == components * number of things at the location; the components of
 /// one thing are adjacent.
 struct Attribute {
@@ -35,6 +52,8 @@ struct Attribute {
     std::optional<double> legal_min, legal_max;
     std::vector<std::string> component_names;             ///< empty, or one per component
     std::vector<std::pair<int, std::string>> code_names;  ///< meaning of integer codes (rock tables); may be empty
+    std::optional<CornerValues> corner_values;            ///< only of cell attributes
+    std::optional<TimeStep> time;                         ///< nothing: the values hold always, or it is not stated
     /// Further things that a format says of the property, kept for the way back ("gocad.subclass", ...).
     std::vector<std::pair<std::string, std::string>> annotations;
 };

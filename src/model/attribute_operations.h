@@ -4,11 +4,19 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "model/attribute.h"
 #include "model/origin.h"
 
 namespace geomend {
+
+/// Whether two values of one type are the same: equal, or both NaN.
+template <class Value>
+bool same_value(const Value& a, const Value& b) {
+    if constexpr (std::is_floating_point_v<Value>) return a == b || (a != a && b != b);
+    else return a == b;
+}
 
 /// The values of some things: row i of the result is row rows[i], all components. \pre each row is there. Linear.
 AttributeValues taken(const AttributeValues& values, std::span<const std::uint32_t> rows, std::uint32_t components);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,13 @@ struct Dataset {
     std::vector<Object> objects;
     std::vector<StatedModel> models;  ///< what the file claims; readers fill it
     std::vector<Brep> breps;          ///< filled by src/topology, never by a reader; breps[i] belongs to a model or mesh
+    std::vector<StatedGroup> groups;  ///< in file order, those that hold others before them
     std::vector<Annotation> annotations;
     std::vector<Finding> findings;  ///< read, but worth telling
     std::vector<Loss> losses;       ///< in the file, but not in this Dataset
 };
+
+/// How many records of its own format the dataset keeps beside its objects: a writer of another format loses them.
+inline std::size_t kept_records(const Dataset& dataset) { return dataset.groups.size() + dataset.annotations.size(); }
 
 }  // namespace geomend

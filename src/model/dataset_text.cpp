@@ -154,6 +154,40 @@ CoordinateSystem crs_from(const Json& j) {
 
 // ---- attributes ----
 
+Json corner_values_json(const CornerValues& values) {
+    Json j{{"components", values.components}};
+    if (values.surfaces) j["surfaces"] = *values.surfaces;
+    if (values.made_no_data) j["made_no_data"] = true;
+    return j;
+}
+
+std::optional<CornerValues> corner_values_from(const Json& j) {
+    if (!j.is_object()) return std::nullopt;
+    CornerValues values;
+    values.components = index_from(member(j, "components"));
+    if (member(j, "surfaces").is_array()) values.surfaces.emplace();
+    for_each_member(j, "surfaces", [&](const Json& one) {
+        if (one.is_number_integer()) values.surfaces->push_back(one.get<std::int64_t>());
+    });
+    values.made_no_data = member(j, "made_no_data") == Json(true);
+    return values;
+}
+
+Json time_json(const TimeStep& time) {
+    Json j = Json::object();
+    put_text(j, "date", time.date);
+    if (time.days) j["days"] = number_json(*time.days);
+    if (time.number) j["step"] = *time.number;
+    return j;
+}
+
+std::optional<TimeStep> time_from(const Json& j) {
+    if (!j.is_object()) return std::nullopt;
+    TimeStep time{text_member(j, "date"), number_from(member(j, "days")), {}};
+    if (member(j, "step").is_number_integer()) time.number = integer_member(j, "step", 0);
+    return time;
+}
+
 Json attribute_json(const Attribute& a) {
     Json j = Json::object();
     j["name"] = text_json(a.name);
@@ -170,6 +204,8 @@ Json attribute_json(const Attribute& a) {
     Json codes = Json::array();
     for (const auto& [code, name] : a.code_names) codes.push_back(Json::array({code, text_json(name)}));
     put_list(j, "codes", std::move(codes));
+    if (a.corner_values) j["corner_values"] = corner_values_json(*a.corner_values);
+    if (a.time) j["time"] = time_json(*a.time);
     put_list(j, "annotations", pairs_json(a.annotations));
     return j;
 }
@@ -196,6 +232,8 @@ void apply_attribute(const Json& j, std::vector<Attribute>& attributes, std::vec
             if (one.is_array() && one.size() == 2 && one[0].is_number_integer())
                 a.code_names.emplace_back(one[0].get<int>(), text_from(one[1]));
         });
+        a.corner_values = corner_values_from(member(j, "corner_values"));
+        a.time = time_from(member(j, "time"));
         a.annotations = pairs_from(j, "annotations");
         const auto own = std::ranges::find(a.annotations, own_name_key, &std::pair<std::string, std::string>::first);
         if (own == a.annotations.end()) return;
@@ -259,6 +297,57 @@ void apply_entities(const Json& object, CellMesh& mesh) {
         found->second->role = role_from(j);
         found->second->role_text = text_member(j, "role_text");
     });
+}
+
+// A twin is written as its numbers of polygons and corners in turn, a surface as its tag and its twins.
+Json twins_json(const Twins& twins) {
+    Json all = Json::array();
+    for (const auto& [tag, own] : twins) {
+        Json list = Json::array();
+        for (const TwinCorners& corners : own) {
+            Json flat = Json::array();
+            for (const auto& [polygon, corner] : corners) flat.push_back(polygon), flat.push_back(corner);
+            list.push_back(std::move(flat));
+        }
+        all.push_back(Json::array({tag, std::move(list)}));
+    }
+    return all;
+}
+
+std::optional<Twins> twins_from(const Json& j) {
+    if (!j.is_array()) return std::nullopt;
+    Twins twins;
+    for (const Json& one : j) {
+        if (!one.is_array() || one.size() != 2 || !one[0].is_number_integer() || !one[1].is_array()) return std::nullopt;
+        auto& own = twins[one[0].get<std::int64_t>()];
+        for (const Json& flat : one[1]) {
+            if (!flat.is_array() || flat.size() % 2 != 0) return std::nullopt;
+            TwinCorners corners;
+            for (std::size_t i = 0; i < flat.size(); i += 2) {
+                const std::uint32_t polygon = index_from(flat[i]), corner = index_from(flat[i + 1]);
+                if (polygon == no_index || corner == no_index) return std::nullopt;
+                corners.push_back({polygon, corner});
+            }
+            own.push_back(std::move(corners));
+        }
+    }
+    return twins;
+}
+
+Json groups_json(const std::vector<StatedGroup>& groups) {
+    Json all = Json::array();
+    for (const StatedGroup& g : groups) {
+        Json path = Json::array();
+        for (const std::string& name : g.path) path.push_back(text_json(name));
+        all.push_back(Json{{"path", std::move(path)}, {"head", text_json(g.head)}});
+    }
+    return all;
+}
+
+StatedGroup group_from(const Json& j) {
+    StatedGroup group{{}, text_member(j, "head")};
+    for_each_member(j, "path", [&](const Json& one) { group.path.push_back(text_from(one)); });
+    return group;
 }
 
 // ---- stated models ----
@@ -423,14 +512,30 @@ std::optional<StatedModel> model_from(const Json& j, const std::vector<Object>& 
 
 }  // namespace
 
+ObjectInfo words_of(const ObjectInfo& info) {
+    ObjectInfo words;
+    words.name = info.name;
+    words.role = info.role;
+    words.role_text = info.role_text;
+    words.feature = info.feature;
+    words.crs = info.crs;
+    words.annotations = info.annotations;
+    words.groups = info.groups;
+    return words;
+}
+
 std::string dataset_text(const Dataset& dataset) {
     Json j = Json::object();
     j["geomend"] = 1;
+    put_list(j, "groups", groups_json(dataset.groups));
     put_list(j, "annotations", annotations_json(dataset.annotations));
     Json objects = Json::array(), models = Json::array();
     for (const Object& object : dataset.objects) {
         Json one = info_json(info_of(object));
-        if (const auto* mesh = std::get_if<CellMesh>(&object)) put_list(one, "entities", entities_json(*mesh));
+        if (const auto* mesh = std::get_if<CellMesh>(&object)) {
+            put_list(one, "entities", entities_json(*mesh));
+            if (mesh->twins) one["twins"] = twins_json(*mesh->twins);
+        }
         objects.push_back(std::move(one));
     }
     for (const StatedModel& model : dataset.models) models.push_back(model_json(model));
@@ -442,13 +547,17 @@ std::string dataset_text(const Dataset& dataset) {
 bool apply_dataset_text(std::string_view text, Dataset& dataset) {
     const Json j = Json::parse(text, nullptr, false);
     if (!j.is_object() || integer_member(j, "geomend", 0) != 1) return false;
+    for_each_member(j, "groups", [&](const Json& one) { dataset.groups.push_back(group_from(one)); });
     for (Annotation& a : annotations_from(j)) dataset.annotations.push_back(std::move(a));
     std::size_t at = 0;
     for_each_member(j, "objects", [&](const Json& one) {
         if (at >= dataset.objects.size()) return;
         Object& object = dataset.objects[at++];
         apply_info(one, info_of(object));
-        if (auto* mesh = std::get_if<CellMesh>(&object)) apply_entities(one, *mesh);
+        if (auto* mesh = std::get_if<CellMesh>(&object)) {
+            apply_entities(one, *mesh);
+            mesh->twins = twins_from(member(one, "twins"));
+        }
     });
     for_each_member(j, "models", [&](const Json& one) {
         if (auto model = model_from(one, dataset.objects)) dataset.models.push_back(std::move(*model));

@@ -14,6 +14,9 @@ namespace geomend {
 /// `models`. Formats without a place for these things (VTK field data, MSH) carry this text along.
 std::string dataset_text(const Dataset& dataset);
 
+/// What of an object's info dataset_text() writes, but its attributes.
+ObjectInfo words_of(const ObjectInfo& info);
+
 /// Puts back what dataset_text gave: objects are matched by position, attributes by name and location, entities
 /// by dimension and tag. Things that are not there any more are passed over. False (and nothing is changed) when
 /// the text is not such a text.

@@ -35,6 +35,12 @@ struct Annotation {
     std::string value;
 };
 
+/// A group that a file states; objects name it in ObjectInfo::groups.
+struct StatedGroup {
+    std::vector<std::string> path;  ///< its name after those of the groups that hold it, outermost first
+    std::string head;               ///< what the file says of the group itself, verbatim
+};
+
 /// The precision in which a file stores coordinates.
 enum class CoordinatePrecision : std::uint8_t { double_precision, single_precision };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -112,6 +113,12 @@ bool is_second_order(CellType type);
 /// The first-order type with the same corners (itself for first-order types).
 CellType linear_type(CellType type);
 
+/// The polygon corners on one twin of a surface: pairs of polygon and corner. Polygons are counted triangles first, then
+/// quadrangles, then others, each in order, as formats keep them that write cells type by type.
+using TwinCorners = std::vector<std::array<std::uint32_t, 2>>;
+/// The twins of the surfaces that have any, by the tag of the surface's entity.
+using Twins = std::map<std::int64_t, std::vector<TwinCorners>>;
+
 /// Cells of any dimension over one array of points: tagged meshes (MSH), solids (Gocad), VTK unstructured grids.
 struct CellMesh {
     ObjectInfo info;
@@ -161,6 +168,10 @@ struct CellMesh {
     };
     std::vector<FacetTag> facet_tags;
     std::vector<std::string> facet_names;
+
+    /// Stated twins: corners of surface entities that stand on nodes of their own, although the mesh has one point there,
+    /// because the surface is cut. Nothing: the mesh does not say; empty: it says that there are none.
+    std::optional<Twins> twins;
 
     std::size_t cell_count() const { return types.size(); }
     std::span<const std::uint32_t> cell_nodes(std::size_t i) const {

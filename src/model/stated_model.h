@@ -31,6 +31,7 @@ struct StatedModel {
         FeatureRole role = FeatureRole::unknown;
         std::string role_text;                   ///< the file's word
         std::optional<std::array<Vec3, 3>> key;  ///< elevation-up; its normal names the front side
+        std::uint64_t line = 0;                  ///< of its record in the file, from 1; 0: not known
     };
     std::vector<Face> faces;
 

@@ -118,11 +118,9 @@ Failure cannot_hold(const std::string& output, const Format& format, const std::
                           std::string(format.title) + " cannot hold all of this model: nothing was written (--lossy writes what fits)");
     for (const Loss& loss : losses) {
         if (loss.loss_class != LossClass::substance) continue;
-        Finding f;
-        f.code = "F021";
-        f.severity = Severity::error;
-        f.count = loss.count;
-        f.message = (loss.entity.empty() ? "" : loss.entity + ": ") + loss.what + (loss.why.empty() ? "" : " (" + loss.why + ")");
+        Finding f = make_finding(
+            "F021", (loss.entity.empty() ? "" : loss.entity + ": ") + loss.what + (loss.why.empty() ? "" : " (" + loss.why + ")"), {},
+            loss.count);
         why.also.push_back(std::move(f));
     }
     return why;
@@ -150,7 +148,7 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Dat
     }
     if (auto made = make_like(*dataset, **format, request); !made) return std::move(made).why();
     if (auto done = apply_grid_options(*dataset, **format, options.options); !done) return std::move(done).why();
-    if ((*format)->name == "init" || (*format)->name == "finit") complete_pore_volumes(*dataset);
+    if ((*format)->pore_volumes) complete_pore_volumes(*dataset);
     if (auto moved = move_grid_origins(*dataset, **format, options.options); !moved) return std::move(moved).why();
     list_text_losses(*dataset, **format);
     if (auto shaped = shape_grids(*dataset, **format, options.options); !shaped) return std::move(shaped).why();

@@ -106,11 +106,7 @@ Result<void> follow_deck_companions(Dataset& dataset, const Input& deck, const L
         auto taken = take(companion, *path, options, *grid, dataset);
         if (!taken) return std::move(taken).why();
         if (!*taken) continue;
-        const std::string lost = grdecl::companion_loss(companion.keyword, companion.path);
-        std::erase_if(dataset.losses, [&](const Loss& loss) { return loss.what == lost; });
-        std::erase_if(grid->info.annotations, [&](const Annotation& a) {
-            return a.key == "grdecl.record" && a.value.starts_with(companion.keyword) && a.value.find(companion.path) != std::string::npos;
-        });
+        grdecl::forget_companion(companion, grid->info, dataset.losses);
     }
     return {};
 }

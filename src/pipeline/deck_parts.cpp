@@ -2,35 +2,14 @@
 #include "pipeline/deck_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "formats/grdecl/kept_text.h"
 #include "grid/pore_volume.h"
 
 namespace geomend {
 
 namespace {
-
-struct TextPart {
-    std::string_view keyword, what;
-};
-constexpr std::array text_parts = {
-    TextPart{"RADFIN", "a radial local grid"},
-    TextPart{"ADDZCORN", "what ADDZCORN adds to the corner depths"},
-    TextPart{"COARSEN", "coarsening (COARSEN)"},
-    TextPart{"COLLAPSE", "collapsed cells (COLLAPSE)"},
-    TextPart{"THPRESFT", "threshold pressures of faults (THPRESFT)"},
-};
-
-void list_losses_of(const ObjectInfo& info, std::vector<Loss>& losses) {
-    for (const Annotation& a : info.annotations) {
-        if (!a.key.starts_with("grdecl.record")) continue;
-        for (const TextPart& part : text_parts) {
-            if (a.value.starts_with(part.keyword))
-                add_loss(losses, {LossClass::substance, info.name, std::string(part.what), "only decks hold it"});
-        }
-    }
-}
 
 bool acts_on_pores(const CornerPointGrid& grid) {
     return std::ranges::any_of(grid.edit_operations, [](const auto& op) { return op.array == "PORV"; });
@@ -70,8 +49,8 @@ void complete_pore_volumes(Dataset& dataset) {
 }
 
 void list_text_losses(Dataset& dataset, const Format& target) {
-    if (target.family == "grdecl") return;
-    for (const Object& object : dataset.objects) list_losses_of(info_of(object), dataset.losses);
+    if (target.deck) return;
+    for (Loss& loss : grdecl::losses_of_text(dataset)) add_loss(dataset.losses, std::move(loss));
 }
 
 }  // namespace geomend

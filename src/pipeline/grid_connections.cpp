@@ -70,10 +70,7 @@ void apply_factors(CornerPointGrid& grid) {
 void tell_left_out(const CornerPointGrid& grid, const grid::SimulatedCells& cells, std::vector<Finding>& findings) {
     const std::size_t count = cells.without_pores.size() + cells.below_minpv.size();
     if (count == 0) return;
-    Finding told;
-    told.code = "F153";
-    told.severity = Severity::info;
-    told.count = count;
+    Finding told = make_finding("F153", {}, {}, count);
     told.element_kind = "cell";
     for (const auto* list : {&cells.without_pores, &cells.below_minpv}) {
         for (std::size_t n = 0; n < list->size() && told.index.size() < 100; ++n)
@@ -116,12 +113,11 @@ Result<void> compute_connections(CornerPointGrid& grid, bool from_deck, std::vec
     set_attribute(grid, "TRANY", std::move(values->y));
     set_attribute(grid, "TRANZ", std::move(values->z));
     if (left_out == 0) return {};
-    Finding told;
-    told.code = "F151";
-    told.severity = Severity::info;
-    told.count = left_out;
-    told.message = std::to_string(left_out) + " of " + std::to_string(found.others.size()) +
-                   " pairs of cells that touch across layers have a transmissibility below 1e-6: no connection is listed for them";
+    Finding told =
+        make_finding("F151",
+                     std::to_string(left_out) + " of " + std::to_string(found.others.size()) +
+                         " pairs of cells that touch across layers have a transmissibility below 1e-6: no connection is listed for them",
+                     {}, left_out);
     told.entities.push_back({"grid", grid.info.name, -1});
     findings.push_back(std::move(told));
     return {};

@@ -15,9 +15,7 @@ namespace {
 Failure usage(const std::string& message) { return failure(FailureKind::usage, "F018", {}, message); }
 
 Finding told(const CornerPointGrid& grid, const grid::LocalFrame& frame, bool had_axes, double rounding) {
-    Finding f;
-    f.code = "F154";
-    f.severity = Severity::info;
+    Finding f = make_finding("F154", {}, {}, 0);
     f.entities.push_back({"grid", grid.info.name, -1});
     f.measures = {{"origin_x", frame.origin[0]}, {"origin_y", frame.origin[1]}, {"rounding_of_map_axes", rounding}};
     f.message = "coordinates count from the origin " + number_text(frame.origin[0]) + " " + number_text(frame.origin[1]) +

@@ -100,9 +100,7 @@ void tell_volumes(const std::string& grid_name, std::span<const double> trilinea
         sum[1] += std::abs(trilinear[cells.source[c]]);
     }
     for (const auto& [region, sum] : sums) {
-        Finding told;
-        told.code = "F152";
-        told.severity = Severity::info;
+        Finding told = make_finding("F152", {}, {}, 0);
         told.entities.push_back(regions == nullptr ? EntityRef{"grid", grid_name, -1}
                                                    : EntityRef{"region", std::string(region_name) + "_" + number_text(region), -1});
         told.measures = {{"volume_polyhedra", sum[0]}, {"volume_trilinear", sum[1]}, {"difference", sum[0] - sum[1]}};

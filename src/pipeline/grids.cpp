@@ -89,10 +89,8 @@ void leave_to_simulators(CornerPointGrid& grid, bool asked, Dataset& dataset) {
         count = std::erase_if(grid.connections, [&](const auto& c) { return own.contains(std::minmax(c.first, c.second)); });
     }
     if (count == 0 && !asked) return;
-    Finding told;
-    told.code = "F155";
-    told.severity = asked ? Severity::warning : Severity::info;
-    told.count = std::max<std::uint64_t>(1, count);
+    Finding told = make_finding("F155", {}, {}, std::max<std::uint64_t>(1, count));
+    if (!asked) use_other_severity(told);
     told.message =
         "what reads a deck finds the connections of COORD and ZCORN itself and adds those of NNC to them: " +
         (count > 0 ? std::to_string(count) + " that are of the geometry are not written" : std::string("none are computed for it"));
@@ -188,7 +186,7 @@ Result<void> apply_grid_options(Dataset& dataset, const Format& target, const Fo
         if (map == "apply") {
             if (auto moved = grid::apply_map_axes(*grid); !moved) return moved;
         }
-        if (target.family == "grdecl") {
+        if (target.deck) {
             leave_to_simulators(*grid, connections == "compute", dataset);
         } else if (connections == "compute") {
             if (auto computed = compute_connections(*grid, dataset.format == "grdecl", dataset.findings); !computed) return computed;

@@ -8,6 +8,7 @@
 #include "formats/registry.h"
 #include "pipeline/deck_companions.h"
 #include "pipeline/dropped.h"
+#include "topology/keys.h"
 
 namespace geomend {
 
@@ -40,9 +41,10 @@ Result<Dataset> load(const OpenedInput& opened, const LoadOptions& options, std:
     const auto& [input, format] = opened;
     try {
         auto dataset = format->read(input, {options.options, options.monitor});
-        if (dataset && format->deck_companions) {
+        if (dataset && format->deck) {
             if (auto followed = follow_deck_companions(*dataset, input, options); !followed) return std::move(followed).why();
         }
+        if (dataset) topology::report_stated_keys(input.name(), *dataset);
         if (dataset) list_what_was_dropped(*dataset);
         if (companions != nullptr) *companions = input.companions();
         return dataset;

@@ -34,6 +34,7 @@ void merge(Dataset& into, Dataset more) {
     }
     append(into.objects, more.objects);
     append(into.models, more.models);
+    append(into.groups, more.groups);
     append(into.annotations, more.annotations);
     append(into.findings, more.findings);
     for (Loss& loss : more.losses) add_loss(into.losses, std::move(loss));

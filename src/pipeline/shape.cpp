@@ -134,9 +134,8 @@ void to_flat_objects(Dataset& dataset) {
 
 // Surfaces around volumes that the file bounds by their cells alone, for targets that hold regions by their surfaces.
 void surround_regions(Dataset& dataset, const Format& target) {
-    const bool needs_surfaces = target.wants == WriterWants::brep || target.wants == WriterWants::faced_model ||
-                                (target.wants == WriterWants::tagged_mesh && (target.family != "gmsh" || target.name == "geo"));
-    if (!needs_surfaces || !dataset.models.empty() || (dataset.format == target.family && target.name != "geo")) return;
+    const bool comes_from_there = dataset.format == target.family && target.read != nullptr;
+    if (!target.bounded_regions || !dataset.models.empty() || comes_from_there) return;
     for (Object& object : dataset.objects) {
         auto* mesh = std::get_if<CellMesh>(&object);
         if (mesh != nullptr && has_entities(*mesh)) topology::add_region_surfaces(*mesh);

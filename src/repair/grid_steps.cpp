@@ -8,18 +8,25 @@ namespace geomend::repair {
 
 namespace {
 
+constexpr std::array<std::string_view, 2> monotone_mends = {"C03", "C07"};
+constexpr std::array<std::string_view, 1> close_gaps_mends = {"C04"};
+constexpr std::array<std::string_view, 1> drop_collapsed_mends = {"C05"};
+constexpr std::array<std::string_view, 1> drop_isolated_mends = {"C21"};
+constexpr std::array<std::string_view, 2> minpv_mends = {"C16", "F153"};
+constexpr std::array<std::string_view, 1> handedness_mends = {"C12"};
+
 constexpr std::array steps = {
     StepRow{"monotone", "where the bottom of a cell lies above its top on a pillar, it comes down to the top; what touched it follows",
-            monotone},
+            monotone_mends, monotone},
     StepRow{"close-gaps",
             "gaps and overlaps up to the tolerance, or --option gap=L, between cells one above the other: both meet at the mean",
-            close_gaps},
-    StepRow{"drop-collapsed", "active cells without thickness on any pillar become inactive", drop_collapsed},
-    StepRow{"drop-isolated", "active cells that touch no other become inactive", drop_isolated},
-    StepRow{"minpv", "active cells with a pore volume below MINPV become inactive", minpv},
-    StepRow{"pinch", "inactive layers up to PINCH's threshold (0.001) between active cells are closed: both meet at the mean", pinch},
-    StepRow{"handedness", "the rows of a left-handed grid are put in the opposite order; geometry stays", handedness},
-    StepRow{"depth-sign", "a grid whose layers go upwards gets the opposite sign of depth", depth_sign},
+            close_gaps_mends, close_gaps},
+    StepRow{"drop-collapsed", "active cells without thickness on any pillar become inactive", drop_collapsed_mends, drop_collapsed},
+    StepRow{"drop-isolated", "active cells that touch no other become inactive", drop_isolated_mends, drop_isolated},
+    StepRow{"minpv", "active cells with a pore volume below MINPV become inactive", minpv_mends, minpv},
+    StepRow{"pinch", "inactive layers up to PINCH's threshold (0.001) between active cells are closed: both meet at the mean", {}, pinch},
+    StepRow{"handedness", "the rows of a left-handed grid are put in the opposite order; geometry stays", handedness_mends, handedness},
+    StepRow{"depth-sign", "a grid whose layers go upwards gets the opposite sign of depth", {}, depth_sign},
 };
 constexpr std::array<std::string_view, 3> usual = {"monotone", "close-gaps", "drop-collapsed"};
 

@@ -26,7 +26,8 @@ using Step = StepReport (*)(CornerPointGrid&, const validators::GridScope&, cons
 
 struct StepRow {
     std::string_view name;
-    std::string_view meaning;  ///< one line
+    std::string_view meaning;                 ///< one line
+    std::span<const std::string_view> mends;  ///< codes of findings that it mends
     Step run;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "report/json.h"
 
-#include "base/codes.h"
+#include "report/advice.h"
 #include "report/elements.h"
 
 namespace geomend {
@@ -41,8 +41,8 @@ std::string element_kind(const Finding& f) { return f.element_kind.substr(0, f.e
 
 Json finding_json(const Finding& f) {
     Json j{{"code", f.code}, {"severity", to_string(f.severity)}, {"message", f.message}};
-    const CodeInfo* row = find_code(f.code);
-    j["fix"] = row != nullptr && !row->fix.empty() ? Json(std::string(row->fix)) : Json();
+    const std::string_view advice = advice_for(f.code);
+    j["fix"] = advice.empty() ? Json() : Json(std::string(advice));
     Json entities = Json::array();
     for (const EntityRef& e : f.entities) {
         Json one{{"kind", e.kind}, {"name", e.name}};

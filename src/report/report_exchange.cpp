@@ -5,6 +5,7 @@
 #include "base/codes.h"
 #include "base/utf8.h"
 #include "base/xml_text.h"
+#include "report/advice.h"
 #include "report/json.h"
 #include "report/report.h"
 #include "report/worst_first.h"
@@ -32,7 +33,7 @@ Json sarif_rules(const Report& report) {
         Json rule{{"id", code}};
         if (const CodeInfo* row = find_code(code)) {
             rule["shortDescription"] = {{"text", std::string(row->meaning)}};
-            if (!row->fix.empty()) rule["help"] = {{"text", std::string(row->fix)}};
+            if (const auto advice = advice_for(code); !advice.empty()) rule["help"] = {{"text", std::string(advice)}};
             rule["defaultConfiguration"] = {{"level", level(row->severity)}};
         }
         rules.push_back(std::move(rule));

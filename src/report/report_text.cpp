@@ -5,6 +5,7 @@
 
 #include "base/codes.h"
 #include "base/wording.h"
+#include "report/advice.h"
 #include "report/elements.h"
 #include "report/report.h"
 #include "report/worst_first.h"
@@ -104,9 +105,8 @@ private:
         text_ += f.message + '\n';
         further_entities(f);
         elements(f);
-        const CodeInfo* row = find_code(f.code);
-        if (row != nullptr && !row->fix.empty() && f.severity > Severity::info)
-            text_ += indent() + "to mend it: " + std::string(row->fix) + '\n';
+        const std::string_view advice = advice_for(f.code);
+        if (!advice.empty() && f.severity > Severity::info) text_ += indent() + "to mend it: " + std::string(advice) + '\n';
     }
 
     void step(const ReportedStep& s) {

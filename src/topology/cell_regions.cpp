@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "geometry/measures.h"
+#include "model/cell_faces.h"
 #include "topology/corner_values.h"
 #include "topology/face_volume.h"
 #include "topology/faces_from_mesh.h"
@@ -16,41 +17,6 @@
 namespace geomend::topology {
 
 namespace {
-
-using FacetTable = std::vector<std::vector<std::uint32_t>>;
-
-FacetTable prism_facets(std::uint32_t n) {
-    FacetTable facets(2);
-    for (std::uint32_t i = 0; i < n; ++i) {
-        facets[0].push_back(i);
-        facets[1].push_back(n + i);
-        facets.push_back({i, (i + 1) % n, n + (i + 1) % n, n + i});
-    }
-    return facets;
-}
-
-/// Corners of each facet in cyclic order; their winding does not matter here.
-const FacetTable& facets_of(CellType type) {
-    static const FacetTable none, tetrahedron{{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
-        pyramid{{0, 1, 2, 3}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}, wedge = prism_facets(3), hexahedron = prism_facets(4),
-                                                                           pentagonal = prism_facets(5), hexagonal = prism_facets(6);
-    switch (linear_type(type)) {
-        case CellType::tetrahedron:
-            return tetrahedron;
-        case CellType::pyramid:
-            return pyramid;
-        case CellType::wedge:
-            return wedge;
-        case CellType::hexahedron:
-            return hexahedron;
-        case CellType::pentagonal_prism:
-            return pentagonal;
-        case CellType::hexagonal_prism:
-            return hexagonal;
-        default:
-            return none;
-    }
-}
 
 /// The three lowest of some vertices, put in front.
 void lowest_first(std::vector<std::uint32_t>& vertices) {
@@ -165,9 +131,9 @@ void for_each_facet(const CellMesh& mesh, std::uint32_t cell, std::vector<std::u
         return;
     }
     const auto nodes = mesh.cell_nodes(cell);
-    for (const auto& local : facets_of(mesh.types[cell])) {
+    for (const LocalFace& face : faces_of(mesh.types[cell])) {
         facet.clear();
-        for (const std::uint32_t i : local) facet.push_back(nodes[i]);
+        for (const std::uint8_t i : face.corners()) facet.push_back(nodes[i]);
         body();
     }
 }

@@ -3,42 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
 
+#include "model/attribute_operations.h"
 #include "topology/faces_from_surfaces.h"
 
 namespace geomend::topology {
 
 namespace {
-
-constexpr std::string_view holders_key = "geomend.surfaces";     // tags of the surfaces that have the attribute
-constexpr std::string_view filler_key = "geomend.made_no_data";  // the attribute itself states no value for missing
-
-const std::string* annotation(const Attribute& a, std::string_view key) {
-    for (const auto& [k, v] : a.annotations) {
-        if (k == key) return &v;
-    }
-    return nullptr;
-}
-
-std::vector<std::int64_t> integers_from(std::string_view text) {
-    std::vector<std::int64_t> all;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (at != end) {
-        std::int64_t n = 0;
-        const auto [next, error] = std::from_chars(at, end, n);
-        if (error != std::errc{}) break;
-        all.push_back(n);
-        at = next;
-        while (at != end && *at == ' ') ++at;
-    }
-    return all;
-}
 
 /// One attribute over those surfaces that have it.
 struct Column {
@@ -54,7 +29,7 @@ bool same_column(const Attribute& a, const Attribute& b) {
     return a.name == b.name && a.components == b.components && a.values.index() == b.values.index() && a.no_data == b.no_data &&
            a.unit == b.unit && a.kind == b.kind && a.property_class == b.property_class && a.legal_min == b.legal_min &&
            a.legal_max == b.legal_max && a.component_names == b.component_names && a.code_names == b.code_names &&
-           a.annotations == b.annotations;
+           a.corner_values == b.corner_values && a.time == b.time && a.annotations == b.annotations;
 }
 
 std::vector<Column> columns_of(const BrepData& brep) {
@@ -73,12 +48,6 @@ std::vector<Column> columns_of(const BrepData& brep) {
 }
 
 template <class Value>
-bool same_value(const Value& a, const Value& b) {
-    if constexpr (std::is_floating_point_v<Value>) return a == b || (a != a && b != b);
-    else return a == b;
-}
-
-template <class Value>
 std::optional<Value> as_value(double x) {
     if constexpr (std::is_same_v<Value, std::string>) {
         return std::nullopt;
@@ -92,6 +61,7 @@ std::optional<Value> as_value(double x) {
 }
 
 /// The value for places without one: the stated one, else one that no surface uses, which is then put into `no_data`.
+/// \pre made.corner_values is there
 template <class Value>
 Value filler(const Column& column, Attribute& made) {
     if (made.no_data) {
@@ -108,7 +78,7 @@ Value filler(const Column& column, Attribute& made) {
             const auto value = as_value<Value>(candidate);
             if (!value || static_cast<double>(*value) != candidate || used(*value)) continue;
             made.no_data = candidate;
-            made.annotations.emplace_back(filler_key, "yes");
+            made.corner_values->made_no_data = true;
             return *value;
         }
     }
@@ -147,6 +117,7 @@ bool agree(const BrepData& brep, const Column& column, const Attribute& made, st
 template <class Value>
 void put_corners(const BrepData& brep, const Column& column, std::span<const std::size_t> first_cell, std::size_t cells, Attribute& made) {
     const std::size_t n = made.components;
+    made.corner_values = CornerValues{made.components, {}, false};
     std::size_t widest = 1;
     for (const auto& holder : column.holders) {
         const Polygons& polygons = brep.surfaces[holder.surface].polygons;
@@ -164,7 +135,6 @@ void put_corners(const BrepData& brep, const Column& column, std::span<const std
         }
     }
     made.location = AttributeLocation::cell;
-    made.annotations.emplace_back(corner_values_key, std::to_string(n));
     made.components = static_cast<std::uint32_t>(widest * n);
     const auto names = made.component_names;
     for (std::size_t corner = 1; corner < widest; ++corner) {
@@ -173,10 +143,9 @@ void put_corners(const BrepData& brep, const Column& column, std::span<const std
     made.values = std::move(values);
 }
 
-void annotate_holders(const Column& column, std::span<const std::int64_t> tags, Attribute& made) {
-    std::string text;
-    for (const auto& holder : column.holders) text += (text.empty() ? "" : " ") + std::to_string(tags[holder.surface]);
-    made.annotations.emplace_back(holders_key, std::move(text));
+void list_holders(const Column& column, std::span<const std::int64_t> tags, Attribute& made) {
+    auto& surfaces = made.corner_values->surfaces.emplace();
+    for (const auto& holder : column.holders) surfaces.push_back(tags[holder.surface]);
 }
 
 /// False where the corners of the polygons around one node differ.
@@ -204,11 +173,9 @@ bool gather(const CellMesh& mesh, const Attribute& attribute, std::uint32_t n, s
 }  // namespace
 
 std::uint32_t components_per_corner(const Attribute& attribute) {
-    const std::string* text = annotation(attribute, corner_values_key);
-    if (text == nullptr || attribute.location != AttributeLocation::cell) return 0;
-    const auto numbers = integers_from(*text);
-    const bool fits = numbers.size() == 1 && numbers[0] >= 1 && numbers[0] <= std::int64_t{attribute.components};
-    return fits ? static_cast<std::uint32_t>(numbers[0]) : 0;
+    if (!attribute.corner_values || attribute.location != AttributeLocation::cell) return 0;
+    const std::uint32_t n = attribute.corner_values->components;
+    return n >= 1 && n <= attribute.components ? n : 0;
 }
 
 bool missing_in(const Attribute& attribute, std::span<const std::uint32_t> cells) {
@@ -235,7 +202,7 @@ std::vector<Attribute> shared_node_attributes(const BrepData& brep, std::span<co
                     made.values = std::move(values);
                 } else {
                     put_corners<Value>(brep, column, first_cell, cells, made);
-                    annotate_holders(column, tags, made);
+                    list_holders(column, tags, made);
                 }
             },
             column.first().values);
@@ -247,12 +214,9 @@ std::vector<Attribute> shared_node_attributes(const BrepData& brep, std::span<co
 void add_corner_values(const CellMesh& mesh, const Attribute& attribute, std::span<const std::uint32_t> cells, std::int64_t tag,
                        BrepData::Surface& surface) {
     const std::uint32_t n = components_per_corner(attribute);
-    const std::string* holders = annotation(attribute, holders_key);
-    bool held = attribute.no_data ? !missing_in(attribute, cells) : holders == nullptr;
-    if (!held && holders != nullptr) {
-        const auto all = integers_from(*holders);
-        held = std::find(all.begin(), all.end(), tag) != all.end();
-    }
+    const auto& holders = attribute.corner_values->surfaces;
+    bool held = attribute.no_data ? !missing_in(attribute, cells) : !holders;
+    if (!held && holders) held = std::find(holders->begin(), holders->end(), tag) != holders->end();
     if (!held) return;
     Attribute made = restricted(attribute, {}, AttributeLocation::point);
     const bool gathered = n > 0 && std::visit(
@@ -271,11 +235,8 @@ void add_corner_values(const CellMesh& mesh, const Attribute& attribute, std::sp
     }
     made.components = n;
     if (!made.component_names.empty()) made.component_names.resize(n);
-    const bool made_up = annotation(attribute, filler_key) != nullptr;
-    std::erase_if(made.annotations, [](const auto& pair) {
-        return pair.first == corner_values_key || pair.first == holders_key || pair.first == filler_key;
-    });
-    if (made_up) made.no_data.reset();
+    if (made.corner_values->made_no_data) made.no_data.reset();
+    made.corner_values.reset();
     surface.attributes.push_back(std::move(made));
 }
 

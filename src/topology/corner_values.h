@@ -4,18 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "model/brep.h"
 
 // Node attributes of surfaces in a mesh whose points the surfaces share. Where two surfaces differ at a point, each cell
-// has the values of all its corners, corner after corner: a cell attribute whose annotation `corner_values_key` tells
-// how many components a corner has. (MSH holds this as $ElementNodeData, and its reader gives it in this form.)
+// has the values of all its corners, corner after corner: a cell attribute with CornerValues. (MSH holds this as
+// $ElementNodeData, and its reader gives it in this form.)
 
 namespace geomend::topology {
-
-inline constexpr std::string_view corner_values_key = "gmsh.element_node_data";
 
 /// Components per corner of such a cell attribute; 0 for any other attribute.
 std::uint32_t components_per_corner(const Attribute& attribute);
@@ -30,6 +27,7 @@ std::vector<Attribute> shared_node_attributes(const BrepData& brep, std::span<co
 
 /// Turns corner values into node attributes of a surface, once its nodes and polygons are there. Where the corners of
 /// the polygons around one node differ, the values stay polygon attributes.
+/// \pre the attribute has corner_values
 /// \param cells the mesh cell of each polygon
 /// \param tag of the surface's entity
 void add_corner_values(const CellMesh& mesh, const Attribute& attribute, std::span<const std::uint32_t> cells, std::int64_t tag,

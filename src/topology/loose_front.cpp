@@ -34,10 +34,8 @@ void join_nodes(BrepData::Surface& surface) {
 
 /// Names a surface whose polygons had points of their own.
 void report_soup(SurfaceComplex& complex, const SurfaceComplex::Face& face) {
-    Finding finding;
-    finding.code = "M08";
-    finding.severity = Severity::warning;
-    finding.message = "the triangles of '" + face.interface_name + "' have points of their own: judged as joined where points are equal";
+    Finding finding = make_finding(
+        "M08", "the triangles of '" + face.interface_name + "' have points of their own: judged as joined where points are equal", {}, 0);
     finding.entities.push_back({"interface", face.interface_name, -1});
     finding.count = face.surface.polygons.size();
     finding.element_kind = "triangle";

@@ -9,7 +9,7 @@
 namespace geomend::topology {
 
 MeshParts parts_of_mesh(const CellMesh& mesh, std::uint32_t object) {
-    MeshParts parts{&mesh, object, cells_by_entity(mesh), stated_twins(mesh)};
+    MeshParts parts{&mesh, object, cells_by_entity(mesh)};
     for (std::size_t e = 0; e < mesh.entities.size(); ++e) {
         parts.filled |= mesh.entities[e].dimension == 3 && !parts.entity_cells[e].empty();
     }
@@ -28,10 +28,10 @@ SurfaceComplex::Face face_of_entity(const MeshParts& parts, std::uint32_t entity
     const bool point_attributes_here = !parts.filled;  // else they are the regions' own
     SurfaceComplex::Face face;
     face.surface = surface_of_cells(*parts.mesh, parts.entity_cells[entity], points.of.at(parts.object), parts.mesh->entities[entity].tag,
-                                    parts.twins ? &*parts.twins : nullptr, point_attributes_here);
+                                    parts.mesh->twins ? &*parts.mesh->twins : nullptr, point_attributes_here);
     face.surface.source_object = parts.object;
     face.surface.source_part = entity;
-    face.shared_nodes = !parts.twins;
+    face.shared_nodes = !parts.mesh->twins;
     face.tolerance = points.tolerance.at(parts.object);
     return face;
 }
@@ -46,7 +46,7 @@ void add_lines_of_mesh(const MeshParts& parts, const WeldedPoints& points, Surfa
         complex.lines.edges.push_back(edge);
     }
     complex.lines.corners.insert(complex.lines.corners.end(), own.corners.begin(), own.corners.end());
-    complex.lines.shared_nodes |= !parts.twins;
+    complex.lines.shared_nodes |= !mesh.twins;
     for (std::size_t e = 0; e < mesh.entities.size(); ++e) {
         const auto& entity = mesh.entities[e];
         complex.line_names.push_back(entity.name);

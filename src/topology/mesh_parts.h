@@ -17,7 +17,6 @@ struct MeshParts {
     const CellMesh* mesh = nullptr;
     std::uint32_t object = no_index;                       ///< its number in the Dataset
     std::vector<std::vector<std::uint32_t>> entity_cells;  ///< per entity its cells
-    std::optional<Twins> twins;                            ///< as the mesh states them
     bool filled = false;                                   ///< some volume entity has cells
 };
 MeshParts parts_of_mesh(const CellMesh& mesh, std::uint32_t object);

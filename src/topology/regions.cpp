@@ -54,11 +54,7 @@ void judge_stated(Assembly& a, const StatedRegion& stated, const SolvedSides::Re
 }  // namespace
 
 Finding region_finding(const BrepData&, std::string code, std::string region, std::string message) {
-    Finding finding;
-    const CodeInfo* info = find_code(code);
-    finding.severity = info != nullptr ? info->severity : Severity::warning;
-    finding.code = std::move(code);
-    finding.message = std::move(message);
+    Finding finding = make_finding(code, std::move(message), {}, 0);
     finding.entities.push_back({"region", std::move(region), -1});
     return finding;
 }
@@ -106,11 +102,8 @@ void add_found_regions(Assembly& a) {
     }
     if (!found.regions.empty()) a.brep.universe = found.universe;  // surfaces that enclose nothing state no outside, either
     if (found.uncertain_lines.empty()) return;
-    Finding finding;
-    finding.code = "F113";
-    finding.severity = Severity::warning;
-    finding.message = "polygons coincide along lines, so that regions there are not certain";
-    finding.count = found.uncertain_lines.size();
+    Finding finding =
+        make_finding("F113", "polygons coincide along lines, so that regions there are not certain", {}, found.uncertain_lines.size());
     finding.element_kind = "line";
     for (const LineId l : found.uncertain_lines) {
         if (finding.index.size() < most_elements) finding.index.push_back(l.value);
@@ -130,10 +123,7 @@ void settle_universe(Assembly& a) {
         }
     }
     if (!contested.empty()) {
-        Finding finding;
-        finding.code = "F113";
-        finding.severity = Severity::warning;
-        finding.message = "several regions lie on the same side of " + list_of_names(a.brep, contested);
+        Finding finding = make_finding("F113", "several regions lie on the same side of " + list_of_names(a.brep, contested), {}, 0);
         mention(finding, a.brep, contested);
         a.findings.push_back(std::move(finding));
     }

@@ -23,11 +23,7 @@ bool was_reported(const SurfaceComplex& complex, const char* code) {
 void report_keys(const SurfaceComplex& complex, const char* code, std::string message, const std::vector<std::uint32_t>& surfaces,
                  Assembly& a) {
     if (surfaces.empty() || was_reported(complex, code)) return;
-    Finding finding;
-    finding.code = code;
-    finding.severity = Severity::warning;
-    finding.message = std::to_string(surfaces.size()) + std::move(message);
-    finding.count = surfaces.size();
+    Finding finding = make_finding(code, std::to_string(surfaces.size()) + std::move(message), {}, surfaces.size());
     finding.element_kind = "surface";
     for (std::size_t i = 0; i < surfaces.size() && i < most_listed; ++i) {
         finding.entities.push_back({"surface", a.brep.surfaces[surfaces[i]].name, surfaces[i]});
@@ -81,11 +77,8 @@ void make_lists(const SurfaceComplex& complex, const std::vector<RegionId>& ids,
     resolve(complex.layers, a.brep.layers);
     resolve(complex.fault_blocks, a.brep.fault_blocks);
     if (missing.empty() || was_reported(complex, "F109")) return;
-    Finding finding;
-    finding.code = "F109";
-    finding.severity = Severity::warning;
-    finding.message = "layers or fault blocks list " + std::to_string(missing.size()) + " numbers without a region";
-    finding.count = missing.size();
+    Finding finding = make_finding("F109", "layers or fault blocks list " + std::to_string(missing.size()) + " numbers without a region",
+                                   {}, missing.size());
     finding.element_kind = "region";
     missing.resize(std::min(missing.size(), most_listed));
     finding.elements = std::move(missing);
@@ -96,11 +89,8 @@ void report_partial(std::vector<SurfaceId> partial, Assembly& a) {
     std::sort(partial.begin(), partial.end());
     partial.erase(std::unique(partial.begin(), partial.end()), partial.end());
     if (partial.empty()) return;
-    Finding finding;
-    finding.code = "F113";
-    finding.severity = Severity::warning;
-    finding.message = std::to_string(partial.size()) + " surfaces bound a region with a part of their polygons only";
-    finding.count = partial.size();
+    Finding finding = make_finding("F113", std::to_string(partial.size()) + " surfaces bound a region with a part of their polygons only",
+                                   {}, partial.size());
     finding.element_kind = "surface";
     for (std::size_t i = 0; i < partial.size() && i < most_listed; ++i) {
         finding.entities.push_back({"surface", a.brep.surfaces[partial[i].value].name, partial[i].value});

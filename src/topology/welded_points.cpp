@@ -109,10 +109,7 @@ void give_vertices(WeldedPoints& points, SurfaceComplex& complex) {
 void report_welding(const WeldedPoints& points, SurfaceComplex& complex) {
     const std::uint64_t welded = points.points - points.welder.positions().size();
     if (welded == 0) return;
-    Finding finding;
-    finding.code = "F111";
-    finding.severity = Severity::info;
-    finding.message = std::to_string(welded) + " points at positions of others were welded at zero distance";
+    Finding finding = make_finding("F111", std::to_string(welded) + " points at positions of others were welded at zero distance", {}, 0);
     if (points.aliases > 0) finding.message += " (" + std::to_string(points.aliases) + " of them are stated as such)";
     if (!complex.name.empty()) finding.entities.push_back({"model", complex.name, -1});
     finding.count = welded;

@@ -22,5 +22,25 @@ TEST(Codes, AreFoundByTheirText) {
     EXPECT_EQ(find_code("F999"), nullptr);
 }
 
+TEST(Codes, HaveAnotherSeverityOnlyWhereItDiffersAndTheCaseIsNamed) {
+    for (const CodeInfo& row : code_catalogue()) {
+        if (!row.other) continue;
+        EXPECT_NE(row.other->severity, row.severity) << row.code;
+        EXPECT_FALSE(row.other->when.empty()) << row.code;
+    }
+}
+
+TEST(Codes, GiveFindingsTheirSeverity) {
+    const Finding plain = make_finding("C04", "message", {"a.grdecl", 7}, 3);
+    EXPECT_EQ(plain.severity, Severity::error);
+    EXPECT_EQ(plain.message, "message");
+    EXPECT_EQ(plain.where.line, 7u);
+    EXPECT_EQ(plain.count, 3u);
+    Finding other = plain;
+    use_other_severity(other);
+    EXPECT_EQ(other.severity, Severity::warning);
+    EXPECT_EQ(make_finding("none", "").severity, Severity::error);
+}
+
 }  // namespace
 }  // namespace geomend

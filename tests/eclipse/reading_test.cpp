@@ -291,8 +291,7 @@ TEST(ReadRestart, StepsBecomeAttributesWithTheirTime) {
         EXPECT_EQ(a.name, "PRESSURE_20210204");
         EXPECT_EQ(a.unit, "psia");
         EXPECT_EQ(std::get<std::vector<float>>(a.values), (std::vector<float>{2, 3, 4, 5}));
-        EXPECT_EQ(a.annotations, (std::vector<std::pair<std::string, std::string>>{
-                                     {"time.date", "2021-02-04"}, {"time.days", "2.5"}, {"time.step", "11"}}));
+        EXPECT_EQ(a.time, (TimeStep{"2021-02-04", 2.5, 11}));
         ASSERT_EQ(data->losses.size(), 1u);
         EXPECT_NE(data->losses[0].what.find("XWEL"), std::string::npos);
     }
@@ -301,7 +300,7 @@ TEST(ReadRestart, StepsBecomeAttributesWithTheirTime) {
 TEST(ReadRestart, SingleFilesHaveTheirStepInTheirName) {
     const auto data = read_bytes(restart(false, false, {1, 2, 3, 4}), "unrst", "CASE.X0012");
     ASSERT_EQ(grid_of(data).info.attributes.size(), 1u);
-    EXPECT_EQ(grid_of(data).info.attributes[0].annotations.back().second, "12");
+    EXPECT_EQ(grid_of(data).info.attributes[0].time->number, 12);
 }
 
 TEST(ReadRestart, WithoutAGridActiveCellsAreNotGuessed) {

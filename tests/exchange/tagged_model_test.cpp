@@ -260,7 +260,7 @@ TEST(TaggedModel, ValuesThatJumpWithinASurfaceStayWithItsPolygons) {
     jump.name = "jump";
     jump.location = AttributeLocation::cell;
     jump.components = 3;
-    jump.annotations.emplace_back("gmsh.element_node_data", "1");
+    jump.corner_values = CornerValues{1, {}, false};
     std::vector<double> values;
     for (std::size_t c = 0; c < mesh.cell_count(); ++c) values.insert(values.end(), 3, static_cast<double>(c));
     jump.values = values;
@@ -274,16 +274,22 @@ TEST(TaggedModel, ValuesThatJumpWithinASurfaceStayWithItsPolygons) {
 }
 
 TEST(TaggedModel, DamagedStatementsOfTwinsDoNoHarm) {
-    for (const char* text : {"1", "1 9999999999", "1 1 1 7 7", "1 1 2 0 0 0 1", "x", "-1 1 1 0 0", "1 1 1 0 0 1 1 1 1 0", "99 1 1 0 0"}) {
+    using Place = std::array<std::uint32_t, 2>;
+    const std::vector<Twins> damaged = {{{1, {{}}}},
+                                        {{1, {{Place{7, 7}}}}},
+                                        {{1, {{Place{0, 0}, Place{0, 1}}}}},
+                                        {{1, {{Place{0, 9}}}}},
+                                        {{-1, {{Place{0, 0}}}}},
+                                        {{1, {{Place{0, 0}}, {Place{1, 0}}, {Place{0, 0}}}}},
+                                        {{99, {{Place{0, 0}}}}}};
+    for (const Twins& twins : damaged) {
         auto m = two_blocks();
         built(m.data);
         std::vector<Loss> losses;
         Dataset model = exchange::tagged_model(m.data.breps[0], losses);
-        for (Annotation& a : info_of(model.objects[0]).annotations) {
-            if (a.key == "geomend.twin_nodes") a.value = text;
-        }
+        std::get<CellMesh>(model.objects[0]).twins = twins;
         topology::build_breps(model);
-        EXPECT_EQ(model.breps.size(), 1u) << text;
+        EXPECT_EQ(model.breps.size(), 1u) << twins.begin()->first;
     }
 }
 

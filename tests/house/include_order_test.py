@@ -21,15 +21,18 @@ USES = {
     "grid": ("geometry",),
     "arrangement": ("geometry",),
     "topology": ("grid",),
+    "editing": ("geometry",),
     "exchange": ("topology",),
     "complexity": ("topology",),
     "validators": ("topology",),
-    "repair": ("validators", "exchange"),
-    "remesh": ("validators", "exchange"),
+    "repair": ("validators", "arrangement", "editing", "exchange"),
+    "remesh": ("validators", "editing", "exchange"),
     "volume": ("repair", "remesh"),
-    "gridding": ("repair", "remesh"),
-    "pipeline": ("formats", "report", "volume", "gridding", "complexity"),
-    "cli": ("pipeline",),
+    "gridding": ("repair",),
+    "hexes": ("volume", "gridding"),
+    "drawing": ("grid", "report"),
+    "pipeline": ("formats", "report", "hexes", "complexity"),
+    "cli": ("pipeline", "drawing"),
 }
 FAMILIES = ("gocad", "vtk", "gmsh", "horizon", "grdecl", "eclipse", "roff", "resqml")
 HIDDEN = re.compile(r"^(vtk\w*\.h|CGAL/.*|tetgen\.h|gmp\w*\.h|mpfr\.h)$")

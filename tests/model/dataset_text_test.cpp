@@ -13,6 +13,8 @@ namespace {
 Dataset example() {
     Dataset d;
     d.annotations.push_back({"gocad.header", "version:1"});
+    d.groups.push_back({{"outer"}, "GOCAD HomogeneousGroup 1\nHEADER {\n}"});
+    d.groups.push_back({{"outer", "inner"}, ""});
     Surface s;
     s.info.name = "H\xe9lice \"1\"";  // Latin-1, with quotes
     s.info.role = FeatureRole::fault;
@@ -37,6 +39,18 @@ Dataset example() {
     s.parts = {{0, 0}, {3, 1}};
     d.objects.emplace_back(s);
     CellMesh m;
+    m.twins = Twins{{7, {{{4, 1}, {5, 0}}, {}}}, {-2, {}}};
+    Attribute corners;
+    corners.name = "porosity";
+    corners.location = AttributeLocation::cell;
+    corners.values = std::vector<double>{};
+    corners.corner_values = CornerValues{2, std::vector<std::int64_t>{7, -9}, true};
+    corners.time = TimeStep{"2020-02-29", 59.5, 3};
+    m.info.attributes.push_back(corners);
+    corners.name = "now";
+    corners.corner_values = CornerValues{};
+    corners.time = TimeStep{};
+    m.info.attributes.push_back(corners);
     m.entities.push_back({3, 7, "Top", FeatureRole::unknown, "", {}, {}, {}});
     m.entities.push_back({2, 7, "H1", FeatureRole::horizon, "top", {}, {}, {}});
     d.objects.emplace_back(m);
@@ -79,7 +93,9 @@ Dataset bare() {
         e.role_text.clear();
     }
     d.models.clear();
+    std::get<CellMesh>(d.objects[1]).twins.reset();
     d.annotations.clear();
+    d.groups.clear();
     return d;
 }
 
@@ -94,7 +110,16 @@ TEST(DatasetText, BringsEverythingBack) {
     EXPECT_EQ(info.name, "H\xe9lice \"1\"");
     EXPECT_EQ(info.crs, info_of(whole.objects[0]).crs);
     EXPECT_EQ(info.attributes[0].no_data, -99999);
-    EXPECT_EQ(std::get<CellMesh>(back.objects[1]).entities[1].name, "H1");
+    const auto& mesh = std::get<CellMesh>(back.objects[1]);
+    EXPECT_EQ(mesh.entities[1].name, "H1");
+    EXPECT_EQ(mesh.twins, std::get<CellMesh>(whole.objects[1]).twins);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(mesh.info.attributes[i].corner_values, info_of(whole.objects[1]).attributes[i].corner_values);
+        EXPECT_EQ(mesh.info.attributes[i].time, info_of(whole.objects[1]).attributes[i].time);
+    }
+    ASSERT_EQ(back.groups.size(), 2u);
+    EXPECT_EQ(back.groups[1].path, (std::vector<std::string>{"outer", "inner"}));
+    EXPECT_EQ(back.groups[0].head, whole.groups[0].head);
     ASSERT_EQ(back.models.size(), 1u);
     EXPECT_EQ(back.models[0].faces[0].key, whole.models[0].faces[0].key);
     EXPECT_FALSE(back.models[0].regions[0].sides[1].front);
@@ -154,6 +179,14 @@ TEST(DatasetText, PassesOverMembersOfTheWrongKind) {
     EXPECT_TRUE(apply_dataset_text(
         R"({"geomend":1,"objects":[{"name":5,"crs":[],"attributes":{"x":1},"groups":"g"},7,8],"models":[3,{"faces":7}]})", d));
     EXPECT_EQ(info_of(d.objects[0]).name, "");
+}
+
+TEST(DatasetText, TwinsThatAreNoneAreNotStated) {
+    for (const char* twins : {"{}", "[7]", "[[1]]", "[[1,2]]", "[[1,[[0]]]]", "[[1,[[0,-1]]]]", "[[1,[3]]]", "[[\"a\",[]]]"}) {
+        Dataset d = bare();
+        EXPECT_TRUE(apply_dataset_text("{\"geomend\":1,\"objects\":[{},{\"twins\":" + std::string(twins) + "}]}", d));
+        EXPECT_FALSE(std::get<CellMesh>(d.objects[1]).twins.has_value()) << twins;
+    }
 }
 
 TEST(DatasetText, LeavesOutModelsWhoseFacesAreNotThere) {

@@ -16,20 +16,20 @@ CellMesh one_cell() {
     return mesh;
 }
 
-void add(CellMesh& mesh, const std::string& name, double value, const char* date, const char* days) {
+void add(CellMesh& mesh, const std::string& name, double value, const char* date, std::optional<double> days) {
     Attribute a;
     a.name = name;
     a.location = AttributeLocation::cell;
     a.values = std::vector<double>{value};
-    if (date != nullptr) a.annotations = {{"time.date", date}, {"time.days", days}};
+    if (date != nullptr) a.time = TimeStep{date, days, {}};
     mesh.info.attributes.push_back(std::move(a));
 }
 
 TEST(Series, has_a_file_per_moment_with_what_holds_then) {
     CellMesh mesh = one_cell();
-    add(mesh, "PORO", 0.2, nullptr, nullptr);
-    add(mesh, "FIP_OIL_20200201", 7, "2020-02-01", "31.5");
-    add(mesh, "FIP_OIL_20200101", 5, "2020-01-01", "0");
+    add(mesh, "PORO", 0.2, nullptr, {});
+    add(mesh, "FIP_OIL_20200201", 7, "2020-02-01", 31.5);
+    add(mesh, "FIP_OIL_20200101", 5, "2020-01-01", 0);
     Dataset dataset;
     dataset.objects.emplace_back(std::move(mesh));
     const TemporaryFolder folder;

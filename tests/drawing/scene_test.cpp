@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/scene.h"
+#include "drawing/scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/scene.h"
+#include "drawing/scene.h"
 
 #include <algorithm>
 
-#include "pipeline/scene_parts.h"
+#include "drawing/parts.h"
 
 namespace geomend {
 

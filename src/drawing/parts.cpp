@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/scene_parts.h"
+#include "drawing/parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+
+#include "model/cell_faces.h"
 
 namespace geomend::scene {
 
@@ -213,27 +215,6 @@ void add_object(const CellMesh& mesh, std::vector<ScenePart>& parts) {
 
 void add_object(const CornerPointGrid& grid, std::vector<ScenePart>& parts) { add_parts(grid, parts); }
 
-// The faces of a prism over a polygon with n corners: bottom, top, sides.
-std::vector<std::vector<std::uint32_t>> prism_faces(std::span<const std::uint32_t> nodes, std::size_t n) {
-    std::vector<std::vector<std::uint32_t>> faces(2);
-    for (std::size_t i = 0; i < n; ++i) {
-        faces[0].push_back(nodes[i]);
-        faces[1].push_back(nodes[n + i]);
-        faces.push_back({nodes[i], nodes[(i + 1) % n], nodes[n + (i + 1) % n], nodes[n + i]});
-    }
-    return faces;
-}
-
-// The faces of a cone over a polygon with n corners.
-std::vector<std::vector<std::uint32_t>> cone_faces(std::span<const std::uint32_t> nodes, std::size_t n) {
-    std::vector<std::vector<std::uint32_t>> faces(1);
-    for (std::size_t i = 0; i < n; ++i) {
-        faces[0].push_back(nodes[i]);
-        faces.push_back({nodes[i], nodes[(i + 1) % n], nodes[n]});
-    }
-    return faces;
-}
-
 }  // namespace
 
 void add_fan(std::span<const std::uint32_t> polygon, std::vector<std::array<std::uint32_t, 3>>& triangles) {
@@ -241,30 +222,19 @@ void add_fan(std::span<const std::uint32_t> polygon, std::vector<std::array<std:
 }
 
 std::vector<std::vector<std::uint32_t>> faces_of_cell(const CellMesh& mesh, std::size_t cell) {
-    const auto nodes = mesh.cell_nodes(cell);
-    switch (linear_type(mesh.types[cell])) {
-        case CellType::tetrahedron:
-            return cone_faces(nodes, 3);
-        case CellType::pyramid:
-            return cone_faces(nodes, 4);
-        case CellType::wedge:
-            return prism_faces(nodes, 3);
-        case CellType::hexahedron:
-            return prism_faces(nodes, 4);
-        case CellType::pentagonal_prism:
-            return prism_faces(nodes, 5);
-        case CellType::hexagonal_prism:
-            return prism_faces(nodes, 6);
-        case CellType::polyhedron: {
-            std::vector<std::vector<std::uint32_t>> faces;
-            for (std::uint64_t f = mesh.cell_faces[cell]; f < mesh.cell_faces[cell + 1]; ++f)
-                faces.emplace_back(mesh.face_nodes.begin() + static_cast<std::ptrdiff_t>(mesh.face_offsets[f]),
-                                   mesh.face_nodes.begin() + static_cast<std::ptrdiff_t>(mesh.face_offsets[f + 1]));
-            return faces;
-        }
-        default:
-            return {};
+    std::vector<std::vector<std::uint32_t>> faces;
+    if (mesh.types[cell] == CellType::polyhedron) {
+        for (std::uint64_t f = mesh.cell_faces[cell]; f < mesh.cell_faces[cell + 1]; ++f)
+            faces.emplace_back(mesh.face_nodes.begin() + static_cast<std::ptrdiff_t>(mesh.face_offsets[f]),
+                               mesh.face_nodes.begin() + static_cast<std::ptrdiff_t>(mesh.face_offsets[f + 1]));
+        return faces;
     }
+    const auto nodes = mesh.cell_nodes(cell);
+    for (const LocalFace& face : faces_of(mesh.types[cell])) {
+        faces.emplace_back();
+        for (const std::uint8_t corner : face.corners()) faces.back().push_back(nodes[corner]);
+    }
+    return faces;
 }
 
 void add_parts(const Object& object, std::vector<ScenePart>& parts) {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/scene.h"
-#include "pipeline/scene_parts.h"
+#include "drawing/parts.h"
+#include "drawing/scene.h"
 
 namespace geomend {
 

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <string>
 
+#include "drawing/parts.h"
 #include "grid/boundary_model.h"
 #include "grid/pillar_nodes.h"
-#include "pipeline/scene_parts.h"
 
 namespace geomend::scene {
 

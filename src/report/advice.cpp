@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "report/advice.h"
+
+#include <algorithm>
+#include <array>
+
+namespace geomend {
+
+namespace {
+
+struct Advice {
+    std::string_view code, text;
+};
+
+// In the order of the catalogue; codes without a row have no advice.
+constexpr std::array advice = {
+    // Boundary representation. B01 to B11 are the validity conditions V1 to V11 of Botella 2016, section 4.3.3.
+    Advice{"B01", "remove the element, or give it the right vertices"},
+    Advice{"B02", "cut the surface where it meets itself, or correct its shape"},
+    Advice{"B03", "split the surface there into surfaces of their own"},
+    Advice{"B04", "make each part a surface of its own, or remove the small ones"},
+    Advice{"B05", "close the holes: see B07, B11, B23"},
+    Advice{"B06", "close the holes: see B07, B11, B23"},
+    Advice{"B07", "join the points at one position"},
+    Advice{"B08", "cut both along the line that the finding shows"},
+    Advice{"B09", "extend it to a surface, or state it as a fault"},
+    Advice{"B10", "correct one of them, or state an unconformity"},
+    Advice{"B11", "insert the vertices of one into the other"},
+    Advice{"B12", "close the hole that the finding shows"},
+    Advice{"B13", "correct the region's list"},
+    Advice{"B14", "correct the regions' lists"},
+    Advice{"B15", "merge the region with a neighbour"},
+    Advice{"B16", "remove it, or close its region"},
+    Advice{"B17", "remove one of the two"},
+    Advice{"B18", "mend the entity that is named"},
+    Advice{"B19", "correct the record, or join the points at one position"},
+    Advice{"B20", "remove one of the two, or cut both along the outline of what they share"},
+    Advice{"B22", "share the point, or move one surface away"},
+    Advice{"B23", "extend the border to the surface; where it ends there on purpose, check again with a --near below the gap"},
+    Advice{"B26", "remove one of the parts"},
+    Advice{"B27", "insert the vertices of the border into the triangles that it ends on"},
+    Advice{"B28", "share the point, or move one of the two parts away"},
+    // Corner-point grids, numbered as in the rules that they come from.
+    Advice{"C01", "correct SPECGRID or the array"},
+    Advice{"C02", "export the grid again, or make the cells inactive"},
+    Advice{"C03", "repair --step monotone"},
+    Advice{"C04", "repair --step close-gaps, with --option gap=L for more than the tolerance"},
+    Advice{"C05", "repair --step drop-collapsed"},
+    Advice{"C07", "repair --step monotone where depths are wrong, else correct COORD or make the cell inactive"},
+    Advice{"C10", "correct COORD"},
+    Advice{"C11", "correct COORD"},
+    Advice{"C12", "correct COORD of the cells listed; where all are left-handed: repair --step handedness"},
+    Advice{"C13", "correct the header"},
+    Advice{"C14", "correct one of them"},
+    Advice{"C15", "correct ACTNUM"},
+    Advice{"C16", "repair --step minpv"},
+    Advice{"C19", "convert --option origin=local writes coordinates from a local origin, with MAPAXES"},
+    Advice{"C20", "correct FAULTS"},
+    Advice{"C21", "repair --step drop-isolated"},
+    Advice{"C24", "correct the array"},
+    Advice{"C25", "state its FAULTS records, or remove it"},
+    Advice{"C26", "keep it in one of them"},
+    Advice{"C27", "correct COORD, or make one of both inactive"},
+    Advice{"C29", "correct NNC"},
+    Advice{"C30", "part their boxes, or join the local grids"},
+    Advice{"C31", "correct DTHETAV"},
+    // Files.
+    Advice{"F001", "check the path and its permissions"},
+    Advice{"F002", "export it again from its source"},
+    Advice{"F003", "name it with --from"},
+    Advice{"F004", "the file was cut short: copy or export it again"},
+    Advice{"F005", "correct the number"},
+    Advice{"F006", "correct or remove the point"},
+    Advice{"F007", "define it or correct the reference"},
+    Advice{"F008", "correct the count"},
+    Advice{"F009", "renumber"},
+    Advice{"F010", "copy it beside the file that names it"},
+    Advice{"F011", "export both again"},
+    Advice{"F012", "correct the record"},
+    Advice{"F013", "export in another variant"},
+    Advice{"F014", "the file is damaged"},
+    Advice{"F015", "compress or copy it again"},
+    Advice{"F016", "use --option crs=ignore if they are known to agree"},
+    Advice{"F017", "check that it is the right file"},
+    Advice{"F018", "see the manual page of the format"},
+    Advice{"F020", "check the folder, its permissions and the free space"},
+    Advice{"F021", "choose another format, or accept the loss with --lossy"},
+    Advice{"F023", "raise the limit"},
+    Advice{"F024", "give them with --option dims=NX,NY,NZ, or read the whole deck"},
+    Advice{"F025", "report it with the file; the other files were checked all the same"},
+    Advice{"F101", "--accept-unterminated, after checking that nothing is missing"},
+    Advice{"F103", "remove the element"},
+    Advice{"F104", "remove one of the two"},
+    Advice{"F106", "state a triangle of the surface as its key, in the sense of the surface"},
+    Advice{"F110", "correct the record, or join the points at one position"},
+    Advice{"F113", "correct what is stated of the entities that the finding names"},
+    Advice{"F114", "turn the order of their nodes"},
+    Advice{"F116", "state a triangle of the surface as its key"},
+    Advice{"F121", "correct or remove the record of the region"},
+    Advice{"F133", "check that both belong together"},
+    Advice{"F141", "give them with --option dims=NX,NY,NZ"},
+    Advice{"F142", "read the whole deck"},
+    Advice{"F143", "copy it beside the deck"},
+    Advice{"F145", "state one for each cell"},
+    Advice{"F146", "write it in upper case"},
+    Advice{"F147", "put it there"},
+    Advice{"F153", "geomend repair --step minpv makes them inactive"},
+    Advice{"F161", "give the file that holds COORD and ZCORN"},
+    // Geology.
+    Advice{"G01", "rename one of them"},
+    Advice{"G02", "correct its list"},
+    Advice{"G04", "correct the horizon that is crossed or folded over"},
+    Advice{"G05", "correct one of them, or state an unconformity that ends the other"},
+    Advice{"G06", "rename one of them"},
+    Advice{"G07", "correct their lists"},
+    // Meshes of surfaces and cells.
+    Advice{"M01", "join them, or check again with a smaller --tolerance"},
+    Advice{"M02", "remove them"},
+    Advice{"M03", "collapse its shortest edge"},
+    Advice{"M04", "remove the repeats"},
+    Advice{"M05", "turn them over"},
+    Advice{"M06", "cut it"},
+    Advice{"M08", "join points at one position"},
+    Advice{"M09", "correct or remove the point"},
+    Advice{"M10", "keep one of each"},
+    Advice{"M11", "remove it"},
+    Advice{"M12", "remove the repeats"},
+    Advice{"M13", "give it a point there, or correct its shape"},
+    Advice{"M15", "give them their heights, or remove them"},
+    Advice{"M20", "turn it over, or remove it"},
+    Advice{"M22", "remove it, or make it a cell of fewer nodes"},
+    Advice{"M24", "mesh both sides anew together"},
+    Advice{"M26", "remove the repeats"},
+    Advice{"M27", "join them, or check again with a smaller --tolerance"},
+    Advice{"M29", "remove one of them, or move them apart"},
+    Advice{"M30", "correct the survey"},
+    Advice{"M31", "remove the repeated stations"},
+    Advice{"M32", "correct its measured depth, or lengthen the path"},
+    Advice{"M33", "correct the survey; depths may be in another unit than positions"},
+    Advice{"M34", "sort its samples"},
+    Advice{"M35", "turn the order of their nodes"},
+    Advice{"M36", "join them by cells, or give each its own nodes"},
+    Advice{"M40", "correct its axes"},
+    Advice{"M42", "remove it, or export it again"},
+    Advice{"M43", "declare the value that stands for missing"},
+    Advice{"M50", "remove it"},
+    // Quality.
+    Advice{"Q03", "flip or collapse the edges there"},
+    // Simulators and meshers (--for).
+    Advice{"S01", "convert it to what the target reads"},
+    Advice{"S02", "mend that finding"},
+    Advice{"S04", "add it to the deck"},
+    Advice{"S05", "correct the values"},
+    Advice{"S06", "rename"},
+    Advice{"S07", "convert with cells split, or mesh anew"},
+    Advice{"S08", "tag them, so that regions can have properties of their own"},
+    Advice{"S10", "add named cells of two dimensions on the outside"},
+};
+
+}  // namespace
+
+std::string_view advice_for(std::string_view code) {
+    const auto row = std::ranges::find(advice, code, &Advice::code);
+    return row == advice.end() ? std::string_view() : row->text;
+}
+
+}  // namespace geomend
