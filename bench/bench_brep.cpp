@@ -5,11 +5,11 @@
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
-#include <charconv>
-#include <ctime>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 
+#include "asked.h"
 #include "base/parallel.h"
 #include "formats/gocad/write_gocad.h"
 #include "model_copies.h"
@@ -20,12 +20,6 @@
 namespace {
 
 using namespace geomend;
-
-double cpu_seconds() {
-    timespec now{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// A file of some copies, on disk until the program ends; empty where there is no real data.
 struct File {
@@ -55,30 +49,12 @@ const File& file_of(std::uint32_t copies) {
     return file;
 }
 
-/// CPU seconds of the least that a reader of a text has to do: turn every number into a value.
+/// Processor seconds of a bare pass.
 double bare_pass(const std::string& path) {
     const auto input = Input::open(path);
-    const std::string_view text = input->bytes();
-    double best = 1e9;
-    for (int round = 0; round < 3; ++round) {
-        const double start = cpu_seconds();
-        const char* p = text.data();
-        const char* const end = p + text.size();
-        double sum = 0;
-        while (p != end) {
-            if ((*p >= '0' && *p <= '9') || *p == '-' || *p == '+') {
-                double value = 0;
-                const auto [stop, error] = std::from_chars(p, end, value);
-                sum += value;
-                p = stop == p ? p + 1 : stop;
-            } else {
-                ++p;
-            }
-        }
-        benchmark::DoNotOptimize(sum);
-        best = std::min(best, cpu_seconds() - start);
-    }
-    return best;
+    bench::Least least;
+    for (int round = 0; round < 3; ++round) least.take([&] { bench::bare_from_chars(input->bytes()); });
+    return least.cpu;
 }
 
 void info(benchmark::State& state) {
@@ -86,15 +62,24 @@ void info(benchmark::State& state) {
     if (file.path.empty()) return state.SkipWithError("no real data");
     const ThreadBudget budget(static_cast<std::size_t>(state.range(1)));
     const double bare = bare_pass(file.path);
-    double best = 1e9;
+    bench::Least least;
     for (auto _ : state) {
-        const double start = cpu_seconds();
-        const auto summary = summarise(file.path, LoadOptions{});
-        best = std::min(best, cpu_seconds() - start);
-        if (summary.breps.size() != 1) state.SkipWithError("no boundary representation");
+        least.take([&] {
+            if (summarise(file.path, LoadOptions{}).breps.size() != 1) state.SkipWithError("no boundary representation");
+        });
     }
-    state.counters["ratio"] = best / bare;
-    state.counters["ns_per_triangle"] = 1e9 * best / static_cast<double>(file.triangles);
+    state.counters["ratio"] = least.cpu / bare;
+    state.counters["ns_per_triangle"] = 1e9 * least.cpu / static_cast<double>(file.triangles);
+}
+
+void print_asked() {
+    const File& file = file_of(16);
+    if (file.path.empty()) return static_cast<void>(std::printf("info on 16 copies of a model: no real data\n"));
+    const ThreadBudget one_thread(1);
+    const auto input = Input::open(file.path);
+    bench::compare(
+        "info on 16 copies of a model, one thread", 4.5, [&] { benchmark::DoNotOptimize(summarise(file.path, LoadOptions{})); },
+        "bare from_chars", [&] { bench::bare_from_chars(input->bytes()); });
 }
 
 }  // namespace
@@ -109,4 +94,4 @@ BENCHMARK(info)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) { bench::run(argc, argv, print_asked); }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "asked.h"
 #include "base/parallel.h"
 #include "formats/gocad/write_gocad.h"
 #include "model_copies.h"
@@ -51,10 +52,9 @@ void all_checks(benchmark::State& state) {
 }
 
 #ifdef GEOMEND_WITH_CGAL
-void cgal_self_intersections(benchmark::State& state) {
-    const std::string& path = model_file();
-    if (path.empty()) return state.SkipWithError("no real data");
-    const auto data = load(path, {});
+/// The triangles of the file as CGAL has them.
+bench::CgalMesh cgal_mesh() {
+    const auto data = load(model_file(), {});
     const auto models = topology::models_to_judge(*data, 0);
     const BrepData& brep = *models->front().brep;
     std::vector<Triangle> triangles;
@@ -64,12 +64,31 @@ void cgal_self_intersections(benchmark::State& state) {
             triangles.push_back({surface.nodes[t[0]].value, surface.nodes[t[1]].value, surface.nodes[t[2]].value});
         }
     }
-    const bench::CgalMesh mesh(brep.vertices, triangles);
+    return bench::CgalMesh(brep.vertices, triangles);
+}
+
+void cgal_self_intersections(benchmark::State& state) {
+    if (model_file().empty()) return state.SkipWithError("no real data");
+    const bench::CgalMesh mesh = cgal_mesh();
     std::size_t pairs = 0;
     for (auto _ : state) pairs = mesh.self_intersections().size();
     state.counters["pairs"] = static_cast<double>(pairs);
 }
 #endif
+
+void print_asked() {
+    if (model_file().empty()) return static_cast<void>(std::printf("all checks on 16 copies of a model: no real data\n"));
+#ifdef GEOMEND_WITH_CGAL
+    const ThreadBudget one_thread(1);
+    const bench::CgalMesh mesh = cgal_mesh();
+    bench::compare(
+        "all checks on 16 copies, reading included", 0.5,
+        [] { benchmark::DoNotOptimize(validate(model_file(), LoadOptions{}, validators::CheckOptions{})); },
+        "CGAL's self_intersections, one thread", [&] { benchmark::DoNotOptimize(mesh.self_intersections()); }, 2);
+#else
+    std::printf("all checks on 16 copies of a model: CGAL is not installed\n");
+#endif
+}
 
 }  // namespace
 
@@ -79,8 +98,7 @@ BENCHMARK(cgal_self_intersections)->Unit(benchmark::kMillisecond)->UseRealTime()
 #endif
 
 int main(int argc, char** argv) {
-    benchmark::Initialize(&argc, argv);
-    benchmark::RunSpecifiedBenchmarks();
+    bench::run(argc, argv, print_asked);
     if (!model_file().empty()) std::filesystem::remove(model_file());
     return 0;
 }

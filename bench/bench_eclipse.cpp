@@ -10,9 +10,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "asked.h"
 #include "base/parallel.h"
 #include "formats/eclipse/read_egrid.h"
 #include "formats/eclipse/write_eclipse.h"
@@ -77,20 +79,26 @@ double status_bytes(const std::string& key) {
     return 1024 * value;
 }
 
-// What a copying program does: read a block, write a block.
-void plain_copy(benchmark::State& state) {
+// What a copying program does: read a block, write a block, to the end of the file. Through memory the block is the file.
+bool copy_file(std::size_t block_size) {
     const std::filesystem::path to = path().string() + ".copy";
-    std::vector<char> block(std::size_t{1} << 18);
-    for (auto _ : state) {
-        const int in = ::open(path().c_str(), O_RDONLY), out = ::open(to.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        ssize_t n = 0;
-        while ((n = ::read(in, block.data(), block.size())) > 0) {
-            if (::write(out, block.data(), static_cast<std::size_t>(n)) != n) state.SkipWithError("cannot write");
-        }
-        ::close(in);
-        ::close(out);
-    }
+    const std::unique_ptr<char[]> block(new char[block_size]);  // not touched before it is read into
+    const int in = ::open(path().c_str(), O_RDONLY), out = ::open(to.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ssize_t n = 0;
+    bool good = in >= 0 && out >= 0;
+    while (good && (n = ::read(in, block.get(), block_size)) > 0) good = ::write(out, block.get(), static_cast<std::size_t>(n)) == n;
+    ::close(in);
+    ::close(out);
     std::filesystem::remove(to);
+    return good && n == 0;
+}
+
+constexpr std::size_t small_block = std::size_t{1} << 18;
+
+void plain_copy(benchmark::State& state) {
+    for (auto _ : state) {
+        if (!copy_file(small_block)) state.SkipWithError("cannot copy");
+    }
     state.SetBytesProcessed(state.iterations() * file_size());
 }
 
@@ -130,16 +138,34 @@ BENCHMARK(plain_copy)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->U
 BENCHMARK(read_whole)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(write_whole)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
+void print_asked() {
+    const auto read = [] { benchmark::DoNotOptimize(eclipse::read_egrid(*Input::open(path().string()), {})); };
+    bench::Least reading, writing, by_blocks, through_memory;
+    const auto data = eclipse::read_egrid(*Input::open(path().string()), {});
+    for (int round = 0; round < 7; ++round) {
+        by_blocks.take([] { copy_file(small_block); });
+        reading.take(read);
+        through_memory.take([] { copy_file(static_cast<std::size_t>(file_size())); });
+        writing.take([&] {
+            OutputSet out(path().string() + ".written");
+            benchmark::DoNotOptimize(eclipse::write_egrid(*data, out, {}));
+        });
+    }
+    bench::print_ratio("a whole EGRID is read", 2.0, reading, "copy through memory", through_memory);
+    bench::print_ratio("a whole EGRID is read", 2.0, reading, "copy by blocks of 256 KiB", by_blocks);
+    bench::print_ratio("a whole EGRID is written", 2.0, writing, "copy through memory", through_memory);
+    bench::print_ratio("a whole EGRID is written", 2.0, writing, "copy by blocks of 256 KiB", by_blocks);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    benchmark::Initialize(&argc, argv);
     {
         Dataset data;
         data.objects.emplace_back(faulted());
         OutputSet out(path());
         if (!eclipse::write_egrid(data, out, {}) || !out.commit()) return 1;
     }
-    benchmark::RunSpecifiedBenchmarks();
+    bench::run(argc, argv, print_asked);
     std::filesystem::remove(path());
 }

@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "asked.h"
+#include "base/parallel.h"
 #include "formats/gocad/read_gocad.h"
 #include "formats/gocad/write_gocad.h"
 #include "gocad_texts.h"
@@ -43,26 +45,10 @@ void report_bytes(benchmark::State& state, std::size_t bytes) {
     state.counters["MB"] = static_cast<double>(bytes) / 1e6;
 }
 
-// The least that a reader of a text has to do: turn every number into a value.
 void bare_from_chars(benchmark::State& state, const File& (*file)()) {
     const auto input = Input::open(file().path);
     const std::string_view text = input->bytes();
-    for (auto _ : state) {
-        const char* p = text.data();
-        const char* const end = p + text.size();
-        double sum = 0;
-        while (p != end) {
-            if ((*p >= '0' && *p <= '9') || *p == '-' || *p == '+') {
-                double value = 0;
-                const auto [stop, error] = std::from_chars(p, end, value);
-                sum += value;
-                p = stop == p ? p + 1 : stop;
-            } else {
-                ++p;
-            }
-        }
-        benchmark::DoNotOptimize(sum);
-    }
+    for (auto _ : state) bench::bare_from_chars(text);
     report_bytes(state, text.size());
 }
 
@@ -127,11 +113,23 @@ BENCHMARK_CAPTURE(read, solid, solid)->Unit(benchmark::kMillisecond)->MeasurePro
 BENCHMARK(bare_to_chars)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(write_model)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
+void print_reading(const char* what, double asked, const File& file) {
+    const ThreadBudget one_thread(1);
+    const auto input = Input::open(file.path);
+    bench::compare(
+        what, asked, [&] { benchmark::DoNotOptimize(gocad::read_gocad(*input, {})); }, "bare from_chars",
+        [&] { bench::bare_from_chars(input->bytes()); });
+}
+
+void print_asked() {
+    print_reading("a TSolid is read", 2.0, solid());
+    print_reading("a Model3d is read", 2.0, model());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc == 3 && std::strcmp(argv[1], "--peak") == 0)
         return bench::print_peak(argv[2], [](const Input& input) { return gocad::read_gocad(input, {}); });
-    benchmark::Initialize(&argc, argv);
-    benchmark::RunSpecifiedBenchmarks();
+    bench::run(argc, argv, print_asked);
 }

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 
+#include "asked.h"
 #include "base/parallel.h"
 #include "formats/grdecl/grdecl.h"
 
@@ -102,19 +103,7 @@ void report(benchmark::State& state) {
 // What any reader must do at least: turn every number of the text into a double, on one thread.
 void bare_from_chars(benchmark::State& state) {
     const std::string_view bytes = file().input.bytes();
-    for (auto _ : state) {
-        double sum = 0;
-        const char* p = bytes.data();
-        const char* end = p + bytes.size();
-        while (p != end) {
-            double value = 0;
-            const auto [stop, error] = std::from_chars(p, end, value);
-            sum += value;
-            p = error == std::errc{} ? stop : p + 1;
-            while (p != end && (*p == ' ' || *p == '\n')) ++p;
-        }
-        benchmark::DoNotOptimize(sum);
-    }
+    for (auto _ : state) bench::bare_from_chars(bytes);
     report(state);
 }
 
@@ -144,6 +133,13 @@ BENCHMARK(bare_from_chars)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime
 BENCHMARK(read)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(write)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
+void print_asked() {
+    const ThreadBudget one_thread(1);
+    bench::compare(
+        "a GRDECL grid is read", 2.0, [] { benchmark::DoNotOptimize(row().read(file().input, {})); }, "bare from_chars",
+        [] { bench::bare_from_chars(file().input.bytes()); });
+}
+
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) { bench::run(argc, argv, print_asked); }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "asked.h"
 #include "grid/cell_geometry.h"
 #include "grid/cell_mesh.h"
 #include "grid/connections.h"
@@ -118,6 +119,29 @@ void polyhedra(benchmark::State& state) {
 }
 BENCHMARK(polyhedra)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
+double peak_megabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024;
+}
+
+// First the polyhedra, so that the peak is theirs.
+void print_asked() {
+    bench::Least polyhedra, transmissibilities;
+    for (int round = 0; round < 2; ++round) {
+        CornerPointGrid grid = make_grid(false);
+        polyhedra.take([&] { benchmark::DoNotOptimize(grid::take_conforming_cells(grid)); });
+    }
+    bench::print_figure("10 M cells: conforming polyhedra", 12, polyhedra.cpu, "s of processor");
+    bench::print_figure("10 M cells: conforming polyhedra", 12, polyhedra.wall, "s on the wall");
+    bench::print_figure("10 M cells: peak of conforming polyhedra", 3, peak_megabytes() / 1000, "GB, the grid included");
+    const grid::Connections found = grid::connections(faulted());
+    for (int round = 0; round < 5; ++round)
+        transmissibilities.take([&] { benchmark::DoNotOptimize(grid::transmissibilities(faulted(), found)); });
+    bench::print_figure("10 M cells: transmissibilities", 2, transmissibilities.cpu, "s of processor");
+    bench::print_figure("10 M cells: transmissibilities", 2, transmissibilities.wall, "s on the wall");
+}
+
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) { bench::run(argc, argv, print_asked); }

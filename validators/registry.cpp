@@ -6,6 +6,7 @@
 
 #include "topology/flat_objects.h"
 #include "validators/cell_checks.h"
+#include "validators/closing_tolerance.h"
 #include "validators/corner_point.h"
 #include "validators/grid_model.h"
 #include "validators/model_checks.h"
@@ -270,7 +271,14 @@ Result<void> check_flat_parts(const CellMesh& mesh, const CheckOptions& options,
 
 }  // namespace
 
-Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged) {
+namespace {
+
+bool is_error(const Finding& finding) { return finding.severity == Severity::error; }
+
+/// As check_models().
+/// \param borders where not null: the points on lines of models with errors are added to it
+Result<Checked> judge_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged,
+                             std::vector<BorderPoints>* borders) {
     Checked result;
     if (auto huge = huge_coordinates(dataset); !huge.empty()) {
         result.findings = std::move(huge);
@@ -287,6 +295,8 @@ Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options
         run_all(scope, options, &Check::model, findings);
         std::erase_if(findings, [&](const Finding& f) { return skipped(options, f.code); });
         if (wanted(options, "B18")) spread_errors(scope, findings);
+        const bool wrong = std::ranges::any_of(findings, is_error) || std::ranges::any_of(model.findings, is_error);
+        if (borders != nullptr && wrong) borders->push_back(border_points(scope));
         std::ranges::move(model.findings, std::back_inserter(result.findings));
         std::ranges::move(findings, std::back_inserter(result.findings));
         if (scope.stopped()) return stopped();
@@ -304,6 +314,36 @@ Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options
         if (scope.stopped()) return stopped();
     }
     std::erase_if(result.findings, [&](const Finding& f) { return !wanted(options, f.code); });
+    return result;
+}
+
+/// The options by which errors at another tolerance are counted: no other findings than errors are looked for, nobody watches.
+CheckOptions for_errors_at(double tolerance, CheckOptions options, const Monitor* quiet) {
+    options.tolerance = tolerance;
+    options.near = 2 * tolerance;  // of near misses what is within the tolerance is an error
+    for (const char* code : {"Q*", "B15", "B16", "B25", "M02", "M07"}) options.skip.emplace_back(code);
+    options.monitor = quiet;
+    return options;
+}
+
+}  // namespace
+
+Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged) {
+    std::vector<BorderPoints> borders;
+    auto result = judge_models(dataset, options, judged, &borders);
+    if (!result || borders.empty()) return result;
+    const auto count = [](const Checked& checked) { return static_cast<std::uint64_t>(std::ranges::count_if(checked.findings, is_error)); };
+    const std::uint64_t errors = count(*result);
+    if (errors == 0) return result;
+    Monitor quiet;
+    if (options.monitor != nullptr) quiet.stop = options.monitor->stop;
+    auto closing = closing_tolerance(tolerances_to_try(borders), errors, [&](double tolerance) -> Result<std::uint64_t> {
+        const auto checked = judge_models(dataset, for_errors_at(tolerance, options, &quiet), nullptr, nullptr);
+        if (!checked) return checked.why();
+        return count(*checked);
+    });
+    if (!closing) return std::move(closing).why();
+    result->closing = *closing;
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/big_array.h"
+#include "base/fetch_pages.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "formats/eclipse/arrays.h"
@@ -52,36 +53,47 @@ struct AsLogical {
     static std::uint8_t at(const char* p) { return word_at(p) != 0 ? 1 : 0; }
 };
 
-/// Calls body(first value, number of values, bytes) for the records of an array, in parallel, after a look at the
+/// Calls body(first value, number of values, bytes) for the records of an array in their order, after a look at the
 /// lengths on both sides of each.
 template <class Body>
 Result<void> for_each_record(const ArrayFile& file, const Array& array, const Body& body) {
-    if (array.count == 0 || array.block == 0) return {};
+    if (array.block == 0) return {};
     const char* bytes = file.input.bytes().data();
-    const std::uint64_t stride = array.block * array.element_size + 8;
-    const std::uint64_t records = (array.count - 1) / array.block + 1;
-    const std::size_t grain = std::max<std::size_t>(1, (std::size_t{1} << 18) / stride);
-    FirstWrong wrong;
-    parallel_blocks(records, grain, [&](std::size_t from, std::size_t to) {
-        for (std::size_t r = from; r != to; ++r) {
-            const std::uint64_t first = r * array.block, count = std::min(array.block, array.count - first);
-            const std::uint64_t at = array.data + r * stride, length = count * array.element_size;
-            if (word_at(bytes + at) != length) return wrong.tell(at);
-            if (word_at(bytes + at + 4 + length) != length) return wrong.tell(at + 4 + length);
-            body(first, count, bytes + at + 4);
+    std::uint64_t at = array.data;
+    for (std::uint64_t first = 0; first < array.count; first += array.block) {
+        const std::uint64_t count = std::min(array.block, array.count - first), length = count * array.element_size;
+        for (const std::uint64_t place : {at, at + 4 + length}) {
+            if (word_at(bytes + place) == length) continue;
+            return unreadable("F012", place_at(file, place),
+                              "expected the length of a record of '" + array.name + "', found " +
+                                  std::to_string(static_cast<std::int32_t>(word_at(bytes + place))));
         }
-    });
-    if (!wrong.any()) return {};
-    return unreadable("F012", place_at(file, wrong.at),
-                      "expected the length of a record of '" + array.name + "', found " +
-                          std::to_string(static_cast<std::int32_t>(word_at(bytes + wrong.at))));
+        body(first, count, bytes + at + 4);
+        at += length + 8;
+    }
+    return {};
 }
 
-template <class Stored, class T>
-Result<void> read_binary(const ArrayFile& file, const Array& array, T* out) {
+/// Values of a binary array from its front to its back, on one thread: to fetch memory costs most of it, and least where
+/// it is filled while it is still in the cache. convert(to, count, bytes) sets the values of a record.
+template <class T, class Convert>
+Result<void> read_records(const ArrayFile& file, const Array& array, std::vector<T>& values, const Convert& convert) {
+    constexpr std::uint64_t piece = (std::uint64_t{1} << 18) / sizeof(T);
+    values.reserve(array.count);
     return for_each_record(file, array, [&](std::uint64_t first, std::uint64_t count, const char* p) {
-        T* to = out + first;
-        for (std::uint64_t i = 0; i != count; ++i) to[i] = static_cast<T>(Stored::at(p + i * Stored::size));
+        if (first + count > values.size()) {
+            const std::uint64_t end = std::min(array.count, std::max(first + count, values.size() + piece));
+            fetch_pages(values, values.size(), end - values.size());
+            values.resize(end);
+        }
+        convert(values.data() + first, count, p);
+    });
+}
+
+template <class Stored>
+Result<void> read_binary(const ArrayFile& file, const Array& array, std::vector<typename Stored::type>& values) {
+    return read_records(file, array, values, [](typename Stored::type* to, std::uint64_t count, const char* p) {
+        for (std::uint64_t i = 0; i != count; ++i) to[i] = Stored::at(p + i * Stored::size);
     });
 }
 
@@ -172,12 +184,12 @@ Result<void> read_text(const ArrayFile& file, const Array& array, T* out, const 
 }
 
 template <class Stored, class T>
-Result<void> read_into(const ArrayFile& file, const Array& array, T* out) {
-    if (!file.formatted) return read_binary<Stored>(file, array, out);
+Result<void> read_formatted(const ArrayFile& file, const Array& array, std::vector<T>& values) {
+    make_big(values, array.count);
     if constexpr (std::is_same_v<Stored, AsLogical>) {
-        return read_text(file, array, out, logical_of);
+        return read_text(file, array, values.data(), logical_of);
     } else {
-        return read_text(file, array, out, [](std::string_view token, T& value) {
+        return read_text(file, array, values.data(), [](std::string_view token, T& value) {
             typename Stored::type stored{};
             if (!number_of(token, stored)) return false;
             value = static_cast<T>(stored);
@@ -194,8 +206,8 @@ Failure wrong_type(const ArrayFile& file, const Array& array, const char* expect
 template <class Stored>
 Result<std::vector<typename Stored::type>> read_all(const ArrayFile& file, const Array& array) {
     std::vector<typename Stored::type> values;
-    make_big(values, array.count);
-    if (auto done = read_into<Stored>(file, array, values.data()); !done) return done.why();
+    const auto done = file.formatted ? read_formatted<Stored>(file, array, values) : read_binary<Stored>(file, array, values);
+    if (!done) return done.why();
     return values;
 }
 
@@ -228,29 +240,27 @@ struct Exponent<AsDouble> {
 /// Values as doubles; the first that is not finite is a failure.
 template <class Stored>
 Result<void> read_finite(const ArrayFile& file, const Array& array, std::vector<double>& values) {
-    FirstWrong wrong;
+    const double* special = nullptr;  // not after the first value that is not finite
     if (file.formatted) {
-        if (auto done = read_into<Stored>(file, array, values.data()); !done) return done;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            if (!std::isfinite(values[i])) return not_finite(file, array, i, values[i]);
-        }
-        return {};
+        if (auto done = read_formatted<Stored>(file, array, values); !done) return done;
+        special = values.data();
+    } else {
+        const auto done = read_records(file, array, values, [&](double* to, std::uint64_t count, const char* p) {
+            constexpr auto mask = Exponent<Stored>::mask;
+            bool any = false;
+            for (std::uint64_t i = 0; i != count; ++i) {
+                const auto word = Exponent<Stored>::word(p + i * Stored::size);
+                any |= (word & mask) == mask;
+                to[i] = static_cast<double>(std::bit_cast<typename Stored::type>(word));
+            }
+            if (any && special == nullptr) special = to;
+        });
+        if (!done) return done;
+        if (special == nullptr) return {};
     }
-    const auto done = for_each_record(file, array, [&](std::uint64_t first, std::uint64_t count, const char* p) {
-        constexpr auto mask = Exponent<Stored>::mask;
-        double* to = values.data() + first;
-        bool special = false;
-        for (std::uint64_t i = 0; i != count; ++i) {
-            const auto word = Exponent<Stored>::word(p + i * Stored::size);
-            special |= (word & mask) == mask;
-            to[i] = static_cast<double>(std::bit_cast<typename Stored::type>(word));
-        }
-        for (std::uint64_t i = 0; special && i != count; ++i) {
-            if (!std::isfinite(to[i])) return wrong.tell(first + i);
-        }
-    });
-    if (!done) return done;
-    if (wrong.any()) return not_finite(file, array, wrong.at, values[wrong.at]);
+    for (auto i = static_cast<std::size_t>(special - values.data()); i < values.size(); ++i) {
+        if (!std::isfinite(values[i])) return not_finite(file, array, i, values[i]);
+    }
     return {};
 }
 
@@ -259,6 +269,29 @@ Result<void> read_finite(const ArrayFile& file, const Array& array, std::vector<
 Result<std::vector<std::int32_t>> integers(const ArrayFile& file, const Array& array) {
     if (array.type != ArrayType::integer) return wrong_type(file, array, "integers");
     return read_all<AsInteger>(file, array);
+}
+
+Result<std::vector<std::uint8_t>> flags(const ArrayFile& file, const Array& array) {
+    if (!file.formatted && array.type == ArrayType::integer) {
+        std::vector<std::uint8_t> values;
+        std::uint32_t bits = 0;
+        const auto done = read_records(file, array, values, [&](std::uint8_t* to, std::uint64_t count, const char* p) {
+            for (std::uint64_t i = 0; i != count; ++i) {
+                const std::uint32_t word = word_at(p + i * AsInteger::size);
+                bits |= word;
+                to[i] = static_cast<std::uint8_t>(word);
+            }
+        });
+        if (!done) return done.why();
+        if (bits <= 255) return values;
+    }
+    const auto all = integers(file, array);
+    if (!all) return all.why();
+    const auto wrong = std::ranges::find_if(*all, [](std::int32_t v) { return v < 0 || v > 255; });
+    if (wrong == all->end()) return std::vector<std::uint8_t>(all->begin(), all->end());
+    return unreadable("F012", place_of(file, array),
+                      "expected values of " + array.name + " from 0 to 3, found " + std::to_string(*wrong) + " as value " +
+                          std::to_string(wrong - all->begin() + 1));
 }
 
 Result<std::vector<float>> floats(const ArrayFile& file, const Array& array) {
@@ -279,7 +312,6 @@ Result<std::vector<std::uint8_t>> logicals(const ArrayFile& file, const Array& a
 Result<std::vector<double>> reals(const ArrayFile& file, const Array& array) {
     if (array.type != ArrayType::real && array.type != ArrayType::real_double) return wrong_type(file, array, "reals");
     std::vector<double> values;
-    make_big(values, array.count);
     const auto done =
         array.type == ArrayType::real ? read_finite<AsFloat>(file, array, values) : read_finite<AsDouble>(file, array, values);
     if (!done) return done.why();

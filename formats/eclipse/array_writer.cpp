@@ -13,7 +13,7 @@ namespace geomend::eclipse {
 namespace {
 
 constexpr std::uint64_t numbers_per_record = 1000, texts_per_record = 105;
-constexpr std::uint64_t records_at_once = 256;
+constexpr std::uint64_t records_at_once = 64;
 constexpr std::uint64_t long_count = std::uint64_t{1} << 31;
 
 void put_binary(char* p, std::int32_t value) { put_word(p, static_cast<std::uint32_t>(value)); }

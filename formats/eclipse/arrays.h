@@ -54,12 +54,14 @@ Location place_at(const ArrayFile& file, std::uint64_t offset);
 // Errors: F004, F005, F008, F012 with the place; F006 where reals() finds a value that is not finite.
 
 Result<std::vector<std::int32_t>> integers(const ArrayFile& file, const Array& array);
+/// Integers of a byte each (ACTNUM). F012 where one is not from 0 to 255.
+Result<std::vector<std::uint8_t>> flags(const ArrayFile& file, const Array& array);
 Result<std::vector<float>> floats(const ArrayFile& file, const Array& array);
 Result<std::vector<double>> doubles(const ArrayFile& file, const Array& array);
 Result<std::vector<std::uint8_t>> logicals(const ArrayFile& file, const Array& array);
 /// Without trailing blanks.
 Result<std::vector<std::string>> texts(const ArrayFile& file, const Array& array);
-/// REAL or DOUB as doubles: coordinates, which have to be finite. Parallel.
+/// REAL or DOUB as doubles: coordinates, which have to be finite.
 Result<std::vector<double>> reals(const ArrayFile& file, const Array& array);
 
 /// How sure it is that bytes are such a file, and the name of its first array.

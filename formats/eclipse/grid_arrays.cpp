@@ -19,15 +19,9 @@ std::string dims_text(const CornerPointGrid& grid) {
 }
 
 Result<void> take_activity(const ArrayFile& file, const Array& array, GridParts& parts) {
-    const auto values = integers(file, array);
+    auto values = flags(file, array);
     if (!values) return values.why();
-    const auto wrong = std::ranges::find_if(*values, [](std::int32_t v) { return v < 0 || v > 255; });
-    if (wrong != values->end()) {
-        return unreadable("F012", place_of(file, array),
-                          "expected values of ACTNUM from 0 to 3, found " + std::to_string(*wrong) + " as value " +
-                              std::to_string(wrong - values->begin() + 1));
-    }
-    parts.grid.activity.assign(values->begin(), values->end());
+    parts.grid.activity = std::move(*values);
     parts.activity = &array;
     return {};
 }

@@ -67,8 +67,20 @@ ArrayWriting::ArrayWriting(const ObjectInfo& info, const std::array<std::uint32_
         else if (std::holds_alternative<std::vector<std::string>>(a.values)) lose("Gocad properties are numbers, not text");
         else if (is_flags(a)) (a.name == "gocad_region_flags" ? region_flags : flags) = &a;
         else if (a.components != 1 && storage_of_attribute(a) != ArrayStorage::rgba) lose("a property of a grid has one value per sample");
-        else attributes.push_back(&a);
+        else attributes.push_back(a.name.empty() ? with_name(a) : &a);
     }
+}
+
+// A record without a name cannot be read.
+const Attribute* ArrayWriting::with_name(const Attribute& a) {
+    Attribute& copy = named_.emplace_back(a);
+    const auto is_taken = [&](const Attribute& other) { return &other != &copy && other.name == copy.name; };
+    copy.name = "unnamed";
+    for (int n = 2; std::ranges::any_of(info_.attributes, is_taken) || std::ranges::any_of(named_, is_taken); ++n)
+        copy.name = "unnamed_" + std::to_string(n);
+    add_loss(to_.losses, {LossClass::identity, info_.name, "that a property has no name: it is '" + copy.name + "'",
+                          "a property of a grid has to have one"});
+    return &copy;
 }
 
 Result<void> ArrayWriting::prepare(bool needs_files) {

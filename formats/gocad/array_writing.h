@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ public:
     const Attribute* region_flags = nullptr;   ///< "gocad_region_flags"
 
 private:
+    const Attribute* with_name(const Attribute& a);
     void write_records(const Attribute& a, std::size_t number, const std::string& file);
 
     const ObjectInfo& info_;
@@ -41,6 +43,7 @@ private:
     GocadOutput& to_;
     bool ascii_ = false;
     std::vector<std::string> used_names_;
+    std::deque<Attribute> named_;  // copies of those that have no name of their own
 };
 
 /// What goes into the object's head: `info` without attributes and sets, and with the header key `ascii` as it now is.

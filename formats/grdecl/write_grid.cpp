@@ -67,10 +67,19 @@ void put_cell(OutputFile& out, const CornerPointGrid& grid, std::uint64_t cell) 
     }
 }
 
-void write_connections(const CornerPointGrid& grid, OutputFile& out) {
-    if (grid.connections.empty()) return;
+void write_connections(const CornerPointGrid& grid, DeckOutput& to) {
+    OutputFile& out = to.main;
+    const std::uint64_t cells = grid.cell_count() * (is_dual(grid) ? 2 : 1);
+    const auto has_place = [&](const CornerPointGrid::Connection& c) { return c.first < cells && c.second < cells; };
+    const auto kept = std::ranges::count_if(grid.connections, has_place);
+    const std::uint64_t lost = grid.connections.size() - static_cast<std::uint64_t>(kept);
+    if (lost != 0)
+        to.losses.push_back({LossClass::substance, grid.info.name, "connections of cells of the fracture",
+                             "the layers of a local grid are those of the matrix", lost});
+    if (kept == 0) return;
     out << "NNC\n";
     for (const auto& c : grid.connections) {
+        if (!has_place(c)) continue;
         put_cell(out, grid, c.first);
         put_cell(out, grid, c.second);
         if (c.transmissibility) {
@@ -197,7 +206,7 @@ void write_faults_and_connections(const CornerPointGrid& grid, DeckOutput& to) {
     }
     write_faults(grid, to.main);
     write_pinch(grid, to.main);
-    write_connections(grid, to.main);
+    write_connections(grid, to);
     write_region_multipliers(grid, to.main);
     for (const auto& link : grid.links) {
         to.losses.push_back({LossClass::substance, grid.info.name, "connections with grid '" + link.grid + "'",

@@ -6,6 +6,7 @@
 
 #include "formats/vtk/vtk_merge.h"
 #include "formats/vtk/vtk_model_parts.h"
+#include "formats/vtk/xml_names.h"
 #include "formats/vtk/xml_read.h"
 #include "model/attribute_names.h"
 #include "model/dataset_text.h"
@@ -296,25 +297,25 @@ bool has_cells(const BrepData& brep) {
     return std::ranges::any_of(brep.regions, [](const BrepData::Region& r) { return !r.cell_types.empty(); });
 }
 
-/// The B-Rep with attributes of different names, where they are not different already. Parts of one interface, which have
+/// The B-Rep with attributes of names that XML can hold and that differ, where they are not so already. Parts of one interface, which have
 /// the same attributes, get the same names, so that they fit together again.
-std::optional<BrepData> with_different_names(const BrepData& brep) {
+std::optional<BrepData> with_xml_names(const BrepData& brep) {
     const auto lists = [](auto& b) {
         std::vector<decltype(&b.vertex_attributes)> all{&b.vertex_attributes};
         for (auto& s : b.surfaces) all.push_back(&s.attributes);
         for (auto& r : b.regions) all.push_back(&r.attributes);
         return all;
     };
-    if (std::ranges::none_of(lists(brep), [](const auto* list) { return has_equal_names(*list); })) return {};
+    if (std::ranges::all_of(lists(brep), [](const auto* list) { return has_xml_names(*list); })) return {};
     BrepData copy = brep;
-    for (std::vector<Attribute>* list : lists(copy)) make_names_differ(*list);
+    for (std::vector<Attribute>* list : lists(copy)) make_xml_names(*list);
     return copy;
 }
 
 }  // namespace
 
 ModelBlocks blocks_of_brep(const BrepData& given) {
-    const auto renamed = with_different_names(given);
+    const auto renamed = with_xml_names(given);
     const BrepData& brep = renamed ? *renamed : given;
     ModelBlocks all;
     all.blocks = BlockMaker(brep).run();

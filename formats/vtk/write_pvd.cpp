@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <map>
 
+#include "base/xml_text.h"
+#include "formats/vtk/xml_names.h"
 #include "formats/vtk/xml_write.h"
 
 namespace geomend::vtk {
@@ -66,7 +68,7 @@ Result<std::vector<Loss>> write_pvd(const Dataset& dataset, OutputSet& out, cons
     }
     if (moments.empty()) moments[{}] = 0;
     std::vector<Loss> losses;
-    const std::string stem = out.stem();
+    const std::string stem = xml_name(out.stem());
     OutputFile& index = out.main_file();
     index << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
     std::size_t step = 0;
@@ -82,7 +84,7 @@ Result<std::vector<Loss>> write_pvd(const Dataset& dataset, OutputSet& out, cons
             companion.close();
             index << "<DataSet timestep=\"";
             index.number(moment.time);
-            index << "\" group=\"\" part=\"" << std::to_string(part) << "\" file=\"" << name << "\"/>\n";
+            index << "\" group=\"\" part=\"" << std::to_string(part) << "\" file=\"" << xml_attribute(name) << "\"/>\n";
         }
         ++step;
     }

@@ -48,6 +48,7 @@
 
 #include "base/number_text.h"
 #include "formats/vtk/vtk_structure.h"
+#include "formats/vtk/xml_names.h"
 
 namespace geomend::vtk {
 
@@ -129,7 +130,7 @@ void add_attribute(vtkDataObject& object, vtkPointData& point_data, vtkCellData&
         array = in_place<vtkIdTypeArray>(*values, components);
     array->SetName(a.name.c_str());
     for (std::size_t i = 0; i < a.component_names.size() && a.location != AttributeLocation::object; ++i)
-        array->SetComponentName(static_cast<vtkIdType>(i), a.component_names[i].c_str());
+        array->SetComponentName(static_cast<vtkIdType>(i), xml_name(a.component_names[i]).c_str());
     vtkDataSetAttributes* data = a.location == AttributeLocation::point  ? static_cast<vtkDataSetAttributes*>(&point_data)
                                  : a.location == AttributeLocation::cell ? static_cast<vtkDataSetAttributes*>(&cell_data)
                                                                          : nullptr;

@@ -5,7 +5,7 @@
 
 #include "formats/vtk/vtk_merge.h"
 #include "formats/vtk/vtk_structure.h"
-#include "model/attribute_names.h"
+#include "formats/vtk/xml_names.h"
 #include "model/dataset_text.h"
 
 namespace geomend::vtk {
@@ -133,7 +133,7 @@ CellObjects cell_objects(const Dataset& dataset, bool volumes) {
 }
 
 Result<Losses> write_cells(const Dataset& dataset, OutputSet& out, const WriteOptions& options, bool volumes) {
-    if (const auto renamed = with_different_names(dataset)) return write_cells(*renamed, out, options, volumes);
+    if (const auto renamed = with_xml_names(dataset)) return write_cells(*renamed, out, options, volumes);
     const auto settings = write_settings(options);
     if (!settings) return settings.why();
     CellObjects all = cell_objects(dataset, volumes);
@@ -153,7 +153,7 @@ Result<Losses> write_cells(const Dataset& dataset, OutputSet& out, const WriteOp
 template <class Kind>
 Result<Losses> write_lattice(const Dataset& dataset, OutputSet& out, const WriteOptions& options, const char* what,
                              bool (*fits)(const Kind&)) {
-    if (const auto renamed = with_different_names(dataset)) return write_lattice<Kind>(*renamed, out, options, what, fits);
+    if (const auto renamed = with_xml_names(dataset)) return write_lattice<Kind>(*renamed, out, options, what, fits);
     const auto settings = write_settings(options);
     if (!settings) return settings.why();
     Losses losses;
@@ -196,7 +196,7 @@ Result<XmlWriteSettings> write_settings(const WriteOptions& options) {
 Result<XmlFile> xml_of_object(const Object& given, const XmlWriteSettings& settings, std::vector<Loss>& losses) {
     Object object = given;
     if (const auto* well = std::get_if<Well>(&given)) object = polyline_of_well(*well, losses);
-    make_names_differ(info_of(object).attributes);
+    make_xml_names(info_of(object).attributes);
     drop_strange_attributes(info_of(object), losses);
     const Texts texts = texts_of(text_only({}, {object}, {0}), object);
     const auto file = [](const char* extension, Result<std::string> text) -> Result<XmlFile> {

@@ -8,6 +8,7 @@
 #include "formats/vtk/vtk_merge.h"
 #include "formats/vtk/vtk_model.h"
 #include "formats/vtk/vtk_structure.h"
+#include "formats/vtk/xml_names.h"
 #include "formats/vtk/xml_write.h"
 #include "model/dataset_text.h"
 
@@ -30,7 +31,7 @@ class BlockWriter {
 public:
     BlockWriter(OutputSet& out, const WriteOptions& options, const XmlWriteSettings& settings)
         : out_(out), options_(options), settings_(settings) {
-        stem_ = out.stem();
+        stem_ = xml_name(out.stem());
     }
 
     void add(std::vector<std::string> groups, std::string name, const Object& object) {
@@ -102,14 +103,15 @@ private:
         for (std::size_t i = first; i < last;) {
             const Block& block = blocks_[i];
             if (block.groups.size() <= depth || depth >= deepest) {
-                xml += indent + "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" + xml_attribute(block.name) + "\" file=\"" +
-                       xml_attribute(block.file) + "\"/>\n";
+                xml += indent + "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" + xml_attribute(xml_name(block.name)) +
+                       "\" file=\"" + xml_attribute(block.file) + "\"/>\n";
                 ++i;
                 continue;
             }
             std::size_t end = i;
             while (end < last && blocks_[end].groups.size() > depth && blocks_[end].groups[depth] == block.groups[depth]) ++end;
-            xml += indent + "<Block index=\"" + std::to_string(index++) + "\" name=\"" + xml_attribute(block.groups[depth]) + "\">\n";
+            xml += indent + "<Block index=\"" + std::to_string(index++) + "\" name=\"" + xml_attribute(xml_name(block.groups[depth])) +
+                   "\">\n";
             level(xml, i, end, depth + 1);
             xml += indent + "</Block>\n";
             i = end;

@@ -49,6 +49,31 @@ fs::path temporary_for_stream() {
     return (error ? fs::path("/tmp") : folder) / ("geomend" + temporary_suffix());
 }
 
+// A file that no folder shows, so that nothing is left of it whatever ends this process; -1 where the file system, or the
+// way to name it later, is not there (NFS, FAT).
+int open_nameless(const fs::path& folder, mode_t mode) {
+#ifdef O_TMPFILE
+    if (::access("/proc/self/fd", X_OK) != 0) return -1;
+    return ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+#else
+    static_cast<void>(folder), static_cast<void>(mode);
+    return -1;
+#endif
+}
+
+// Names such a file; one that has a name keeps it. Returns 0 or errno.
+int give_name(int fd, const fs::path& name) {
+    struct stat about {};
+    if (::fstat(fd, &about) != 0) return errno;
+    if (about.st_nlink != 0) return 0;
+    const std::string own = "/proc/self/fd/" + std::to_string(fd);
+    const auto link = [&] { return ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0 ? 0 : errno; };
+    const int error = link();
+    if (error != EEXIST) return error;
+    ::unlink(name.c_str());  // of a process that had our number and was killed
+    return link();
+}
+
 Failure unwritable(const fs::path& target, int error) {
     if (error == ECANCELED) return failure(FailureKind::cancelled, "F022", {}, "stopped; no file was changed");
     return failure(FailureKind::unwritable, "F020", {target == "-" ? "standard output" : target.string()},
@@ -72,7 +97,9 @@ OutputFile::~OutputFile() {
 void OutputFile::open() {
     temporary_ = target_.is_file() ? temporary_beside(target_.path) : temporary_for_stream();
     const bool ours = !target_.is_file() || target_.exists;
-    fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, ours ? 0600 : 0666);
+    const mode_t mode = ours ? 0600 : 0666;
+    if (target_.is_file()) fd_ = open_nameless(temporary_.parent_path(), mode);
+    if (fd_ < 0) fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (fd_ < 0) error_ = errno;
     else if (!target_.is_file()) ::unlink(temporary_.c_str());
     if (fd_ < 0 || !target_.is_file()) temporary_.clear();
@@ -121,6 +148,7 @@ void OutputFile::end() {
 
 // No more than an error is kept of a file that is closed: results of very many files have no descriptor each.
 void OutputFile::close_file() {
+    if (fd_ >= 0 && error_ == 0) error_ = give_name(fd_, temporary_);
     if (fd_ >= 0 && ::close(fd_) != 0 && error_ == 0) error_ = errno;
     fd_ = -1;
 }
@@ -245,6 +273,11 @@ int sync_file_system(const fs::path& a_file_of_it) {
 Result<void> OutputSet::prepare(const Monitor* monitor) {
     constexpr std::size_t few = 16;
     for (const auto& file : files_) {
+        if (!file->finished_ && files_.size() <= few &&
+            file->target_.is_file()) {  // long, and better before the file has a name than after
+            file->flush();
+            ::fsync(file->fd_);
+        }
         file->end();
         file->settle(files_.size() <= few);
         if (file->error_ != 0) return unwritable(file->name_, file->error_);
@@ -266,7 +299,13 @@ Result<void> OutputSet::commit(const Monitor* monitor) {
         undo(done);
         return unwritable(name, error);
     };
-    for (const auto& file : files_) {
+    // The file that the user named comes last: once it is the new one, so are all that it speaks of.
+    std::vector<OutputFile*> order;
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+        if (i != main_index_) order.push_back(files_[i].get());
+    }
+    if (main_index_ < files_.size()) order.push_back(files_[main_index_].get());
+    for (OutputFile* file : order) {
         if (!file->target_.is_file()) continue;
         Renamed r{file->target_.path, {}};
         if (const int error = put_in_place(file->temporary_, r, files_.size() > 1); error != 0) return give_up(file->name_, error);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "geometry/hilbert_curve.h"
 #include "geometry/predicates.h"
 
 namespace geomend {
@@ -41,35 +42,6 @@ Extent extent_of(std::span<const Vec3> points) {
         }
     }
     return all;
-}
-
-/// Place of a cell on the Hilbert curve through a cube of 2^bits cells a side (J. Skilling, "Programming the Hilbert
-/// curve", 2004).
-std::uint64_t hilbert_place(std::array<std::uint32_t, 3> x, unsigned bits) {
-    const std::uint32_t top = 1u << (bits - 1);
-    for (std::uint32_t q = top; q > 1; q >>= 1) {
-        const std::uint32_t below = q - 1;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if ((x[k] & q) != 0) {
-                x[0] ^= below;
-            } else {
-                const std::uint32_t swapped = (x[0] ^ x[k]) & below;
-                x[0] ^= swapped;
-                x[k] ^= swapped;
-            }
-        }
-    }
-    x[1] ^= x[0];
-    x[2] ^= x[1];
-    std::uint32_t flips = 0;
-    for (std::uint32_t q = top; q > 1; q >>= 1) {
-        if ((x[2] & q) != 0) flips ^= q - 1;
-    }
-    std::uint64_t place = 0;
-    for (unsigned b = bits; b-- > 0;) {
-        for (std::size_t k = 0; k < 3; ++k) place = place << 1 | ((x[k] ^ flips) >> b & 1u);
-    }
-    return place;
 }
 
 /// Sorts by the bits from `first_bit` on, keeping the order of equals: digit by digit, the lowest first.

@@ -15,19 +15,20 @@ std::size_t tiles_along(std::uint32_t columns, std::uint32_t size) { return (std
 
 }  // namespace
 
-HalfCells half_cells(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    HalfCells cell;
+void take_half_cells(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::uint32_t k, HalfCells& cell) {
     cell.corners = cell_corners(grid, i, j, k);
-    const Vec3 middle = centre(cell.corners);
+    Vec3 sum{};
+    Corners quarter;
+    for (std::size_t c = 0; c < 8; ++c) {
+        sum = plus(sum, cell.corners[c]);
+        quarter[c] = times(0.25, cell.corners[c]);
+    }
+    const Vec3 middle = times(0.125, sum);
     for (std::size_t face = 0; face < 6; ++face) {
-        Vec3 d{};
-        for (const unsigned c : face_corners[face]) {
-            for (std::size_t a = 0; a < 3; ++a) d[a] += cell.corners[c][a] / 4;
-        }
-        cell.arm[face] = minus(d, middle);
+        const auto& [a, b, c, d] = face_corners[face];
+        cell.arm[face] = minus(plus(plus(plus(quarter[a], quarter[b]), quarter[c]), quarter[d]), middle);
         cell.arm_square[face] = dot(cell.arm[face], cell.arm[face]);
     }
-    return cell;
 }
 
 std::size_t Tile::count(const CornerPointGrid& grid) { return tiles_along(grid.dims[0], width) * tiles_along(grid.dims[1], height); }
@@ -49,7 +50,7 @@ void TileLayer::fill(const CornerPointGrid& grid, const std::vector<std::uint8_t
         std::size_t cell = grid.cell(tile.first_i, j, k);
         HalfCells* to = cells_.data() + std::size_t{Tile::width + 1} * (j - first_j_);
         for (std::uint32_t i = tile.first_i; i < end_i; ++i, ++cell, ++to) {
-            if (present[cell] != 0) *to = half_cells(grid, i, j, k);
+            if (present[cell] != 0) take_half_cells(grid, i, j, k, *to);
         }
     }
 }

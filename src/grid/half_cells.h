@@ -19,7 +19,7 @@ struct HalfCells {
 };
 
 /// Corners and arms of a cell. \pre i < nx, j < ny, k < nz
-HalfCells half_cells(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::uint32_t k);
+void take_half_cells(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::uint32_t k, HalfCells& cell);
 
 /// Vector area of a quadrangle: that of the two triangles at its first corner.
 inline Vec3 vector_area(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

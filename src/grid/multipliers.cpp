@@ -54,7 +54,7 @@ void Multipliers::take_faults(const CornerPointGrid& grid) {
     }
 }
 
-double Multipliers::between(std::size_t first, std::size_t second, CellFace face, bool neighbours) const {
+double Multipliers::of_rules(std::size_t first, std::size_t second, CellFace face, bool neighbours) const {
     double value = 1;
     // Of several records for the same regions the last one counts.
     for (const RegionRule& r : rules_) {

@@ -19,10 +19,13 @@ public:
         return values.empty() ? 1.0 : values[cell];
     }
     /// Of a connection between two cells; `face` is that of the first one, `neighbours` whether they are so by (i,j,k).
-    double between(std::size_t first, std::size_t second, CellFace face, bool neighbours) const;
+    double between(std::size_t first, std::size_t second, CellFace face, bool neighbours) const {
+        return rules_.empty() ? 1.0 : of_rules(first, second, face, neighbours);
+    }
 
 private:
     void take_faults(const CornerPointGrid& grid);
+    double of_rules(std::size_t first, std::size_t second, CellFace face, bool neighbours) const;
 
     struct RegionRule {
         const CornerPointGrid::RegionMultiplier* rule;

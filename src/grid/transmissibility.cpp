@@ -2,7 +2,9 @@
 #include "grid/transmissibility.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <span>
 #include <type_traits>
 
 #include "base/big_array.h"
@@ -34,10 +36,43 @@ struct Half {
     const HalfCells& shape;
 };
 
+/// Values of a cell attribute as doubles: those of the grid itself where it has them so and none is missing.
+class CellValues {
+public:
+    CellValues(const CornerPointGrid& grid, std::string_view name, double fallback) {
+        const Attribute* a = find_attribute(grid.info.attributes, std::string(name), AttributeLocation::cell);
+        const auto* stored = a != nullptr ? std::get_if<std::vector<double>>(&a->values) : nullptr;
+        if (stored != nullptr && stored->size() == grid.cell_count() && none_missing(*a, *stored)) {
+            values_ = *stored;
+            return;
+        }
+        own_ = cell_values(grid, name, fallback);
+        values_ = own_;
+    }
+    CellValues(const CellValues&) = delete;
+    CellValues& operator=(const CellValues&) = delete;
+    bool empty() const { return values_.empty(); }
+    double operator[](std::size_t cell) const { return values_[cell]; }
+
+private:
+    static bool none_missing(const Attribute& a, std::span<const double> values) {
+        std::atomic<bool> any{false};
+        parallel_blocks(values.size(), std::size_t{1} << 16, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                if (std::isnan(values[i]) || is_no_data(a, values[i])) return any.store(true, std::memory_order_relaxed);
+            }
+        });
+        return !any.load();
+    }
+
+    std::vector<double> own_;
+    std::span<const double> values_;
+};
+
 struct Worker {
     const CornerPointGrid& grid;
-    std::vector<double> permeability_x, permeability_y, permeability_z;  // y and z empty: as x
-    std::vector<double> net_to_gross;
+    CellValues permeability_x, permeability_y, permeability_z;  // y and z empty: as x
+    CellValues net_to_gross;
     Multipliers multipliers;
     double factor;
 
@@ -86,7 +121,9 @@ struct Worker {
 
     HalfCells shape_of(std::size_t cell) const {
         const auto [i, j, k] = grid.ijk(cell);
-        return half_cells(grid, i, j, k);
+        HalfCells shape;
+        take_half_cells(grid, i, j, k, shape);
+        return shape;
     }
 
     // Where the sides of two cells agree, what they share is the side of the first.
@@ -193,13 +230,8 @@ std::vector<double> cell_values(const CornerPointGrid& grid, std::string_view na
 }
 
 Result<Transmissibilities> transmissibilities(const CornerPointGrid& grid, const Connections& connections) {
-    const Worker worker{grid,
-                        cell_values(grid, "PERMX", 0.0),
-                        cell_values(grid, "PERMY", 0.0),
-                        cell_values(grid, "PERMZ", 0.0),
-                        cell_values(grid, "NTG", 1.0),
-                        Multipliers(grid),
-                        factor_of(grid)};
+    const Worker worker{
+        grid, {grid, "PERMX", 0.0}, {grid, "PERMY", 0.0}, {grid, "PERMZ", 0.0}, {grid, "NTG", 1.0}, Multipliers(grid), factor_of(grid)};
     if (worker.permeability_x.empty())
         return unreadable("F007", {}, "grid '" + grid.info.name + "' has no attribute PERMX: transmissibilities need permeabilities");
     Transmissibilities result;

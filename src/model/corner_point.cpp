@@ -14,26 +14,45 @@ std::size_t pillar_set(const CornerPointGrid& grid, std::uint32_t k) {
     return 0;
 }
 
-Vec3 pillar_point(const double* pillar, double depth, bool cylindrical) {
-    double x = pillar[0], y = pillar[1];
-    if (const double height = pillar[5] - pillar[2]; height != 0) {
-        const double t = (depth - pillar[2]) / height;
-        x += t * (pillar[3] - pillar[0]);
-        y += t * (pillar[4] - pillar[1]);
+namespace {
+
+// A pillar as points on it are worked out: many corners of cells are, so that nothing is done twice.
+struct PillarLine {
+    double x, y, z, dx, dy, dz;
+    explicit PillarLine(const double* p) : x(p[0]), y(p[1]), z(p[2]), dx(p[3] - p[0]), dy(p[4] - p[1]), dz(p[5] - p[2]) {}
+    Vec3 at(double depth) const {
+        if (dz == 0) return {x, y, depth};
+        const double t = (depth - z) / dz;
+        return {x + t * dx, y + t * dy, depth};
     }
-    if (!cylindrical) return {x, y, depth};
-    const double angle = y * std::numbers::pi / 180;
-    return {x * std::cos(angle), x * std::sin(angle), depth};
+};
+
+Vec3 unrolled(const Vec3& p) {
+    const double angle = p[1] * std::numbers::pi / 180;
+    return {p[0] * std::cos(angle), p[0] * std::sin(angle), p[2]};
+}
+
+}  // namespace
+
+Vec3 pillar_point(const double* pillar, double depth, bool cylindrical) {
+    const Vec3 at = PillarLine(pillar).at(depth);
+    return cylindrical ? unrolled(at) : at;
 }
 
 std::array<Vec3, 8> cell_corners(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const std::size_t lines = std::size_t{grid.dims[0]} + 1;
     const double* pillars = grid.pillars.data() + 6 * pillar_count(grid.dims) * (grid.reservoirs.empty() ? 0 : pillar_set(grid, k));
+    const double* pillar = pillars + 6 * (i + lines * j);
+    const double* top = grid.depths.data() + corner_index(grid.dims, i, j, k, 0);
+    const std::size_t row = 2 * std::size_t{grid.dims[0]}, bottom = 2 * row * grid.dims[1];
     std::array<Vec3, 8> corners;
-    for (unsigned c = 0; c < 8; ++c) {
-        const std::size_t pillar = i + (c & 1u) + lines * (std::size_t{j} + ((c >> 1) & 1u));
-        corners[c] = pillar_point(pillars + 6 * pillar, grid.depths[corner_index(grid.dims, i, j, k, c)], grid.cylindrical);
+    for (unsigned c = 0; c < 4; ++c) {
+        const PillarLine line(pillar + 6 * ((c & 1u) + (c >> 1 != 0 ? lines : 0)));
+        const double* depth = top + (c & 1u) + (c >> 1 != 0 ? row : 0);
+        corners[c] = line.at(depth[0]);
+        corners[c + 4] = line.at(depth[bottom]);
     }
+    if (grid.cylindrical) std::ranges::transform(corners, corners.begin(), unrolled);
     return corners;
 }
 

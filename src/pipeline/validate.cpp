@@ -88,6 +88,7 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         if (!checked) return std::move(checked).why();
         take(*checked);
         lengths = std::move(checked->local);
+        if (const auto& c = checked->closing) file.closing = {c->tolerance, c->errors, c->left};
     }
     if (validators::wanted(options, "F160")) tell_unchecked(dataset, file.findings);
     if (const validators::Target* target = validators::find_target(options.target)) {

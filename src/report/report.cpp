@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/output.h"
+#include "base/wording.h"
 #include "report/json.h"
 #include "report/report_parts.h"
 #include "report/worst_first.h"
@@ -65,6 +66,12 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     if (file.known) j["known"] = {{"error", file.known->error}, {"warning", file.known->warning}, {"info", file.known->info}};
     j["tolerance"] = file.tolerance;
     j["near"] = file.near;
+    if (file.closing) {
+        j["closes_with"] = {{"tolerance", file.closing->tolerance},
+                            {"errors", file.closing->errors},
+                            {"left", file.closing->left},
+                            {"message", closing_sentence(*file.closing)}};
+    }
     Json findings = Json::array();
     const auto listed = worst_first(file.findings, most);
     for (const Finding* f : listed) {
@@ -86,6 +93,14 @@ Json file_json(const ReportedFile& file, std::size_t most) {
 const char* to_string(FileOutcome outcome) {
     constexpr const char* words[] = {"judged", "unreadable", "limit", "crashed"};
     return words[static_cast<std::size_t>(outcome)];
+}
+
+std::string closing_sentence(const ReportedClosing& closing) {
+    const std::string length = rounded(closing.tolerance);
+    const std::string agree = "points of borders agree within " + length + " only: ";
+    if (closing.left == 0) return agree + "with --tolerance " + length + " the model closes";
+    return agree + "of " + counted(closing.errors, "error", "errors") + " " + std::to_string(closing.errors - closing.left) +
+           " vanish with --tolerance " + length;
 }
 
 SeverityCounts count_by_severity(std::span<const Finding> findings) {

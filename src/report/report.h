@@ -50,12 +50,21 @@ struct SeverityCounts {
 };
 SeverityCounts count_by_severity(std::span<const Finding> findings);
 
+/// That points of borders agree within a larger tolerance only, at which most errors vanish.
+struct ReportedClosing {
+    double tolerance = 0;
+    std::uint64_t errors = 0, left = 0;  ///< without it, and with it
+};
+/// In one sentence, without a full stop.
+std::string closing_sentence(const ReportedClosing& closing);
+
 /// What was found in one file.
 struct ReportedFile {
     std::string file;
     FileOutcome outcome = FileOutcome::judged;
     std::optional<bool> valid;  ///< no error; nothing where not all of the file could be judged and no error was found
     double tolerance = 0, near = 0;
+    std::optional<ReportedClosing> closing;
     std::vector<Finding> findings;
     std::vector<ReportedStep> steps;               ///< of a repair
     std::vector<std::string> companions;           ///< paths of further files that were read for it, ascending

@@ -100,6 +100,10 @@ ReportedFile file(const Json& j) {
     if (j.contains("companions")) file.companions = j["companions"].get<std::vector<std::string>>();
     if (j.contains("tolerance")) file.tolerance = real(j["tolerance"]);
     if (j.contains("near")) file.near = real(j["near"]);
+    if (j.contains("closes_with")) {
+        const Json& c = j["closes_with"];
+        file.closing = {real(c.at("tolerance")), whole<std::uint64_t>(c.at("errors")), whole<std::uint64_t>(c.at("left"))};
+    }
     for (const Json& f : j.at("findings")) file.findings.push_back(finding(f));
     return file;
 }

@@ -37,6 +37,7 @@ public:
             text_ += "; " + counted(known, "finding", "findings") + " of the baseline left out";
         }
         text_ += '\n';
+        if (file.closing) text_ += "  " + closing_sentence(*file.closing) + '\n';
         for (const ReportedStep& s : file.steps) step(s);
         by_entity(file, most);
     }

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "base/output.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <csignal>
+#include <cstring>
+#include <string>
+#include <vector>
 
 #include "base/input.h"
 #include "support/temporary_folder.h"
@@ -54,6 +62,73 @@ TEST(OutputSet, PutsAllFilesInPlaceTogether) {
     ASSERT_TRUE(set.commit());
     EXPECT_EQ(read_file(folder / "a.vtm"), "main");
     EXPECT_EQ(read_file(folder / "a/0.vtu"), "piece");
+}
+
+// So that nothing is left of it, whatever ends the process meanwhile.
+TEST(OutputSet, AFileThatIsBeingWrittenIsInNoFolder) {
+    const TemporaryFolder folder;
+    const int probe = ::open(folder.path().c_str(), O_TMPFILE | O_RDWR, 0600);
+    if (probe < 0) GTEST_SKIP() << "this file system has no files without names";
+    ::close(probe);
+    for (const char* name : {"big.txt", "big.txt.gz"}) {
+        OutputSet files(folder / name);
+        for (int i = 0; i < 300000; ++i) files.main_file().number(1.0 / (i + 3)) << '\n';
+        EXPECT_TRUE(fs::is_empty(folder.path())) << name;
+        ASSERT_TRUE(files.commit().ok());
+        EXPECT_EQ(files_in(folder.path()), 1u) << name;
+        fs::remove(folder / name);
+    }
+}
+
+TEST(OutputSet, NothingIsLeftOfAProcessThatEndsWhileItWrites) {
+    const TemporaryFolder folder;
+    const int probe = ::open(folder.path().c_str(), O_TMPFILE | O_RDWR, 0600);
+    if (probe < 0) GTEST_SKIP() << "this file system has no files without names";
+    ::close(probe);
+    write_file(folder / "model.txt", "old");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        OutputSet files(folder / "model.txt");
+        files.main_file() << std::string(1 << 20, 'x');
+        files.companion("part.txt") << std::string(1 << 20, 'y');
+        ::_exit(0);
+    }
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    EXPECT_EQ(files_in(folder.path()), 1u);
+    EXPECT_EQ(read_file(folder / "model.txt"), "old");
+}
+
+TEST(OutputSet, APlaceThatAKilledProcessLeftBehindIsNotInTheWay) {
+    const TemporaryFolder folder;
+    // Whatever number the next file gets.
+    for (int i = 0; i < 1000; ++i)
+        write_file(folder / ("a.txt.geomend-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp"), "left");
+    OutputSet files(folder / "a.txt");
+    files.main_file() << "new";
+    ASSERT_TRUE(files.commit().ok());
+    EXPECT_EQ(read_file(folder / "a.txt"), "new");
+}
+
+// A reader that finds the new index finds the new parts.
+TEST(OutputSet, TheFileThatTheUserNamedAppearsLast) {
+    const TemporaryFolder folder;
+    OutputSet files(folder / "main.txt");
+    files.main_file() << "main";
+    for (const char* part : {"a.txt", "b.txt", "c.txt"}) files.companion(part) << part;
+    const int events = ::inotify_init1(IN_CLOEXEC);
+    ASSERT_GE(::inotify_add_watch(events, folder.path().c_str(), IN_MOVED_TO), 0);
+    ASSERT_TRUE(files.commit().ok());
+    std::array<char, 4096> bytes{};
+    const ssize_t size = ::read(events, bytes.data(), bytes.size());
+    ::close(events);
+    std::vector<std::string> names;
+    for (ssize_t at = 0; at < size;) {
+        inotify_event event{};
+        std::memcpy(&event, bytes.data() + at, sizeof event);
+        names.emplace_back(bytes.data() + at + sizeof event);
+        at += static_cast<ssize_t>(sizeof event + event.len);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"a.txt", "b.txt", "c.txt", "main.txt"}));
 }
 
 TEST(OutputSet, GzipsByTheName) {

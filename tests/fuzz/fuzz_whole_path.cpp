@@ -7,7 +7,7 @@
 #include "whole_path.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    geomend::test::run_whole_path({reinterpret_cast<const char*>(data), size});
+    static_cast<void>(geomend::test::run_whole_path({reinterpret_cast<const char*>(data), size}));
     return 0;
 }
 

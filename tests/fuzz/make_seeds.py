@@ -83,6 +83,48 @@ blocks = """<VTKFile type="vtkMultiBlockDataSet" version="1.0"><vtkMultiBlockDat
 <DataSet index="1" name="B" file="b.vtu"/></Block></vtkMultiBlockDataSet></VTKFile>
 """
 
+points = '<DataArray type="Float64" NumberOfComponents="3" format="ascii">%s</DataArray>'
+
+
+def file_of(kind, whole, inner):
+    return f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian"><{kind} {whole}>\n{inner}</{kind}></VTKFile>\n'
+
+
+def lattice(kind, first, last):
+    """A piece of a lattice of one layer of cells: columns first to last."""
+    extent = f'{first} {last} 0 1 0 1'
+    across = range(first, last + 1)
+    values = ' '.join(str(i + 1) for i in range(4 * len(across)))
+    inner = f'<Piece Extent="{extent}"><PointData><DataArray type="Float32" Name="v" format="ascii">{values}</DataArray></PointData>\n'
+    axis = '<DataArray type="Float64" Name="%s" format="ascii">%s</DataArray>'
+    if kind == 'StructuredGrid':
+        inner += '<Points>' + points % '\n'.join(f'{i} {j} {k + 0.1 * i}' for k in (0, 1) for j in (0, 1) for i in across) + '</Points>'
+    if kind == 'RectilinearGrid':
+        inner += '<Coordinates>' + axis % ('x', ' '.join(str(i * i) for i in across)) + axis % ('y', '0 1') + axis % ('z', '0 2')
+        inner += '</Coordinates>'
+    more = ' Origin="0 0 0" Spacing="1 2 3"' if kind == 'ImageData' else ''
+    return file_of(kind, f'WholeExtent="{extent}"{more}', inner + '</Piece>\n').encode()
+
+
+def lattice_index(kind, extension):
+    inner = '<PPointData><PDataArray type="Float32" Name="v"/></PPointData>\n'
+    three = '<PDataArray type="Float64" NumberOfComponents="3"/>'
+    if kind == 'StructuredGrid':
+        inner += f'<PPoints>{three}</PPoints>\n'
+    if kind == 'RectilinearGrid':
+        inner += '<PCoordinates>' + ''.join(f'<PDataArray type="Float64" Name="{a}"/>' for a in 'xyz') + '</PCoordinates>\n'
+    inner += f'<Piece Extent="0 1 0 1 0 1" Source="a.{extension}"/>\n<Piece Extent="1 3 0 1 0 1" Source="b.{extension}"/>\n'
+    more = ' Origin="0 0 0" Spacing="1 2 3"' if kind == 'ImageData' else ''
+    return file_of('P' + kind, f'WholeExtent="0 3 0 1 0 1" GhostLevel="0"{more}', inner).encode()
+
+
+def triangle(x):
+    corners = points % f'{x} 0 0\n{x + 1} 0 0\n{x} 1 0'
+    cells = '<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray>'
+    cells += '<DataArray type="Int64" Name="offsets" format="ascii">3</DataArray>'
+    inner = f'<Piece NumberOfPoints="3" NumberOfPolys="1"><Points>{corners}</Points>\n<Polys>{cells}</Polys></Piece>\n'
+    return file_of('PolyData', '', inner).encode()
+
 
 def pack(name, files):
     """files: [(name, bytes)], the first is the one that is read."""
@@ -131,6 +173,9 @@ def pack_written(folder):
     for source, extension in (('voxet.vo', 'vo'), ('well.wl', 'wl'), ('light.lso', 'lso'), ('group.gp', 'gp')):
         (folder / source).write_bytes((corpus / 'gocad' / source).read_bytes())
         pack(f'written_{extension}', written(folder, folder / source, 'w.' + extension))
+    for source, extension, output in (('zmap', 'zmap', 'gs'), ('irap_polygons', 'pol', 'pl')):
+        (folder / f'{source}.{extension}').write_bytes((corpus / 'horizon' / source).read_bytes()[readers['horizon']:])
+        pack(f'written_{output}', written(folder, folder / f'{source}.{extension}', 'h.' + output))
     for source, outputs in (('deck.grdecl', ('egrid', 'fegrid', 'bgrdecl', 'roff', 'roffasc', 'sg', 'vts', 'data', 'init')),
                             ('../h1_grid.irap', ())):
         for extension in outputs:
@@ -143,6 +188,12 @@ def pack_several():
     a, b = (piece % ('1', '1')).encode(), (piece % ('-1', '2')).encode()
     pack('pieces.pvtu', [('m.pvtu', pieces.encode()), ('a.vtu', a), ('b.vtu', b)])
     pack('blocks.vtm', [('m.vtm', blocks.encode()), ('a.vtu', a), ('b.vtu', b)])
+    surfaces = '<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints><Piece Source="a.vtp"/>\n<Piece Source="b.vtp"/>\n'
+    pack('pieces.pvtp', [('m.pvtp', file_of('PPolyData', 'GhostLevel="0"', surfaces).encode()), ('a.vtp', triangle(0)), ('b.vtp', triangle(1))])
+    for kind, extension in (('StructuredGrid', 'vts'), ('ImageData', 'vti'), ('RectilinearGrid', 'vtr')):
+        parts = [('a.' + extension, lattice(kind, 0, 1)), ('b.' + extension, lattice(kind, 1, 3))]
+        pack('pieces.p' + extension, [('m.p' + extension, lattice_index(kind, extension)), *parts])
+        pack('lattice.' + extension, [('m.' + extension, lattice(kind, 0, 3))])
     cut = deck.index('PORO')
     pack('include.grdecl', [('m.grdecl', (deck[:cut] + "INCLUDE\n 'p.inc' /\n").encode()), ('p.inc', deck[cut:].encode())])
     pack('include.data', [('m.data', ("RUNSPEC\nDIMENS\n 2 2 3 /\nGRID\nINCLUDE\n 'g.inc' /\nEND\n").encode()), ('g.inc', deck.encode())])

@@ -18,7 +18,7 @@ std::string safe_name(std::string_view text) {
         if (c == '/' && !folder && !name.empty()) {
             folder = true;
             name += c;
-        } else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' ||
+        } else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '@' ||
                    (c == '.' && !name.empty() && name.back() != '/')) {
             name += c;
         }

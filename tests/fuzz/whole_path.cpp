@@ -12,7 +12,9 @@
 #include "base/parallel.h"
 #include "base/utf8.h"
 #include "drawing/scene.h"
+#include "formats/options.h"
 #include "formats/registry.h"
+#include "pipeline/command_options.h"
 #include "pipeline/complexity_report.h"
 #include "pipeline/convert.h"
 #include "pipeline/grids.h"
@@ -40,7 +42,7 @@ namespace fs = std::filesystem;
 struct Plan {
     std::string from;
     const Format* to = nullptr;
-    FormatOptions options;
+    FormatOptions options, reading_options;  // the latter without those of the format that is written
     validators::CheckOptions checks;
     bool complexity = false, like = false, repair = false, strict = false;
     unsigned report = 0;
@@ -303,31 +305,57 @@ std::string plan_text(const Pack& pack) {
            (plan.strict ? " strict" : "");
 }
 
-// A deck may ask for millions of cells in a few bytes; that is no fault, but takes its time.
-static void bound_cells(Plan& plan, const std::string& path) {
-    const auto input = Input::open(path);
-    if (!input) return;
-    const auto format = format_for_reading(*input);
-    if (format && (*format)->family == "grdecl") plan.options.emplace_back("max-values", "100000");
+namespace {
+
+FormatOptions those_in_play(const FormatOptions& options, const OptionsInPlay& in_play) {
+    FormatOptions kept;
+    for (const auto& one : options) {
+        if (checked_options({one}, in_play)) kept.push_back(one);
+    }
+    return kept;
 }
 
-void run_whole_path(std::string_view bytes) {
+// Options that no format of the run looks at are refused before anything is read, so that nothing would be tried. A deck
+// may ask for millions of cells in a few bytes; that is no fault, but takes its time.
+void settle_options(Plan& plan, const std::string& path) {
+    const auto input = Input::open(path);
+    if (!input) return;
+    const Format* format = format_by_name(plan.from);
+    if (format == nullptr) {
+        const auto found = format_for_reading(*input);
+        if (!found) return;
+        format = *found;
+    }
+    if (format->family == "grdecl") plan.options.emplace_back("max-values", "100000");
+    plan.reading_options = those_in_play(plan.options, {{format}, nullptr, convert_option_rows()});
+    plan.options = those_in_play(plan.options, {{format}, plan.to, convert_option_rows()});
+}
+
+}  // namespace
+
+bool run_whole_path(std::string_view bytes) {
     static const ThreadBudget one(1);
     const Pack pack = unpack(bytes);
     Plan plan = plan_of(pack);
     const Place place;
     place.put(pack);
     const std::string path = place.in(pack.files.front().name);
-    bound_cells(plan, path);
+    settle_options(plan, path);
     LoadOptions options;
     options.from = plan.from;
-    options.options = plan.options;
+    options.options = plan.reading_options;
+    options.command = convert_option_rows();
     auto dataset = load(path, options);
-    if (!dataset) return check_failure(dataset.why(), "reading");
+    if (!dataset) {
+        check_failure(dataset.why(), "reading");
+        if (dataset.why().error.code == "F018") broken("an option is refused: " + dataset.why().error.message);
+        return false;
+    }
     judge(path, *dataset, plan);
     look(path, *dataset, plan);
     write(place, path, *dataset, plan);
     if (plan.repair) mend(place, path, plan);
+    return true;
 }
 
 }  // namespace geomend::test

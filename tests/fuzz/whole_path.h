@@ -33,6 +33,7 @@ std::string plan_text(const Pack& pack);
 /// built and summarised, every check runs, reports are made in all forms, it is written in the format that the plan asks for and
 /// read again. Aborts with a sentence on standard error where something is not as it has to be: a failure without a reason, a
 /// finding that the catalogue does not know, a report that is not well formed, a file that was written and cannot be read.
-void run_whole_path(std::string_view bytes);
+/// \return whether the file could be read, so that the rest of the way was gone
+bool run_whole_path(std::string_view bytes);
 
 }  // namespace geomend::test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <bit>
+#include <set>
 
 #include "gocad/gocad_support.h"
 #include "support/real_data.h"
@@ -346,6 +347,52 @@ TEST(GocadGrid2d, ValuesOfCellsStandAtTheirCentres) {
     const Raster& raster = first<Raster>(data);
     EXPECT_EQ(raster.dims, (std::array<std::uint32_t, 3>{2, 1, 1}));
     EXPECT_EQ(raster.origin, (Vec3{5, 10, 0}));
+}
+
+// In each kind of array object, in bytes and in text.
+TEST(GocadArrays, PropertiesWithoutANameGetOneAndThatIsSaid) {
+    const auto expect_named = [](const Dataset& dataset, const char* format, const char* data, std::size_t others) {
+        std::vector<Loss> losses;
+        const Dataset back = there_and_back(dataset, format, &losses, data);
+        ASSERT_EQ(back.objects.size(), 1u);
+        const auto &own = info_of(dataset.objects[0]).attributes, &found = info_of(back.objects[0]).attributes;
+        ASSERT_EQ(found.size(), own.size());
+        std::set<std::string> names;
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            EXPECT_TRUE(names.insert(found[i].name).second) << found[i].name;
+            EXPECT_EQ(found[i].name.starts_with("unnamed"), own[i].name.empty() || own[i].name == "unnamed");
+            EXPECT_EQ(found[i].values, own[i].values);
+        }
+        const auto is_of_name = [](const Loss& l) {
+            return l.loss_class == LossClass::identity && l.what.find("no name") != std::string::npos;
+        };
+        EXPECT_EQ(std::ranges::count_if(losses, is_of_name), static_cast<std::ptrdiff_t>(own.size() - others));
+    };
+    const std::vector<Attribute> three{attribute("", std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8}),
+                                       attribute("unnamed", std::vector<float>{2, 2, 3, 4, 5, 6, 7, 8}),
+                                       attribute("", std::vector<float>{3, 2, 3, 4, 5, 6, 7, 8})};
+    Raster raster;
+    raster.dims = {2, 2, 2};
+    raster.info.attributes = three;
+    StructuredGrid grid;
+    grid.dims = {2, 2, 2};
+    for (std::size_t n = 0; n < 8; ++n) grid.points.push_back({n & 1u ? 1.0 : 0.0, n & 2u ? 1.0 : 0.0, n & 4u ? 1.0 : 0.0});
+    grid.info.attributes = three;
+    for (const char* data : {"binary", "ascii"}) {
+        SCOPED_TRACE(data);
+        Dataset one;
+        one.objects = {raster};
+        expect_named(one, "gocad-vo", data, 1);
+        one.objects = {grid};
+        expect_named(one, "gocad-sg", data, 1);
+    }
+    Raster plan;
+    plan.dims = {4, 2, 1};
+    plan.info.attributes = {attribute("", std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8})};
+    plan.height_attribute = 0;
+    Dataset one;
+    one.objects = {plan};
+    expect_named(one, "gocad-gs", nullptr, 0);
 }
 
 TEST(GocadVoxet, ValuesOfTheRealTextFileStandAtTheirSamples) {

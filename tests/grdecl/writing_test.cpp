@@ -182,6 +182,38 @@ TEST(Writing, LocalGridsAndSetsOfLinesComeBack) {
     }
 }
 
+// As EGRID files of two porosities have them: numbers beyond the matrix mean the fracture.
+TEST(Writing, ConnectionsOfTheFractureOfALocalGridAreLeftOutAndListed) {
+    const TemporaryFolder folder;
+    CornerPointGrid g = made();
+    g.porosity = CornerPointGrid::Porosity::dual_porosity;
+    g.activity = {3, 1, 2, 0};
+    CornerPointGrid fine = made({3, 1, 2});
+    fine.info.name = "LGR 1";
+    fine.host = CornerPointGrid::Host{"", {0, 0, 0}, {1, 0, 0}, {0, 0, 1, 0, 0, 1}};
+    fine.porosity = g.porosity;
+    fine.activity = {3, 1, 2, 0, 3, 1};
+    fine.connections = {{0, 2, 1.5}, {0, 6, 2.5}, {7, 11, {}}};
+    Dataset d = dataset_of(g);
+    d.objects.emplace_back(fine);
+    for (const char* name : {"back.grdecl", "back.DATA"}) {
+        const auto written = write(d, folder / name);
+        const auto lost = std::ranges::find_if(
+            written.losses, [](const Loss& l) { return l.loss_class == LossClass::substance && l.what.starts_with("connections"); });
+        ASSERT_NE(lost, written.losses.end());
+        EXPECT_EQ(lost->entity, "LGR 1");
+        EXPECT_EQ(lost->count, 2U);
+        const auto again = read_path(written.path);
+        ASSERT_TRUE(again) << why(again);
+        EXPECT_EQ(grid_of(*again).activity, g.activity);
+        const CornerPointGrid& back = grid_of(*again, 1);
+        EXPECT_EQ(back.activity, fine.activity);
+        ASSERT_EQ(back.connections.size(), 1U);
+        EXPECT_EQ(back.connections[0].second, 2U);
+        EXPECT_EQ(back.connections[0].transmissibility, 1.5);
+    }
+}
+
 TEST(Writing, CoordinatesThatAreNoneAreReadableAndListed) {
     const TemporaryFolder folder;
     CornerPointGrid g = made();

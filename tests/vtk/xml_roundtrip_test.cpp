@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/utf8.h"
 #include "vtk/xml_support.h"
 
 namespace geomend::test {
@@ -129,6 +130,83 @@ TEST(XmlRoundTrip, AttributesOfOneNameStayApart) {
                 }
             }
         }
+    }
+}
+
+// Names as old files have them: Latin-1, with control characters, and the same in UTF-8 beside them.
+Surface surface_with_strange_names() {
+    Surface s = two_part_surface();
+    s.info.name =
+        "S\xE9"
+        "dimentaire";
+    s.info.groups = {"Mod\xE8le"};
+    const std::vector<double> values{1, 2, 3, 4, 5, 6};
+    s.info.attributes = {attribute("Porosit\xE9", AttributeLocation::point, values),
+                         attribute("Porosit\xC3\xA9", AttributeLocation::point, values),
+                         attribute("two\nlines\x01", AttributeLocation::point, values),
+                         attribute("\xFF\xFE", AttributeLocation::polygon, std::vector<double>{1, 2, 3, 4}, 2)};
+    s.info.attributes.back().component_names = {"\xE0", "b"};
+    return s;
+}
+
+/// What stands before the values, which are no text.
+std::string markup_of(const std::filesystem::path& path) {
+    const std::string bytes = read_file(path);
+    return bytes.substr(0, bytes.find("<AppendedData"));
+}
+
+TEST(XmlRoundTrip, NamesThatXmlCannotHoldComeBackFromFilesThatOthersCanRead) {
+    for (const std::size_t objects : {1u, 2u}) {
+        Dataset data;
+        for (std::size_t i = 0; i < objects; ++i) data.objects.emplace_back(surface_with_strange_names());
+        for (const char* format : {"vtp", "vtu", "vtm", "pvd"}) {
+            SCOPED_TRACE(std::string(format) + " with " + std::to_string(objects));
+            const TemporaryFolder folder;
+            const auto path = write_xml(data, folder, format);
+            for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
+                if (!entry.is_regular_file()) continue;
+                const std::string markup = markup_of(entry.path());
+                EXPECT_TRUE(is_utf8(markup)) << entry.path();
+                EXPECT_EQ(markup.find('\x01'), std::string::npos) << entry.path();
+            }
+            if (format == std::string_view("pvd")) continue;  // we do not read them
+            const auto back = read_xml_file(path);
+            ASSERT_TRUE(back.ok()) << back.why().error.message;
+            ASSERT_EQ(back->objects.size(), objects);
+            const auto wanted = surface_with_strange_names().info;
+            for (const Object& object : back->objects) {
+                EXPECT_EQ(info_of(object).name, wanted.name);
+                EXPECT_EQ(info_of(object).groups, wanted.groups);
+                ASSERT_EQ(info_of(object).attributes.size(), wanted.attributes.size());
+                for (std::size_t i = 0; i < wanted.attributes.size(); ++i) {
+                    EXPECT_EQ(info_of(object).attributes[i].name, wanted.attributes[i].name);
+                    EXPECT_EQ(info_of(object).attributes[i].component_names, wanted.attributes[i].component_names);
+                }
+            }
+        }
+    }
+}
+
+TEST(XmlWrite, FilesWhoseOwnNameXmlCannotHoldNameTheirParts) {
+    Dataset data;
+    data.objects.emplace_back(two_part_surface());
+    struct Case {
+        std::string file, part;  // as the index has to name the part
+    };
+    for (const auto& [name, part] :
+         {Case{"caf\xE9.vtm", "caf\xC3\xA9/caf\xC3\xA9_0.vtp"}, Case{"a & b.vtm", "a &amp; b/a &amp; b_0.vtp"},
+          Case{"caf\xE9.pvd", "caf\xC3\xA9/caf\xC3\xA9_0_0.vtp"}, Case{"\"q\".pvd", "&quot;q&quot;/&quot;q&quot;_0_0.vtp"}}) {
+        SCOPED_TRACE(name);
+        const TemporaryFolder folder;
+        OutputSet out(folder / name);
+        const std::string format = name.substr(name.size() - 3);
+        ASSERT_TRUE(format_named(format).write(data, out, {}).ok());
+        ASSERT_TRUE(out.commit().ok());
+        EXPECT_NE(read_file(folder / name).find("file=\"" + part + "\""), std::string::npos);
+        if (format == "pvd") continue;
+        const auto back = read_xml_file(folder / name);
+        ASSERT_TRUE(back.ok()) << back.why().error.message;
+        EXPECT_EQ(back->objects.size(), 1u);
     }
 }
 

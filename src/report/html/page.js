@@ -147,7 +147,8 @@ function drawVerdict() {
   }
   const [word, look] = file.valid === undefined ? ['not fully checked', ''] : file.valid ? ['valid', 'valid'] : ['not valid', 'invalid'];
   const length = (name, value) => value > 0 ? make('span', {}, `${name} `, make('b', {}, figure(value))) : null;
-  verdict.replaceChildren(...[make('span', {class: `badge ${look}`}, word), length('tolerance', file.tolerance), length('near', file.near)].filter((e) => e));
+  verdict.replaceChildren(...[make('span', {class: `badge ${look}`}, word), length('tolerance', file.tolerance), length('near', file.near),
+    file.closes_with ? make('span', {}, file.closes_with.message) : null].filter((e) => e));
 }
 
 function drawSeverities() {
