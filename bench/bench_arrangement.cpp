@@ -3,10 +3,16 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "arrangement/arrange.h"
+#include "asked.h"
 #include "base/parallel.h"
+#include "peak_memory.h"
 #ifdef GEOMEND_WITH_CGAL
 #include "cgal_arrangement.h"
 #endif
@@ -91,6 +97,68 @@ void cgal_autorefine(benchmark::State& state) {
 BENCHMARK(cgal_autorefine)->Arg(50)->Arg(120)->Arg(158)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 #endif
 
+double megabytes(const TriangleSoup& soup) {
+    return 1e-6 * static_cast<double>(24 * soup.vertices.size() + 12 * soup.triangles.size() + 4 * soup.patches.size());
+}
+
+/// Soups that most cutters do badly on, of some 20,000 triangles each.
+std::vector<std::pair<const char*, TriangleSoup>> degenerate_soups() {
+    std::vector<std::pair<const char*, TriangleSoup>> soups;
+    const auto add = [&](const char* name) -> TriangleSoup& { return soups.emplace_back(name, TriangleSoup{}).second; };
+    const auto flat = [](double u, double v) { return Vec3{1000 * u, 1000 * v, 0}; };
+    TriangleSoup& twice = add("one sheet twice");
+    for (int k = 0; k < 2; ++k) add_sheet(twice, 70, flat);
+    TriangleSoup& plane = add("two sheets in one plane, edges shifted");
+    add_sheet(plane, 70, flat);
+    add_sheet(plane, 70, [](double u, double v) { return Vec3{1000 * u + 3.1, 1000 * v + 5.7, 0}; });
+    TriangleSoup& nearly = add("two sheets that dip 1e-6 against each other");
+    add_sheet(nearly, 70, flat);
+    add_sheet(nearly, 70, [](double u, double v) { return Vec3{1000 * u, 1000 * v, 1e-3 * (u - 0.5)}; });
+    TriangleSoup& star = add("50 sheets through one line");
+    for (int k = 0; k < 50; ++k) {
+        const double angle = 3.14159265358979 * k / 50;
+        add_sheet(star, 14, [&](double u, double v) {
+            return Vec3{1000 * (u - 0.5) * std::cos(angle), 1000 * (u - 0.5) * std::sin(angle), 1000 * v};
+        });
+    }
+    TriangleSoup& needles = add("needles 1 : 10,000 across each other");
+    add_sheet(needles, 70, [](double u, double v) { return Vec3{1000 * u, 0.1 * v, 0.05 + 0.01 * std::sin(50 * u)}; });
+    add_sheet(needles, 70, [](double u, double v) { return Vec3{1000 * u, 0.05 + 0.01 * std::sin(40 * u), 0.1 * v}; });
+    TriangleSoup& flakes = add("triangles without area on a sheet");
+    add_sheet(flakes, 70, flat);
+    add_sheet(flakes, 70, [](double u, double) { return Vec3{1000 * u, 500 + 100 * u, 0}; });
+    return soups;
+}
+
+void print_asked() {
+    const geomend::ThreadBudget one_thread(1);
+    for (auto& [name, soup] : degenerate_soups()) {
+        geomend::bench::Least least;
+        std::optional<geomend::arrangement::Arrangement> result;
+        least.take([&] {
+            if (auto cut = geomend::arrangement::arrange(soup, {.tolerance = 1.5e-4})) result = std::move(*cut);
+        });
+        if (!result) return static_cast<void>(std::printf("%s: cannot be cut\n", name));
+        std::printf("%-44s %6zu -> %7zu triangles, %2u rounds, %s, %6.2f s, %5.2f us a triangle of the result\n", name,
+                    soup.triangles.size(), result->soup.triangles.size(), result->rounds, result->clean ? "clean" : "NOT clean", least.cpu,
+                    1e6 * least.cpu / static_cast<double>(result->soup.triangles.size()));
+    }
+    const double before = geomend::bench::status_bytes("VmHWM:");
+    const TriangleSoup& soup = soup_of(158);
+    geomend::bench::Least least;
+    double result = 0;
+    least.take([&] { result = megabytes(geomend::arrangement::arrange(soup, {.tolerance = 1.5e-4})->soup); });
+    const double peak = geomend::bench::status_bytes("VmHWM:") / 1e6;
+    std::printf("%zu triangles: %.2f s; input %.0f MB, result %.0f MB, peak of the process %.0f MB (%.0f MB before)\n",
+                soup.triangles.size(), least.cpu, megabytes(soup), result, peak, before / 1e6);
+#ifdef GEOMEND_WITH_CGAL
+    geomend::bench::Least theirs;
+    geomend::bench::CgalSoup mesh(soup.vertices, soup.triangles);
+    theirs.take([&] { benchmark::DoNotOptimize(mesh.autorefine()); });
+    geomend::bench::print_ratio("1 M triangles are cut", 1.0, least, "CGAL's autorefine", theirs);
+#endif
+}
+
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) { geomend::bench::run(argc, argv, print_asked); }

@@ -1,12 +1,35 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "model_copies.h"
 
+#include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
 namespace geomend::bench {
 
-Dataset copies_of(const Dataset& one, std::uint32_t copies, double spacing) {
+namespace {
+
+/// Steps of the spacing along x and y.
+std::array<double, 2> place_of(std::uint32_t copy, std::uint32_t copies, Layout layout) {
+    const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(copies))));
+    switch (layout) {
+        case Layout::row:
+            return {1.0 * copy, 0};
+        case Layout::square:
+            return {1.0 * (copy % side), 1.0 * (copy / side)};
+        case Layout::one_far:
+            if (copy > 0 && copy + 1 == copies) return {1e5, 0};
+            break;
+        case Layout::rows_of_four:
+            break;
+    }
+    return {1.0 * (copy % 4), 1.0 * (copy / 4)};
+}
+
+}  // namespace
+
+Dataset copies_of(const Dataset& one, std::uint32_t copies, double spacing, Layout layout) {
     Dataset all;
     all.format = one.format;
     all.variant = one.variant;
@@ -16,9 +39,10 @@ Dataset copies_of(const Dataset& one, std::uint32_t copies, double spacing) {
     model.crs = one.models[0].crs;
     for (std::uint32_t c = 0; c < copies; ++c) {
         const auto objects = static_cast<std::uint32_t>(all.objects.size()), faces = static_cast<std::uint32_t>(model.faces.size());
-        const auto shifted = [&](Vec3 p) {
-            p[0] += spacing * (c % 4);
-            p[1] += spacing * (c / 4);
+        const auto [i, j] = place_of(c, copies, layout);
+        const auto shifted = [&, i = i, j = j](Vec3 p) {
+            p[0] += spacing * i;
+            p[1] += spacing * j;
             return p;
         };
         const std::string mark = "_" + std::to_string(c);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What parts of a mesh of cells have in common where no face joins them: faces that lie on each other, edges and corners.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/disjoint_sets.h"
@@ -10,6 +11,7 @@
 #include "geometry/vectors.h"
 #include "topology/near_weld.h"
 #include "validators/cell_checks.h"
+#include "validators/cell_regions.h"
 #include "validators/triangle_overlap.h"
 
 namespace geomend::validators {
@@ -175,6 +177,9 @@ void check_cell_contacts(const CellScope& scope, std::vector<Finding>& findings)
     const auto pairs = facing_pairs(scope, outer);
     tell_unmatched(scope, outer, pairs, findings);
     tell_loose_contacts(scope, outer, pairs, findings);
+    std::vector<std::array<std::uint32_t, 2>> facing;
+    for (const auto& [a, b] : pairs) facing.push_back({scope.faces()[outer.of[a].face].cell, scope.faces()[outer.of[b].face].cell});
+    check_cell_regions(scope, facing, findings);
 }
 
 }  // namespace geomend::validators

@@ -93,6 +93,22 @@ void CellHulls::normals_of(std::uint32_t i, std::vector<Vec3>& normals) const {
     }
 }
 
+double CellHulls::bend_of(std::uint32_t i) const {
+    const auto& points = scope_.mesh().points;
+    double most = 0;
+    for (const VolumeFace& face : faces_of(i)) {
+        const auto n = scope_.nodes_of(face);
+        if (n.size() != 4) continue;
+        // From the middle of one diagonal to that of the other, along the normal of the middle plane.
+        const Vec3 u = minus(points[n[2]], points[n[0]]), v = minus(points[n[3]], points[n[1]]), normal = cross(u, v);
+        const double length = std::sqrt(dot(normal, normal));
+        if (!(length > 0)) continue;
+        const Vec3 apart = minus(plus(minus(points[n[1]], points[n[0]]), times(0.5, v)), times(0.5, u));
+        most = std::max(most, std::abs(dot(apart, normal)) / length);
+    }
+    return most / 2;
+}
+
 std::vector<CellHulls::Tetrahedron> CellHulls::tetrahedra_of(std::uint32_t i, const Vec3& origin) const {
     const CellMesh& mesh = scope_.mesh();
     const CellType type = mesh.types[scope_.volume_cells()[i]];
@@ -153,6 +169,7 @@ bool CellHulls::overlap(std::uint32_t i, std::uint32_t j, double tolerance, Scra
             if (parted_along(normal, a, b, tolerance)) return false;
         }
     }
+    tolerance += bend_of(i) + bend_of(j);
     const auto of_b = tetrahedra_of(j, origin);
     for (const auto& s : tetrahedra_of(i, origin)) {
         const Vec3 normal = cross(minus(s[2], s[1]), minus(s[3], s[1]));  // of its face of the cell

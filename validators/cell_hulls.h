@@ -23,12 +23,16 @@ public:
     /// The box along the axes around the i-th of scope.volume_cells().
     std::array<Vec3, 2> box(std::uint32_t i) const;
     /// True where the i-th and the j-th of scope.volume_cells() have a body in common that is thicker than the tolerance in each
-    /// direction in which one of their pieces could be parted from one of the other: what touches only has none. Tetrahedra are
+    /// direction in which one of their pieces could be parted from one of the other: what touches only has none. Where faces are
+    /// bent, it is to be thicker than what the triangles of both cells differ from their faces, too. Tetrahedra are
     /// judged by themselves; other cells by tetrahedra between their middle and the triangles of their faces.
     bool overlap(std::uint32_t i, std::uint32_t j, double tolerance, Scratch& scratch) const;
 
 private:
     using Tetrahedron = std::array<Vec3, 4>;
+    /// By how much the faces of a cell with four corners are bent: the largest distance between the middle of one, on the
+    /// curved face through its corners, and the diagonals. Where its triangles lie beyond that face is no matter of the cell.
+    double bend_of(std::uint32_t i) const;
     std::span<const VolumeFace> faces_of(std::uint32_t i) const {
         return scope_.faces().subspan(first_face_[i], first_face_[i + 1] - first_face_[i]);
     }

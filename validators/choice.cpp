@@ -101,6 +101,29 @@ bool wanted(const CheckOptions& options, std::string_view code) {
     return always_told(code) || ((options.only.empty() || names(options.only, code)) && !skipped(options, code));
 }
 
+bool leaves_checks_out(const CheckOptions& options, const Dataset& dataset) {
+    const auto any = [&](auto is) { return std::ranges::any_of(dataset.objects, is); };
+    const bool grids = any([](const Object& o) { return std::holds_alternative<CornerPointGrid>(o); });
+    const bool models = any([](const Object& o) { return std::holds_alternative<Surface>(o) || std::holds_alternative<CellMesh>(o); });
+    const auto applies = [&](char family) {
+        switch (family) {
+            case 'B':
+                return models || options.grid_model.has_value();
+            case 'C':
+                return grids;
+            case 'G':
+                return models || grids;
+            case 'S':
+                return !options.target.empty();
+            default:
+                return true;
+        }
+    };
+    return std::ranges::any_of(code_catalogue(), [&](const CodeInfo& row) {
+        return row.severity != Severity::info && applies(row.code[0]) && !wanted(options, row.code);
+    });
+}
+
 bool judges_anything(const CheckOptions& options) {
     return std::ranges::any_of(all_checks(), [&](const Check& check) { return !always_told(check.code) && wanted(options, check.code); });
 }

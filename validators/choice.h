@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "model/dataset.h"
 #include "validators/grid_scope.h"
 
 // Which findings a user asks for with --checks and --skip. A word of these lists is a code (B08), a family by its letter (B), or
@@ -27,6 +28,10 @@ bool wanted(const CheckOptions& options, std::string_view code);
 
 /// Whether the options leave findings of a code out by --skip.
 bool skipped(const CheckOptions& options, std::string_view code);
+
+/// Whether the options leave out a code that might be reported of the dataset as a warning or an error: codes of checks that look
+/// at objects such as there are, and remarks of readers.
+bool leaves_checks_out(const CheckOptions& options, const Dataset& dataset);
 
 /// Whether any of the checks that judge models is wanted: not where only remarks of readers are.
 bool judges_anything(const CheckOptions& options);

@@ -10,28 +10,11 @@
 #include "validators/each_surface.h"
 #include "validators/found_cells.h"
 #include "validators/model_checks.h"
+#include "validators/surface_facing.h"
 
 namespace geomend::validators {
 
 namespace {
-
-/// Twice the area of a surface as a vector along its mean normal, and without regard to direction.
-struct Facing {
-    Vec3 normal{};
-    double area = 0;
-};
-
-Facing facing_of(const ModelScope& scope, std::uint32_t s) {
-    Facing facing;
-    for (std::uint32_t t = scope.first_triangle(s); t < scope.first_triangle(s + 1); ++t) {
-        const auto& [a, b, c] = scope.triangles()[t];
-        const auto& v = scope.brep().vertices;
-        const Vec3 n = cross(minus(v[b], v[a]), minus(v[c], v[a]));
-        for (std::size_t k = 0; k < 3; ++k) facing.normal[k] += n[k];
-        facing.area += std::sqrt(dot(n, n));
-    }
-    return facing;
-}
 
 /// One stratigraphic surface lies above another one: seen in a region of which the one is roof and the other floor.
 struct Above {
@@ -42,7 +25,6 @@ struct Above {
 
 std::vector<Above> all_above(const ModelScope& scope) {
     const BrepData& brep = scope.brep();
-    constexpr double clearly = 0.3;  // of the area: a surface that is neither roof nor floor of a region says nothing
     std::vector<Facing> facing(brep.surfaces.size());
     parallel_for_each_index(facing.size(), [&](std::size_t s) {
         if (is_stratigraphic(brep.surfaces[s].role)) facing[s] = facing_of(scope, static_cast<std::uint32_t>(s));
@@ -53,7 +35,7 @@ std::vector<Above> all_above(const ModelScope& scope) {
         for (const auto& side : brep.regions[r].sides) {
             const auto& surface = brep.surfaces[side.surface.value];
             const Facing& f = facing[side.surface.value];
-            if (f.area == 0 || std::abs(f.normal[2]) < clearly * f.area) continue;
+            if (!looks_up_or_down(f)) continue;  // neither roof nor floor of the region
             const bool up = f.normal[2] > 0;
             (side.front == up ? floors : roofs).emplace(surface.interface_id.value, up);
         }
@@ -156,6 +138,18 @@ std::vector<std::vector<std::uint32_t>> surfaces_around(const ModelScope& scope)
 }
 
 }  // namespace
+
+Facing facing_of(const ModelScope& scope, std::uint32_t s) {
+    Facing facing;
+    for (std::uint32_t t = scope.first_triangle(s); t < scope.first_triangle(s + 1); ++t) {
+        const auto& [a, b, c] = scope.triangles()[t];
+        const auto& v = scope.brep().vertices;
+        const Vec3 n = cross(minus(v[b], v[a]), minus(v[c], v[a]));
+        for (std::size_t k = 0; k < 3; ++k) facing.normal[k] += n[k];
+        facing.area += std::sqrt(dot(n, n));
+    }
+    return facing;
+}
 
 void check_horizon_order(const ModelScope& scope, std::vector<Finding>& findings) {
     const std::vector<Above> all = all_above(scope);

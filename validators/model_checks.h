@@ -25,11 +25,14 @@ void check_holes(const ModelScope&, std::vector<Finding>&);               // M07
 void check_manifold(const ModelScope&, std::vector<Finding>&);            // B03
 void check_pieces(const ModelScope&, std::vector<Finding>&);              // B04
 void check_region_closed(const ModelScope&, std::vector<Finding>&);       // B05
-void check_model_closed(const ModelScope&, std::vector<Finding>&);        // B06
+void check_model_closed(const ModelScope&, std::vector<Finding>&);        // B06 of models that state regions
 void check_seams(const ModelScope&, std::vector<Finding>&);               // B07
+void check_openings(const ModelScope&, std::vector<Finding>&);            // B06 B29
 void check_free_ends(const ModelScope&, std::vector<Finding>&);           // B09
 void check_leaks(const ModelScope&, std::vector<Finding>&);               // B12 B25
 void check_stated_regions(const ModelScope&, std::vector<Finding>&);      // B13
+void check_stated_sides(const ModelScope&, std::vector<Finding>&);        // B30
+void check_universe(const ModelScope&, std::vector<Finding>&);            // B31
 void check_region_overlap(const ModelScope&, std::vector<Finding>&);      // B14
 void check_thin_regions(const ModelScope&, std::vector<Finding>&);        // B15
 void check_outside_surfaces(const ModelScope&, std::vector<Finding>&);    // B16
@@ -44,6 +47,7 @@ void check_fault_displacement(const ModelScope&, std::vector<Finding>&);  // G03
 void check_horizon_order(const ModelScope&, std::vector<Finding>&);       // G04
 void check_horizons_pass(const ModelScope&, std::vector<Finding>&);       // G05
 void check_list_members(const ModelScope&, std::vector<Finding>&);        // G07
+void check_layer_lists(const ModelScope&, std::vector<Finding>&);         // G09
 void check_triangle_angles(const ModelScope&, std::vector<Finding>&);     // Q01
 void check_short_edges(const ModelScope&, std::vector<Finding>&);         // Q02
 void check_folds(const ModelScope&, std::vector<Finding>&);               // Q03

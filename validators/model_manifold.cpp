@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <span>
 #include <tuple>
+#include <vector>
 
 #include "topology/face_edges.h"
 #include "validators/each_surface.h"
 #include "validators/found_cells.h"
+#include "validators/loose_manifold.h"
 #include "validators/model_checks.h"
 
 namespace geomend::validators {
@@ -48,26 +51,78 @@ std::vector<std::uint8_t> set_aside(const ModelScope& scope, const BrepData::Sur
 
 /// A polygon at a vertex.
 struct PolygonAt {
-    std::uint32_t vertex, polygon, corner;
+    std::uint32_t polygon, corner;
+};
+
+/// The polygons at each vertex of a surface, in the order of their corners; vertices by rank, the lowest number first.
+struct PolygonsAround {
+    std::vector<std::uint32_t> vertices;  ///< by rank
+    std::vector<std::uint32_t> first;     ///< by rank, where its polygons begin; one more behind the last
+    std::vector<PolygonAt> polygons;
+};
+
+template <class Body>
+void each_corner(const BrepData::Surface& surface, const topology::FaceEdges& face, std::span<const std::uint8_t> aside, const Body& body) {
+    std::vector<std::uint8_t> skip(surface.polygons.size(), 0);
+    for (const std::uint32_t p : face.degenerate) skip[p] = 1;
+    for (const std::uint32_t p : face.duplicate) skip[p] = 1;
+    for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) {
+        if (skip[p] != 0) continue;
+        const auto polygon = surface.polygons[p];
+        const auto first = static_cast<std::uint32_t>(surface.polygons.first_corner(p));
+        for (std::uint32_t i = 0; i < polygon.size(); ++i) {
+            if (aside[polygon[i]] == 0) body(polygon[i], PolygonAt{p, first + i});
+        }
+    }
+}
+
+// Several nodes may have one vertex.
+std::vector<std::uint32_t> rank_nodes(const BrepData::Surface& surface, std::vector<std::uint32_t>& vertices) {
+    vertices.clear();
+    for (const VertexId v : surface.nodes) vertices.push_back(v.value);
+    std::ranges::sort(vertices);
+    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    std::vector<std::uint32_t> rank(surface.nodes.size());
+    for (std::size_t n = 0; n < rank.size(); ++n)
+        rank[n] = static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, surface.nodes[n].value) - vertices.begin());
+    return rank;
+}
+
+PolygonsAround polygons_around(const BrepData::Surface& surface, const topology::FaceEdges& face, std::span<const std::uint8_t> aside) {
+    PolygonsAround around;
+    const std::vector<std::uint32_t> rank = rank_nodes(surface, around.vertices);
+    around.first.assign(around.vertices.size() + 1, 0);
+    each_corner(surface, face, aside, [&](std::uint32_t node, const PolygonAt&) { ++around.first[rank[node] + 1]; });
+    for (std::size_t r = 1; r < around.first.size(); ++r) around.first[r] += around.first[r - 1];
+    around.polygons.resize(around.first.back());
+    std::vector<std::uint32_t> next = around.first;
+    each_corner(surface, face, aside, [&](std::uint32_t node, const PolygonAt& at) { around.polygons[next[rank[node]]++] = at; });
+    return around;
+}
+
+/// Buffers of one_ring(), used again from vertex to vertex.
+struct RingWalk {
+    std::vector<std::uint8_t> seen;
+    std::vector<std::size_t> stack;
 };
 
 /// Whether the polygons around one vertex hang together by the edges at the vertex.
-bool one_ring(const BrepData::Surface& surface, std::span<const PolygonAt> around) {
-    std::vector<std::uint8_t> seen(around.size(), 0);
-    std::vector<std::size_t> stack{0};
-    seen[0] = 1;
+bool one_ring(const BrepData::Surface& surface, std::span<const PolygonAt> around, RingWalk& walk) {
+    walk.seen.assign(around.size(), 0);
+    walk.stack.assign(1, 0);
+    walk.seen[0] = 1;
     std::size_t reached = 0;
-    while (!stack.empty()) {
-        const PolygonAt& here = around[stack.back()];
-        stack.pop_back();
+    while (!walk.stack.empty()) {
+        const PolygonAt& here = around[walk.stack.back()];
+        walk.stack.pop_back();
         ++reached;
         const std::size_t first = surface.polygons.first_corner(here.polygon), size = surface.polygons[here.polygon].size();
         const std::size_t before = here.corner == first ? first + size - 1 : here.corner - 1;
         for (const std::uint32_t q : {surface.neighbours[here.corner], surface.neighbours[before]}) {
             for (std::size_t k = 0; q != no_index && k < around.size(); ++k) {
-                if (around[k].polygon != q || seen[k] != 0) continue;
-                seen[k] = 1;
-                stack.push_back(k);
+                if (around[k].polygon != q || walk.seen[k] != 0) continue;
+                walk.seen[k] = 1;
+                walk.stack.push_back(k);
             }
         }
     }
@@ -76,39 +131,24 @@ bool one_ring(const BrepData::Surface& surface, std::span<const PolygonAt> aroun
 
 /// Vertices away from lines where the polygons make more than one ring.
 std::vector<std::uint32_t> pinched_vertices(const ModelScope& scope, const BrepData::Surface& surface, const topology::FaceEdges& face) {
-    const auto aside = set_aside(scope, surface);
-    std::vector<std::uint8_t> skip(surface.polygons.size(), 0);
-    for (const std::uint32_t p : face.degenerate) skip[p] = 1;
-    for (const std::uint32_t p : face.duplicate) skip[p] = 1;
-    std::vector<PolygonAt> corners;
-    for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) {
-        if (skip[p] != 0) continue;
-        const auto polygon = surface.polygons[p];
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            if (aside[polygon[i]] == 0)
-                corners.push_back({surface.nodes[polygon[i]].value, p, static_cast<std::uint32_t>(surface.polygons.first_corner(p) + i)});
-        }
-    }
-    std::ranges::sort(corners,
-                      [](const PolygonAt& a, const PolygonAt& b) { return std::tie(a.vertex, a.corner) < std::tie(b.vertex, b.corner); });
+    const PolygonsAround around = polygons_around(surface, face, set_aside(scope, surface));
     std::vector<std::uint32_t> pinched;
-    for (std::size_t i = 0; i < corners.size();) {
-        std::size_t j = i + 1;
-        while (j < corners.size() && corners[j].vertex == corners[i].vertex) ++j;
-        if (!one_ring(surface, std::span(corners).subspan(i, j - i))) pinched.push_back(corners[i].vertex);
-        i = j;
+    RingWalk walk;
+    for (std::size_t r = 0; r < around.vertices.size(); ++r) {
+        const auto here = std::span(around.polygons).subspan(around.first[r], around.first[r + 1] - around.first[r]);
+        if (!here.empty() && !one_ring(surface, here, walk)) pinched.push_back(around.vertices[r]);
     }
     return pinched;
 }
 
-}  // namespace
-
-void check_manifold(const ModelScope& scope, std::vector<Finding>& findings) {
+/// B03 of the surfaces of a model that a file states: each is to be manifold away from lines.
+void report_stated_manifold(const ModelScope& scope, const std::vector<std::vector<std::uint32_t>>& all_pinched,
+                            std::vector<Finding>& findings) {
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
         const topology::PolygonEdges edges(surface.polygons);
         const auto crowded = crowded_corners(surface, scope.model().faces[s], edges);
-        const auto pinched = pinched_vertices(scope, surface, scope.model().faces[s]);
+        const auto& pinched = all_pinched[s];
         if (crowded.empty() && pinched.empty()) return std::nullopt;
         std::vector<std::uint32_t> polygons;
         for (const std::uint32_t corner : crowded) polygons.push_back(edges.polygon(corner));
@@ -133,6 +173,17 @@ void check_manifold(const ModelScope& scope, std::vector<Finding>& findings) {
                             {"pinched_points", static_cast<double>(pinched.size())}};
         return finding;
     });
+}
+
+}  // namespace
+
+void check_manifold(const ModelScope& scope, std::vector<Finding>& findings) {
+    std::vector<std::vector<std::uint32_t>> pinched(scope.brep().surfaces.size());
+    parallel_for_each_index(pinched.size(), [&](std::size_t s) {
+        if (!scope.stopped()) pinched[s] = pinched_vertices(scope, scope.brep().surfaces[s], scope.model().faces[s]);
+    });
+    if (scope.model().stated) report_stated_manifold(scope, pinched, findings);
+    else report_loose_manifold(scope, pinched, findings);
 }
 
 }  // namespace geomend::validators

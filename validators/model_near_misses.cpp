@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "geometry/vectors.h"
 #include "validators/found_cells.h"
@@ -97,15 +99,22 @@ std::vector<Neighbours> neighbours_of(const ModelScope& scope) {
     return all;
 }
 
-/// Whether a finding about the two surfaces is there already that says how they meet.
-bool is_told(const std::vector<Finding>& findings, std::uint32_t a, std::uint32_t b) {
-    static constexpr std::array codes = {"B08", "B10", "B11", "B20", "B22", "B23"};
-    return std::ranges::any_of(findings, [&](const Finding& f) {
-        if (f.entities.size() != 2 || std::ranges::find(codes, f.code) == codes.end()) return false;
-        const std::int64_t x = f.entities[0].id, y = f.entities[1].id;
-        return (x == a && y == b) || (x == b && y == a);
-    });
-}
+/// Pairs of surfaces of which findings say already how they meet.
+class Reported {
+public:
+    explicit Reported(std::span<const Finding> findings) {
+        for (const Finding& f : findings) add(f);
+    }
+    void add(const Finding& f) {
+        static constexpr std::array codes = {"B08", "B10", "B11", "B20", "B22", "B23"};
+        if (f.entities.size() != 2 || std::ranges::find(codes, f.code) == codes.end()) return;
+        pairs_.insert(std::minmax(f.entities[0].id, f.entities[1].id));
+    }
+    bool has(std::uint32_t a, std::uint32_t b) const { return pairs_.contains(std::minmax(std::int64_t{a}, std::int64_t{b})); }
+
+private:
+    std::set<std::pair<std::int64_t, std::int64_t>> pairs_;
+};
 
 std::array<Vec3, 3> triangle_at(const ModelScope& scope, std::uint32_t triangle) {
     const auto& t = scope.triangles()[triangle];
@@ -159,7 +168,8 @@ Finding touch_finding(const ModelScope& scope, std::uint32_t border, std::uint32
     return touch;
 }
 
-void tell_borders(const ModelScope& scope, const Neighbours& some, const TriangleTree& tree, std::vector<Finding>& findings) {
+void tell_borders(const ModelScope& scope, const Neighbours& some, const TriangleTree& tree, Reported& reported,
+                  std::vector<Finding>& findings) {
     const double tolerance = some.lengths.tolerance;
     // In a basin that is a hundred times as wide as it is thick borders leave surfaces more slowly than in a cube.
     const double slow = 0.05 * some.lengths.flatness;
@@ -188,8 +198,10 @@ void tell_borders(const ModelScope& scope, const Neighbours& some, const Triangl
     }
     for (auto& [surface, pair] : pairs) {
         const auto& [border, other] = surface;
-        if (!pair.touches.empty() && !is_told(findings, border, other))
+        if (!pair.touches.empty() && !reported.has(border, other)) {
             findings.push_back(touch_finding(scope, border, other, pair.touches, some));
+            reported.add(findings.back());
+        }
         if (pair.finding.count == 0) continue;
         const std::string where = border == other ? "itself" : quoted(scope.brep().surfaces[other].name);
         Finding finding = finding_of("B23", "the border of " + quoted(scope.brep().surfaces[border].name) + " nearly meets " + where +
@@ -202,14 +214,16 @@ void tell_borders(const ModelScope& scope, const Neighbours& some, const Triangl
         finding.points = std::move(pair.finding.points);
         finding.polylines = std::move(pair.finding.polylines);
         finding.measures = {{"gap", pair.smallest}, {"largest_gap", pair.largest}};
+        reported.add(finding);
         findings.push_back(std::move(finding));
     }
 }
 
-void tell_surfaces(const ModelScope& scope, const Neighbours& some, const TriangleTree& tree, std::vector<Finding>& findings) {
+void tell_surfaces(const ModelScope& scope, const Neighbours& some, const TriangleTree& tree, const Reported& reported,
+                   std::vector<Finding>& findings) {
     bool cut_short = false;
     for (const ClosePair& close : closest_pairs(tree, some.surfaces, some.lengths.near, scope.monitor(), &cut_short)) {
-        if (is_told(findings, close.group_a, close.group_b)) continue;
+        if (reported.has(close.group_a, close.group_b)) continue;
         const auto& a = scope.brep().surfaces[close.group_a];
         const auto& b = scope.brep().surfaces[close.group_b];
         Finding finding = finding_of("B24", quoted(a.name) + " and " + quoted(b.name) + " come within " + rounded(close.distance) +
@@ -234,11 +248,12 @@ void tell_surfaces(const ModelScope& scope, const Neighbours& some, const Triang
 void check_near_misses(const ModelScope& scope, std::vector<Finding>& findings) {
     // Where very many surfaces lie across each other everything is near everything, and that has been told.
     if (std::ranges::any_of(findings, [](const Finding& f) { return f.code == "B08" && f.entities.empty(); })) return;
+    Reported reported(findings);
     for (const Neighbours& some : neighbours_of(scope)) {
         if (some.lengths.near <= 0 || some.triangles.empty() || scope.stopped()) continue;
         const TriangleTree tree(some.vertices, some.triangles);
-        tell_borders(scope, some, tree, findings);
-        tell_surfaces(scope, some, tree, findings);
+        tell_borders(scope, some, tree, reported, findings);
+        tell_surfaces(scope, some, tree, reported, findings);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "geometry/cell_volume.h"
 #include "validators/each_surface.h"
 #include "validators/found_cells.h"
+#include "validators/free_borders.h"
 #include "validators/model_checks.h"
 #include "validators/region_volumes.h"
 
@@ -47,14 +48,6 @@ std::vector<std::array<std::uint32_t, 2>> stated_sides(const ModelScope& scope) 
         if (slot == no_index) slot = outside;
     }
     return stated;
-}
-
-std::string region_name(const ModelScope& scope, std::uint32_t found) {
-    if (found == no_index) return "the outside";
-    const auto& sides = scope.model().found.regions[found];
-    const auto& s = scope.brep().surfaces[sides[0].surface.value];
-    const RegionId id = s.regions[sides[0].front ? 1 : 0];
-    return id.valid() ? "region " + quoted(scope.brep().regions[id.value].name) : "a region";
 }
 
 }  // namespace
@@ -116,7 +109,7 @@ void check_free_ends(const ModelScope& scope, std::vector<Finding>& findings) {
         if (!must_not || !has_free_border(scope, surface)) return std::nullopt;
         const std::uint32_t region = found.region_of_side[2 * s];
         if (region == no_index || region != found.region_of_side[2 * s + 1]) return std::nullopt;
-        Finding finding = finding_of("B09", quoted(surface.name) + " ends inside " + region_name(scope, region) +
+        Finding finding = finding_of("B09", quoted(surface.name) + " ends inside " + found_region_name(scope, region) +
                                                 ", which only faults and fractures may: it is stated as " + to_string(surface.role));
         finding.entities.push_back(surface_ref(scope, s));
         finding.element_kind = "line";
@@ -154,7 +147,7 @@ std::vector<std::uint32_t> hole_lines(const ModelScope& scope, std::uint32_t reg
 Finding leak_finding(const ModelScope& scope, std::uint32_t region, const std::vector<std::uint32_t>& surfaces) {
     const BrepData& brep = scope.brep();
     Finding finding =
-        finding_of("B12", region_name(scope, region) + " leaks: it lies on both sides of " + quoted(brep.surfaces[surfaces[0]].name));
+        finding_of("B12", found_region_name(scope, region) + " leaks: it lies on both sides of " + quoted(brep.surfaces[surfaces[0]].name));
     if (surfaces.size() > 1) finding.message += " and of " + counted(surfaces.size() - 1, "other surface", "other surfaces");
     std::set<std::string> owners;
     const auto lines = hole_lines(scope, region);
@@ -166,8 +159,10 @@ Finding leak_finding(const ModelScope& scope, std::uint32_t region, const std::v
     if (!owners.empty()) {
         finding.message += "; its sides meet around the free border of " + *owners.begin();
         if (owners.size() > 1) finding.message += ", " + *std::next(owners.begin()) + (owners.size() > 2 ? ", ..." : "");
+        const auto borders = free_borders(scope, lines);
+        finding.message += ": " + border_text(scope, borders);
+        mark_borders(scope, borders, finding);
     }
-    for (const std::uint32_t l : lines) mark_line(scope, l, finding);
     finding.element_kind = "surface";
     finding.count = surfaces.size();
     for (const std::uint32_t s : surfaces) {
@@ -191,6 +186,7 @@ void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
     const auto bare = has_cells ? regions_with_bare_facets(scope) : std::vector<std::uint8_t>(brep.regions.size(), 0);
     const auto is_bare = [&](std::uint32_t region) { return region < bare.size() && bare[region] != 0; };
     std::vector<std::uint32_t> internal;
+    const auto closing = closing_groups(scope);
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
         const auto& surface = brep.surfaces[s];
         const std::uint32_t region = found.region_of_side[2 * s];
@@ -200,15 +196,16 @@ void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
                                   !are_of_one_group(brep, stated[s][0], stated[s][1]);
         const bool separates =
             is_stratigraphic(surface.role) || surface.role == FeatureRole::boundary || surface.role == FeatureRole::topography;
-        const bool closed_is_meant = region != no_index || scope.model().regions_stated || !found.regions.empty();
+        const bool closed_is_meant = region != no_index || scope.model().regions_stated || closing[s] != 0;
         if (lists_differ || (separates && closed_is_meant)) leaking[region].push_back(s);
-        else if (region != no_index) internal.push_back(s);  // outside of all regions: B16
+        else if (region != no_index && (scope.model().regions_stated || !is_undecided(surface.role)))
+            internal.push_back(s);  // outside of all regions: B16; no role says what it is: B29
     }
     for (const auto& [region, surfaces] : leaking) findings.push_back(leak_finding(scope, region, surfaces));
     for (const std::uint32_t s : internal) {
         const std::uint32_t region = found.region_of_side[2 * s];
         Finding finding =
-            finding_of("B25", quoted(brep.surfaces[s].name) + " lies inside " + region_name(scope, region) + " with both sides");
+            finding_of("B25", quoted(brep.surfaces[s].name) + " lies inside " + found_region_name(scope, region) + " with both sides");
         finding.entities.push_back(surface_ref(scope, s));
         finding.count = 1;
         for (const auto& use : brep.surfaces[s].lines) {

@@ -13,15 +13,15 @@ namespace geomend::validators {
 
 namespace {
 
-/// Calls with each point that an element uses, once for each object that it is in, and with the object.
+/// Calls with each point that an element uses, once for each object that it is in: visit(object, its number there).
 template <class Visit>
 void each_used_point(const Dataset& dataset, const Visit& visit) {
     std::vector<std::uint8_t> used;
     const auto visit_used = [&](const Object& object, const std::vector<Vec3>& points, const std::vector<std::uint32_t>& corners) {
         used.assign(points.size(), 0);
         for (const std::uint32_t c : corners) used[c] = 1;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (used[i] != 0) visit(points[i], object);
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            if (used[i] != 0) visit(object, i);
         }
     };
     for (const Object& object : dataset.objects) {
@@ -29,34 +29,6 @@ void each_used_point(const Dataset& dataset, const Visit& visit) {
         else if (const auto* mesh = std::get_if<CellMesh>(&object)) visit_used(object, mesh->points, mesh->nodes);
     }
 }
-
-}  // namespace
-
-topology::LocalLengths lengths_of(const Dataset& dataset, const CheckOptions& options) {
-    return topology::local_lengths(dataset, {options.tolerance, options.near});
-}
-
-std::vector<Finding> huge_coordinates(const Dataset& dataset) {
-    constexpr double huge = 1e20;
-    Finding finding = finding_of("M09", {});
-    each_used_point(dataset, [&](const Vec3& p, const Object& object) {
-        if (std::ranges::all_of(p, [](double x) { return std::abs(x) < huge; })) return;
-        const EntityRef entity{kind_name(object), info_of(object).name};
-        const auto& known = finding.entities;
-        const bool is_new = known.empty() || known.back().kind != entity.kind || known.back().name != entity.name;
-        if (is_new && known.size() < listed_elements) finding.entities.push_back(entity);
-        ++finding.count;
-        if (finding.points.size() < listed_elements) finding.points.push_back(p);
-    });
-    if (finding.count == 0) return {};
-    finding.element_kind = "point";
-    finding.message = counted(finding.count, "point has", "points have") +
-                      " a coordinate that is not finite or as large as 1e20, first in " + quoted(finding.entities[0].name) +
-                      ": surfaces and cells were not judged";
-    return {finding};
-}
-
-namespace {
 
 const Labels& point_labels(const Object& object) {
     const auto* mesh = std::get_if<CellMesh>(&object);
@@ -71,6 +43,49 @@ const std::vector<Vec3>& points_of(const Object& object) {
 /// A height in the file's own sense.
 double stated_height(const Object& object, double z) { return info_of(object).crs.z_positive == ZPositive::depth ? 0.0 - z : z; }
 
+/// "(x, y, z)" in the file's own sense.
+std::string stated_position(const Object& object, const Vec3& p) {
+    return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(stated_height(object, p[2])) + ")";
+}
+
+}  // namespace
+
+topology::LocalLengths lengths_of(const Dataset& dataset, const CheckOptions& options) {
+    return topology::local_lengths(dataset, {options.tolerance, options.near});
+}
+
+std::vector<Finding> huge_coordinates(const Dataset& dataset) {
+    constexpr double huge = 1e20;
+    Finding finding = finding_of("M09", {});
+    std::string first;
+    each_used_point(dataset, [&](const Object& object, std::uint32_t point) {
+        const Vec3& p = points_of(object)[point];
+        if (std::ranges::all_of(p, [](double x) { return std::abs(x) < huge; })) return;
+        const EntityRef entity{kind_name(object), info_of(object).name};
+        const auto& known = finding.entities;
+        const bool is_new = known.empty() || known.back().kind != entity.kind || known.back().name != entity.name;
+        if (is_new && known.size() < listed_elements) finding.entities.push_back(entity);
+        if (finding.count++ == 0)
+            first =
+                "point " + std::to_string(point_labels(object)[point]) + " of " + quoted(entity.name) + " at " + stated_position(object, p);
+        if (finding.points.size() >= listed_elements) return;
+        finding.points.push_back(p);
+        finding.elements.push_back(point_labels(object)[point]);
+        finding.index.push_back(point);
+    });
+    if (finding.count == 0) return {};
+    if (finding.entities.size() > 1) {  // numbers of which object?
+        finding.elements.clear();
+        finding.index.clear();
+    }
+    finding.element_kind = "point";
+    finding.message = counted(finding.count, "point has", "points have") + " a coordinate that is not finite or as large as 1e20" +
+                      (finding.count == 1 ? ": " : ", first ") + first + ", which looks like no-data; surfaces and cells were not judged";
+    return {finding};
+}
+
+namespace {
+
 /// \pre all of one object, at least one
 Finding outlying_finding(const Object& object, std::span<const topology::OutlyingPoint> outlying) {
     const auto& first = outlying[0];
@@ -81,8 +96,8 @@ Finding outlying_finding(const Object& object, std::span<const topology::Outlyin
     std::string message = (alone ? "point " + std::to_string(number) : std::to_string(outlying.size()) + " points") + " of " +
                           quoted(info_of(object).name) + (alone ? " lies" : " lie") +
                           " far off: " + (alone ? "" : "point " + std::to_string(number) + ", the first, is ") + (alone ? "it is " : "") +
-                          "at (" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(stated_height(object, p[2])) + "), " +
-                          rounded(first.times) + " times as far from the others as these are from each other";
+                          "at " + stated_position(object, p) + ", " + rounded(first.times) +
+                          " times as far from the others as these are from each other";
     if (usual) message += "; the height looks like no-data";
     Finding finding = finding_of("M15", std::move(message));
     finding.entities.push_back({kind_name(object), info_of(object).name});
@@ -188,6 +203,14 @@ EntityRef line_ref(const ModelScope& scope, std::uint32_t line) {
 
 EntityRef region_ref(const ModelScope& scope, std::uint32_t region) {
     return {"region", region < scope.brep().regions.size() ? scope.brep().regions[region].name : std::string(), region};
+}
+
+std::string found_region_name(const ModelScope& scope, std::uint32_t found) {
+    if (found == no_index) return "the outside";
+    const auto& sides = scope.model().found.regions[found];
+    const auto& s = scope.brep().surfaces[sides[0].surface.value];
+    const RegionId id = s.regions[sides[0].front ? 1 : 0];
+    return id.valid() ? "region " + quoted(scope.brep().regions[id.value].name) : "a region";
 }
 
 void mark_line(const ModelScope& scope, std::uint32_t line, Finding& finding) {

@@ -73,6 +73,8 @@ private:
 
 /// True for roles whose surfaces may end anywhere.
 inline bool may_end_freely(FeatureRole role) { return role == FeatureRole::fault || role == FeatureRole::fracture; }
+/// True where no role says whether a surface may end anywhere, or lie within a region.
+inline bool is_undecided(FeatureRole role) { return role == FeatureRole::unknown; }
 /// Horizons and unconformities.
 inline bool is_stratigraphic(FeatureRole role) { return role == FeatureRole::horizon || role == FeatureRole::unconformity; }
 
@@ -84,6 +86,8 @@ Finding polygons_finding(const ModelScope& scope, std::string_view code, std::ui
 EntityRef surface_ref(const ModelScope& scope, std::uint32_t surface);
 EntityRef line_ref(const ModelScope& scope, std::uint32_t line);
 EntityRef region_ref(const ModelScope& scope, std::uint32_t region);
+/// "region 'Lower'" for a region found by walking along surfaces; "the outside" for no_index.
+std::string found_region_name(const ModelScope& scope, std::uint32_t found);
 /// Adds the course of a line to a finding; at most 100 of them.
 void mark_line(const ModelScope& scope, std::uint32_t line, Finding& finding);
 

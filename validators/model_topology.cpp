@@ -9,6 +9,7 @@
 #include "topology/pieces.h"
 #include "validators/each_surface.h"
 #include "validators/found_cells.h"
+#include "validators/free_borders.h"
 #include "validators/model_checks.h"
 
 namespace geomend::validators {
@@ -54,36 +55,6 @@ std::vector<std::uint64_t> edges_of_several_surfaces(const ModelScope& scope) {
     return shared;
 }
 
-/// Per polygon the first one of the piece that hangs together by edges, but for those in `cuts` (ascending); degenerate and
-/// repeated polygons: no_index. Empty where all is one piece, even apart at all lines.
-std::vector<std::uint32_t> pieces_by_edges(const BrepData::Surface& surface, const topology::FaceEdges& face,
-                                           const std::vector<std::uint64_t>& cuts) {
-    std::vector<std::uint32_t> piece_of;
-    if (topology::number_pieces(surface, face, piece_of) < 2) return {};
-    DisjointSets pieces(surface.polygons.size());
-    const topology::PolygonEdges edges(surface.polygons);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> at_border;
-    std::vector<std::uint8_t> aside(surface.polygons.size(), 0);
-    for (const std::uint32_t p : face.degenerate) aside[p] = 1;
-    for (const std::uint32_t p : face.duplicate) aside[p] = 1;
-    for (std::uint32_t c = 0; c < surface.neighbours.size(); ++c) {
-        const std::uint32_t p = edges.polygon(c);
-        if (aside[p] != 0) continue;
-        if (surface.neighbours[c] != no_index) {
-            pieces.join(p, surface.neighbours[c]);
-            continue;
-        }
-        const std::uint32_t from = edges.start_node(c), to = edges.end_node(c);
-        if (!cuts.empty() && std::ranges::binary_search(cuts, edge_key(surface.nodes[from], surface.nodes[to]))) continue;
-        pieces.join(p, at_border.emplace(std::minmax(from, to), p).first->second);
-    }
-    std::vector<std::uint32_t> roots(surface.polygons.size(), no_index);
-    for (std::uint32_t p = 0; p < roots.size(); ++p) {
-        if (aside[p] == 0) roots[p] = pieces.root(p);
-    }
-    return roots;
-}
-
 /// The numbers of polygons of the pieces, each by its first polygon.
 std::map<std::uint32_t, std::uint64_t> sizes_of(const std::vector<std::uint32_t>& pieces) {
     std::map<std::uint32_t, std::uint64_t> polygons_of;
@@ -96,25 +67,59 @@ std::map<std::uint32_t, std::uint64_t> sizes_of(const std::vector<std::uint32_t>
 /// Per line whether it is one that the file states inside of a surface, with the same nodes on both of its sides: nothing is open there.
 std::vector<std::uint8_t> embedded_lines(const ModelScope& scope) {
     const topology::LineGraph& graph = scope.model().graph;
-    const BrepData& brep = scope.brep();
-    std::vector<topology::PolygonEdges> edges_of;
-    for (const auto& surface : brep.surfaces) edges_of.emplace_back(surface.polygons);
-    std::vector<std::uint8_t> embedded(brep.lines.size(), 0), is_apart(brep.lines.size(), 0);
+    std::vector<std::uint8_t> embedded(scope.brep().lines.size(), 0);
     for (const auto& edge : graph.edges) {
-        std::pair<std::uint32_t, std::uint32_t> first{no_index, no_index};
-        for (const auto& use : graph.edge_uses(edge)) {
-            if (use.surface == no_index) {
-                embedded[edge.line] = 1;
-                continue;
-            }
-            const auto& edges = edges_of[use.surface];
-            const std::pair<std::uint32_t, std::uint32_t> nodes = std::minmax({edges.start_node(use.corner), edges.end_node(use.corner)});
-            if (first.first == no_index) first = nodes;
-            else if (first != nodes) is_apart[edge.line] = 1;
-        }
+        const bool is_stated = std::ranges::any_of(graph.edge_uses(edge), [](const auto& use) { return use.surface == no_index; });
+        if (is_stated) embedded[edge.line] = scope.model().joined_lines[edge.line];
     }
-    for (std::size_t l = 0; l < embedded.size(); ++l) embedded[l] &= static_cast<std::uint8_t>(is_apart[l] == 0);
     return embedded;
+}
+
+/// Edges of such lines; ascending.
+std::vector<std::uint64_t> embedded_edges(const ModelScope& scope) {
+    const auto embedded = embedded_lines(scope);
+    const topology::LineGraph& graph = scope.model().graph;
+    std::vector<std::uint64_t> edges;
+    for (const auto& edge : graph.edges) {
+        if (embedded[edge.line] == 0) continue;
+        const auto& use = graph.uses[edge.first_use];
+        edges.push_back(edge_key(VertexId(use.low), VertexId(use.high)));
+    }
+    std::ranges::sort(edges);
+    return edges;
+}
+
+/// Per polygon the first one of the piece that hangs together by edges, but for those in `cuts` (ascending), and
+/// across lines that are only embedded; degenerate and repeated polygons: no_index. Empty where all is one piece, even apart at all lines.
+std::vector<std::uint32_t> pieces_by_edges(const BrepData::Surface& surface, const topology::FaceEdges& face,
+                                           const std::vector<std::uint64_t>& cuts, const std::vector<std::uint64_t>& embedded) {
+    std::vector<std::uint32_t> piece_of;
+    if (topology::number_pieces(surface, face, piece_of) < 2) return {};
+    DisjointSets pieces(surface.polygons.size());
+    const topology::PolygonEdges edges(surface.polygons);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> at_border;  // by nodes
+    std::map<std::uint64_t, std::uint32_t> at_embedded;                          // by vertices
+    std::vector<std::uint8_t> aside(surface.polygons.size(), 0);
+    for (const std::uint32_t p : face.degenerate) aside[p] = 1;
+    for (const std::uint32_t p : face.duplicate) aside[p] = 1;
+    for (std::uint32_t c = 0; c < surface.neighbours.size(); ++c) {
+        const std::uint32_t p = edges.polygon(c);
+        if (aside[p] != 0) continue;
+        if (surface.neighbours[c] != no_index) {
+            pieces.join(p, surface.neighbours[c]);
+            continue;
+        }
+        const std::uint32_t from = edges.start_node(c), to = edges.end_node(c);
+        if (!cuts.empty() && std::ranges::binary_search(cuts, edge_key(surface.nodes[from], surface.nodes[to]))) continue;
+        const std::uint64_t key = edge_key(surface.nodes[from], surface.nodes[to]);
+        if (std::ranges::binary_search(embedded, key)) pieces.join(p, at_embedded.emplace(key, p).first->second);
+        pieces.join(p, at_border.emplace(std::minmax(from, to), p).first->second);
+    }
+    std::vector<std::uint32_t> roots(surface.polygons.size(), no_index);
+    for (std::uint32_t p = 0; p < roots.size(); ++p) {
+        if (aside[p] == 0) roots[p] = pieces.root(p);
+    }
+    return roots;
 }
 
 }  // namespace
@@ -122,12 +127,13 @@ std::vector<std::uint8_t> embedded_lines(const ModelScope& scope) {
 void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
     if (!scope.model().stated) return;
     // Regions that are found by walking along sides are not told apart by a surface whose sides go on across another one.
+    const auto embedded = embedded_edges(scope);
     const auto cuts = scope.model().regions_stated ? std::vector<std::uint64_t>{} : edges_of_several_surfaces(scope);
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
-        auto polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], {}));
+        auto polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], {}, embedded));
         const bool is_cut = polygons_of.size() < 2;
-        if (is_cut && !cuts.empty()) polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], cuts));
+        if (is_cut && !cuts.empty()) polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], cuts, embedded));
         if (polygons_of.size() < 2) return std::nullopt;
         std::uint64_t largest = 0, all = 0;
         for (const auto& [piece, count] : polygons_of) {
@@ -245,13 +251,15 @@ void check_holes(const ModelScope& scope, std::vector<Finding>& findings) {
             if (loop.free && &loop != outline) free.push_back(&loop);
         }
         if (free.empty()) return std::nullopt;
-        Finding finding = finding_of("M07", quoted(surface.name) + " has " + counted(free.size(), "hole", "holes"));
+        std::vector<std::uint32_t> lines;
+        for (const Loop* loop : free) lines.insert(lines.end(), loop->lines.begin(), loop->lines.end());
+        const auto borders = free_borders(scope, lines);
+        Finding finding =
+            finding_of("M07", quoted(surface.name) + " has " + counted(free.size(), "hole", "holes") + ": " + border_text(scope, borders));
         finding.entities.push_back(surface_ref(scope, s));
         finding.count = free.size();
         finding.element_kind = "hole";
-        for (const Loop* loop : free) {
-            for (const std::uint32_t l : loop->lines) mark_line(scope, l, finding);
-        }
+        mark_borders(scope, borders, finding);
         return finding;
     });
 }

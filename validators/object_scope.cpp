@@ -2,9 +2,12 @@
 #include "validators/object_scope.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "geometry/vectors.h"
+#include "topology/thickness.h"
 #include "validators/found_cells.h"
 #include "validators/model_scope.h"
 
@@ -36,26 +39,64 @@ const Labels* labels_of(const Object& object) {
     return nullptr;
 }
 
-Lengths lengths_of(std::span<const Vec3> points, const ObjectInfo& info, const CheckOptions& options) {
+/// The segments of lines and paths, by which their points count; of other objects none.
+std::vector<std::array<Vec3, 2>> segments_of(const Object& object) {
+    std::vector<std::array<Vec3, 2>> segments;
+    if (const auto* lines = std::get_if<PolylineSet>(&object)) {
+        for (const auto& [a, b] : lines->edges) segments.push_back({lines->points[a], lines->points[b]});
+    } else if (const auto* well = std::get_if<Well>(&object)) {
+        for (std::size_t i = 0; i + 1 < well->path.size(); ++i) segments.push_back({well->path[i], well->path[i + 1]});
+    }
+    return segments;
+}
+
+/// The centroid of lines by their lengths, so that it does not depend on how finely they are divided; else the mean of the points.
+Vec3 centroid_of(std::span<const Vec3> points, std::span<const std::array<Vec3, 2>> segments) {
+    Vec3 sum{};
+    double weight = 0;
+    for (const auto& [a, b] : segments) {
+        const Vec3 along = minus(b, a);
+        const double length = std::sqrt(dot(along, along));
+        sum = plus(sum, times(0.5 * length, plus(minus(a, points[0]), minus(b, points[0]))));
+        weight += length;
+    }
+    if (weight > 0) return plus(points[0], times(1 / weight, sum));
+    sum = {};
+    for (const Vec3& p : points) sum = plus(sum, minus(p, points[0]));
+    return plus(points[0], times(1.0 / static_cast<double>(points.size()), sum));
+}
+
+/// Half of the length of the lines is in segments of at most this length; 0: there are none.
+double median_length(std::span<const std::array<Vec3, 2>> segments) {
+    std::vector<std::pair<double, double>> lengths;
+    for (const auto& [a, b] : segments) {
+        const Vec3 along = minus(b, a);
+        const double length = std::sqrt(dot(along, along));
+        if (length > 0) lengths.emplace_back(length, length);
+    }
+    return lengths.empty() ? 0 : topology::weighted_quantile(lengths, 0.5);
+}
+
+Lengths lengths_of(const Object& object, std::span<const Vec3> points, const CheckOptions& options) {
     Lengths lengths;
+    const ObjectInfo& info = info_of(object);
     const bool single = info.precision == CoordinatePrecision::single_precision;
+    const auto segments = segments_of(object);
     double step = 0;
     if (!points.empty()) {
-        Vec3 sum{};
-        for (const Vec3& p : points) {
-            sum = plus(sum, minus(p, points[0]));
-            for (std::size_t k = 0; k < 3; ++k) step = std::max(step, step_above(std::abs(p[k] - info.stored_around[k]), single));
-        }
-        const Vec3 middle = plus(points[0], times(1.0 / static_cast<double>(points.size()), sum));
+        const Vec3 middle = centroid_of(points, segments);
         double farthest = 0;
         for (const Vec3& p : points) {
             const Vec3 d = minus(p, middle);
             farthest = std::max(farthest, dot(d, d));
+            for (std::size_t k = 0; k < 3; ++k) step = std::max(step, step_above(std::abs(p[k] - info.stored_around[k]), single));
         }
         lengths.diameter = 2 * std::sqrt(farthest);
     }
     lengths.tolerance = options.tolerance >= 0 ? options.tolerance : std::max(1e-7 * lengths.diameter, 4 * step);
-    lengths.near = options.near >= 0 ? options.near : 1e-3 * lengths.diameter;
+    double near = 1e-3 * lengths.diameter;
+    if (const double edge = median_length(segments); edge > 0) near = std::min(near, edge / 4);
+    lengths.near = options.near >= 0 ? options.near : std::max(10 * lengths.tolerance, near);
     return lengths;
 }
 
@@ -70,7 +111,7 @@ ObjectScope::ObjectScope(const Object& object, const CheckOptions& options) : ob
         own_points_ = outer_samples(*raster);
         points_ = own_points_;
     }
-    if (std::ranges::all_of(points_, is_sound)) lengths_ = lengths_of(points_, info(), options);
+    if (std::ranges::all_of(points_, is_sound)) lengths_ = lengths_of(object, points_, options);
 }
 
 bool is_judged_alone(const Object& object) {

@@ -26,7 +26,8 @@ public:
         return std::get_if<Kind>(&object_);
     }
     const ObjectInfo& info() const { return info_of(object_); }
-    /// By which it is judged: D is twice the largest distance of one of its points from the centroid of all of them.
+    /// By which it is judged, by the rules of local_lengths(): D is twice the largest distance of one of its points from the centroid,
+    /// of lines and paths weighted by length; the median edge is that of lines and paths.
     const Lengths& lengths() const { return lengths_; }
     /// Its points: of a well those of the path, of a raster its outermost samples.
     std::span<const Vec3> points() const { return points_; }

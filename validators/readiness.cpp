@@ -23,8 +23,9 @@ constexpr std::array flow_burdens = {
     TargetBurden{"C15", "ACTNUM is read as inactive (0) or active"},
     TargetBurden{"C16", "these cells are made inactive"},
     TargetBurden{"F145", "it takes other sizes for them, or stops"},
-    TargetBurden{"F146", "it stops there"},
-    TargetBurden{"F147", "it stops there"},
+    TargetBurden{"F146", "it stops there, or passes over the record", true},
+    TargetBurden{"F147", "it stops there", true},
+    TargetBurden{"F149", "it stops there", true},
     TargetBurden{"C17", "parts of their own are solved with nothing that joins them"},
 };
 constexpr std::array mesher_burdens = {
@@ -34,6 +35,7 @@ constexpr std::array mesher_burdens = {
     TargetBurden{"B23", "elements of the size of the gap fill it, or the region leaks"},
     TargetBurden{"B24", "elements of the size of the gap fill it"},
     TargetBurden{"B28", "a vertex is put in, and the meshes do not match there"},
+    TargetBurden{"B29", "what the surface parts becomes one, or is not filled"},
     TargetBurden{"M01", "elements as small as the distance are made"},
     TargetBurden{"M03", "elements as flat as the triangle are made"},
     TargetBurden{"Q01", "elements as bad as the triangle are made"},
@@ -94,29 +96,29 @@ const char* wanted_kind(TargetInput input) {
     return words[static_cast<std::size_t>(input)];
 }
 
-// What a finding of another check means to the target; empty: nothing.
-std::string_view consequence_of(const Finding& f, const Target& target) {
+// What a finding of another check means to the target; without consequence: nothing.
+TargetBurden burden_of(const Finding& f, const Target& target) {
     if (f.code.empty()) return {};
     for (const TargetBurden& burden : target.burdens) {
-        if (f.code == burden.code) return burden.consequence;
+        if (f.code == burden.code) return burden;
     }
     const bool stops = f.severity == Severity::error && target.families.find(f.code[0]) != std::string_view::npos;
-    return stops ? std::string_view("it stops there, or its results are wrong") : std::string_view{};
+    return {f.code, stops ? std::string_view("it stops there, or its results are wrong") : std::string_view{}, stops};
 }
 
 // One finding for each code that matters.
 void check_other_findings(const Target& target, std::span<const Finding> found, std::vector<Finding>& findings) {
     struct Consequence {
         Finding finding;
-        bool of_error = false;
+        bool stops = false;
     };
     std::map<std::string, Consequence> by_code;
     for (const Finding& f : found) {
-        const std::string_view consequence = consequence_of(f, target);
-        if (consequence.empty()) continue;
+        const TargetBurden burden = burden_of(f, target);
+        if (burden.consequence.empty()) continue;
         const auto [at, is_new] = by_code.try_emplace(f.code);
-        if (is_new) at->second.finding = target_finding("S02", std::string(consequence));
-        at->second.of_error |= f.severity == Severity::error;
+        if (is_new) at->second.finding = target_finding("S02", std::string(burden.consequence));
+        at->second.stops |= f.severity == Severity::error || burden.stops;
         Finding& s = at->second.finding;
         ++s.count;
         const std::size_t room = listed_elements - std::min(listed_elements, s.entities.size());
@@ -125,7 +127,7 @@ void check_other_findings(const Target& target, std::span<const Finding> found, 
     }
     for (auto& [code, of_code] : by_code) {
         Finding& s = of_code.finding;
-        if (!of_code.of_error) use_other_severity(s);
+        if (!of_code.stops) use_other_severity(s);
         const CodeInfo* row = find_code(code);
         s.message = code + " (" + counted(s.count, "finding", "findings") +
                     (row != nullptr ? ": " + std::string(row->meaning) : std::string()) + "): for " + std::string(target.title) +

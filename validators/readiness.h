@@ -22,6 +22,7 @@ enum class TargetInput : std::uint8_t {
 /// A finding of another check that a target cannot live with, or only badly, although it is no error for itself.
 struct TargetBurden {
     std::string_view code, consequence;
+    bool stops = false;  ///< the target cannot be run: an error
 };
 
 /// Which names of regions and surfaces a target can take.

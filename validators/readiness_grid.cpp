@@ -107,7 +107,20 @@ void check_faults(const CornerPointGrid& grid, std::vector<Finding>& findings) {
     if (too_long > 0) findings.push_back(std::move(long_names));
 }
 
+void check_map_unit(const CornerPointGrid& grid, std::vector<Finding>& findings) {
+    constexpr std::array<std::string_view, 3> known = {"METRES", "FEET", "CM"};
+    if (!grid.map_axes || grid.map_unit.empty() || std::ranges::find(known, grid.map_unit) != known.end()) return;
+    findings.push_back(about(grid, "S09", "MAPUNITS has the unit '" + grid.map_unit + "': OPM Flow stops"));
+}
+
 void check_region_multipliers(const CornerPointGrid& grid, std::vector<Finding>& findings) {
+    for (const auto& m : grid.region_multipliers) {
+        const char* numbers = m.regions == 'F' ? "FLUXNUM" : m.regions == 'O' ? "OPERNUM" : "MULTNUM";
+        // Where MULTNUM is not there all cells are of region 1.
+        if (m.regions == 'M' || cell_attribute(grid, numbers) != nullptr) continue;
+        findings.push_back(about(grid, "S09", std::string("MULTREGT goes by ") + numbers + ", which is not there: OPM Flow stops"));
+        break;
+    }
     for (const auto& m : grid.region_multipliers) {
         if (!m.from || !m.to || *m.from != *m.to) continue;
         return findings.push_back(
@@ -129,6 +142,7 @@ void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& find
     check_properties(grid, findings);
     check_faults(grid, findings);
     check_region_multipliers(grid, findings);
+    check_map_unit(grid, findings);
     if (grid.unit_system.empty())
         findings.push_back(about(grid, "S12", "the unit system is not stated: METRIC is taken (metres, millidarcy, bar)"));
 }

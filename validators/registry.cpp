@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "topology/flat_objects.h"
 #include "validators/cell_checks.h"
 #include "validators/closing_tolerance.h"
 #include "validators/corner_point.h"
+#include "validators/crossing_models.h"
 #include "validators/grid_model.h"
 #include "validators/model_checks.h"
 #include "validators/object_checks.h"
@@ -40,14 +42,18 @@ constexpr std::array table = {
     of_model("B01", "a triangle or polygon has the same vertex twice, once points within the tolerance are one", check_degenerate),
     of_model("B02", "triangles of one surface pass through each other, or touch along an edge inside of it; exact", check_intersections),
     of_model("B03",
-             "more than two triangles of one surface at an edge; or, away from lines, triangles at a vertex that make no single ring",
+             "more than two triangles of one surface at an edge; or, away from lines of a stated model, triangles at a vertex that make no "
+             "single ring; but for loose surfaces all of which part regions there",
              check_manifold),
     of_model("B04",
              "a surface of a stated model has parts that share no edge, or, where no regions are stated, only edges at which another "
              "surface cuts through",
              check_pieces),
     of_model("B05", "along a line the stated sides of a region do not cancel out", check_region_closed),
-    of_model("B06", "regions are stated, but walking along the surfaces finds none", check_model_closed),
+    of_model("B06",
+             "regions are stated, but walking along the surfaces finds none; or outer surfaces that meet at an angle, or all but close, "
+             "bound nothing",
+             check_openings),
     of_model("B07", "a line that only one surface uses, from two sides; a warning for loose surfaces", check_seams),
     of_model("B08", "triangles of two surfaces pass through each other; exact", check_intersections),
     of_model("B09", "a horizon, unconformity, topography or intrusion with a free border has one region on both sides", check_free_ends),
@@ -75,6 +81,19 @@ constexpr std::array table = {
     of_model("B26", "triangles of one surface have an area in common; exact", check_intersections),
     of_model("B27", "a border of a surface lies on the surface itself without the same vertices; exact", check_intersections),
     of_model("B28", "triangles of one surface have single points in common that they do not share; exact", check_intersections),
+    of_model("B29",
+             "no role and no region list says whether a surface parts anything: it has one region on both sides; or it closes around "
+             "nothing although it meets others at an angle, or all but closes",
+             check_openings),
+    of_model("B30",
+             "a stated region closes only when it lies on the other side of some of its surfaces; a warning where all regions of the "
+             "file do",
+             check_stated_sides),
+    of_model("B31", "the stated Universe lacks a side that no region has, beside one that a region has, or has one that a region has",
+             check_universe),
+    Check{"B32",
+          "triangles of surfaces of different models of one file, or of a model and surfaces beside it, cross, some by more than the "
+          "search length"},
     Check{"C01", "an array has another length than the dimensions ask for; nothing else is then checked"},
     Check{"C02", "a corner or pillar of an active cell is not finite, or 1e20 or more", check_coordinates},
     Check{"C03", "on a pillar the bottom lies above the top by more than the tolerance", check_inverted},
@@ -146,6 +165,10 @@ constexpr std::array table = {
     of_model("G07", "a region is in two layers or two fault blocks; info where it is in none, although such are stated",
              check_list_members),
     of_model("G08", "a surface and a region have the same name", check_names_of_model),
+    of_model("G09",
+             "along a horizon a layer is above it here and below it there, or on both of its sides here and on one of them there; a "
+             "warning where normals say that layers are overturned",
+             check_layer_lists),
     of_both("M01", "points of a model, a point set or polylines are nearer than the tolerance, and not equal", check_near_points,
             check_point_positions),
     of_both("M02", "points of a surface belong to none of its triangles, points of polylines to none of their edges", check_isolated_points,
@@ -198,6 +221,10 @@ constexpr std::array table = {
     of_cells("M36",
              "parts of a mesh of cells that no face joins have nodes in common; an error where tetrahedra meet so, else as inactive cells "
              "of grids leave it",
+             check_cell_contacts),
+    of_cells("M37",
+             "cells of one stated entity of a mesh, or with one value of its array of regions, are in parts that no face joins; a warning "
+             "where the array is called after materials",
              check_cell_contacts),
     of_object("M40", "a step is zero, the steps lie in one plane or line, or coordinates along an axis do not all grow or all shrink",
               check_raster_axes),
@@ -289,9 +316,10 @@ Result<Checked> judge_models(const Dataset& dataset, const CheckOptions& options
     report_outlying(dataset, result.local, result.findings);
     auto models = topology::models_to_judge(dataset, topology::model_sources(dataset, result.local));
     if (!models) return std::move(models).why();
+    std::vector<std::unique_ptr<ModelScope>> scopes;
     for (auto& model : *models) {
         std::vector<Finding> findings;
-        const ModelScope scope(dataset, model, result.local, options);
+        const ModelScope& scope = *scopes.emplace_back(std::make_unique<ModelScope>(dataset, model, result.local, options));
         run_all(scope, options, &Check::model, findings);
         std::erase_if(findings, [&](const Finding& f) { return skipped(options, f.code); });
         if (wanted(options, "B18")) spread_errors(scope, findings);
@@ -300,6 +328,14 @@ Result<Checked> judge_models(const Dataset& dataset, const CheckOptions& options
         std::ranges::move(model.findings, std::back_inserter(result.findings));
         std::ranges::move(findings, std::back_inserter(result.findings));
         if (scope.stopped()) return stopped();
+    }
+    if (wanted(options, "B32")) {
+        std::vector<const ModelScope*> all;
+        for (const auto& scope : scopes) all.push_back(scope.get());
+        report_crossing_models(all, result.findings);
+    }
+    scopes.clear();
+    for (auto& model : *models) {
         if (judged != nullptr) judged->push_back(std::move(model.brep));
     }
     for (std::uint32_t o = 0; o < dataset.objects.size(); ++o) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/drop.h"
 #include "formats/eclipse/cell_corners_grid.h"
 #include "formats/eclipse/grid_arrays.h"
 #include "formats/eclipse/kept_arrays.h"
@@ -149,7 +150,8 @@ private:
             data_.findings.back().entities = {{"corner-point-grid", grid.info.name}};
         }
         if (coarse_)
-            add_loss(data_.losses, {LossClass::identity, grid.info.name, "coarsening groups", "they are not read from GRID files"});
+            drop(data_.findings, data_.losses,
+                 {LossClass::identity, grid.info.name, "the grouping of coarsened cells", "it is not taken from GRID files", 1, where});
         grid.info.precision = CoordinatePrecision::single_precision;
         CoordinateSystem& crs = grid.info.crs;
         crs.z_positive = ZPositive::depth;

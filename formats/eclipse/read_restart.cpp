@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/number_text.h"
+#include "formats/drop.h"
 #include "formats/eclipse/grid_arrays.h"
 #include "formats/eclipse/property_file.h"
 #include "formats/eclipse/read_egrid.h"
@@ -177,8 +178,8 @@ private:
         if (others_.empty()) return;
         std::string names;
         for (const std::string& name : others_) names += (names.empty() ? "" : ", ") + name;
-        add_loss(data.losses, {LossClass::identity, "", "arrays of wells, groups and the simulator's state: " + names,
-                               "restart files are read for the values of cells", other_count_});
+        list_dropped(data.losses, {LossClass::identity, "", "arrays of wells, groups and the simulator's state: " + names,
+                                   "restart files are read for the values of cells", other_count_});
     }
 
     const ArrayFile& file_;

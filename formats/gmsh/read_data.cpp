@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/gmsh/reading.h"
 #include "model/annotations.h"
 
@@ -137,10 +138,14 @@ bool fill_missing(Attribute& into, const Values& from) {
 }
 
 void tell_twice(Reading& r, const std::string& name, std::uint64_t count) {
-    Finding f = make_finding("F107", "data '" + name + "' give values twice for the same node or element: the first ones are kept",
-                             {r.input.name()}, count);
-    f.element_kind = "value";
-    r.findings.push_back(std::move(f));
+    drop(r.findings, r.losses,
+         {.entity = name,
+          .what = "values",
+          .why = "they are given twice for the same node or element: the first ones are kept",
+          .count = count,
+          .where = {r.input.name()},
+          .code = "F107",
+          .message = "data '" + name + "' give values twice for the same node or element: the first ones are kept"});
 }
 
 void add_attribute(Reading& r, const DataHead& head, DataKind kind, std::size_t components, Values values, bool padded) {
@@ -301,8 +306,8 @@ Result<void> read_data(Reading& r, const Section& section) {
     s.expect_end();
     if (s.failed()) return s.take_failure();
     if (!head.further_reals.empty()) {
-        add_loss(r.losses,
-                 {LossClass::style, "data '" + head.name + "'", "further real tags", "only the time is kept", head.further_reals.size()});
+        list_dropped(r.losses, {LossClass::style, "data '" + head.name + "'", "further real tags", "only the time is kept",
+                                head.further_reals.size()});
     }
     add_attribute(r, head, kind, components, std::move(values), padded);
     return {};

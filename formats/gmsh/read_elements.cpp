@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 
+#include "formats/drop.h"
 #include "formats/gmsh/line_pieces.h"
 #include "formats/gmsh/reading.h"
 
@@ -165,7 +166,8 @@ Result<void> tagged_elements(Reading& r, Scanner& s) {
         }
     }
     if (ghosts)
-        r.losses.push_back({LossClass::style, "", "further and ghost partitions of elements", "each cell keeps its own partition only", 1});
+        list_dropped(r.losses,
+                     {LossClass::style, "", "further and ghost partitions of elements", "each cell keeps its own partition only"});
     return {};
 }
 

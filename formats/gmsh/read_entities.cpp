@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/gmsh/reading.h"
 
 namespace geomend::gmsh {
@@ -31,8 +32,8 @@ namespace {
 void add_group(Reading& r, CellMesh::Entity& entity, std::int64_t physical) {
     if (physical == 0) return;
     if (physical < 0) {
-        add_loss(r.losses, {LossClass::style, "entity " + std::to_string(entity.tag), "reversed orientation in its physical group",
-                            "groups hold entities without orientation", 1});
+        list_dropped(r.losses, {LossClass::style, "entity " + std::to_string(entity.tag), "reversed orientation in its physical group",
+                                "groups hold entities without orientation", 1});
     }
     if (physical == std::numeric_limits<std::int64_t>::min()) return;
     const std::uint32_t group = group_index(r, entity.dimension, std::abs(physical));
@@ -167,7 +168,7 @@ Result<void> read_partitioned_entities(Reading& r, const Section& section) {
     }
     s.expect_end();
     if (s.failed()) return s.take_failure();
-    r.losses.push_back({LossClass::style, "", "boundaries of partitions", "each cell keeps its first partition as a property", 1});
+    list_dropped(r.losses, {LossClass::style, "", "boundaries of partitions", "each cell keeps its first partition as a property"});
     return {};
 }
 

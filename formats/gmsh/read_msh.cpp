@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/gmsh/geomend_section.h"
 #include "formats/gmsh/reading.h"
 
@@ -52,10 +53,13 @@ void report_elements(Reading& r) {
     }
     for (const auto& [number, count] : r.dropped_nodes) {
         const ElementType& type = *element_type(number);
-        r.losses.push_back(
-            {LossClass::substance, "",
-             "the " + std::to_string(type.nodes - type.kept) + " further nodes of elements of type " + std::to_string(number),
-             std::string("they are read as ") + to_string(type.cell), count});
+        drop(r.findings, r.losses,
+             {.what = "the " + std::to_string(type.nodes - type.kept) + " further nodes of elements of type " + std::to_string(number),
+              .why = std::string("they are read as ") + to_string(type.cell),
+              .count = count,
+              .where = {r.input.name()},
+              .message = "elements of type " + std::to_string(number) + " are read as " + to_string(type.cell) + ", without their " +
+                         std::to_string(type.nodes - type.kept) + " further nodes"});
     }
     if (r.mesh.cell_count() == 0) {
         r.findings.push_back(finding_about(r, "F119", "the file holds nodes, but no elements", r.mesh.points.size()));
@@ -139,8 +143,13 @@ void keep_unknown(Reading& r, const Section& section) {
         r.mesh.info.annotations.push_back({"gmsh.section", "$" + std::string(section.name) + "\n" + std::string(section.content)});
         return;
     }
-    add_loss(r.losses,
-             {LossClass::style, "", "section $" + std::string(section.name.substr(0, 60)), "it is not known, and is binary or large", 1});
+    drop(r.findings, r.losses,
+         {LossClass::identity,
+          "",
+          "section $" + std::string(section.name.substr(0, 60)),
+          "it is not known, and is binary or large",
+          1,
+          {r.input.name()}});
 }
 
 Result<Dataset> read_msh(const Input& input, const ReadOptions& options) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cmath>
 
+#include "formats/drop.h"
 #include "formats/gmsh/line_pieces.h"
 #include "formats/gmsh/reading.h"
 
@@ -122,7 +123,7 @@ Result<void> read_nodes(Reading& r, const Section& section) {
             "section $" + std::string(section.name) + ": node tag " + std::to_string(r.mesh.point_labels[*twice]) + " is defined twice");
     }
     if (parametric_seen) {
-        r.losses.push_back({LossClass::style, "", "parametric coordinates of nodes", "nodes are kept by their positions", 1});
+        list_dropped(r.losses, {LossClass::style, "", "parametric coordinates of nodes", "nodes are kept by their positions", 1});
     }
     return {};
 }

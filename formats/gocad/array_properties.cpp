@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/gocad/array_codec.h"
 #include "formats/gocad/ascii_data_file.h"
 #include "model/objects.h"
@@ -54,8 +55,8 @@ AttributeValues typed(std::vector<double> values, const IndexedProperty& p, Arra
 void tell_missing_values(const IndexedProperty& p, ObjectScanner& scanner) {
     scanner.log.add(
         "F119", p.line, 0, [&] { return "property '" + p.attribute.name + "' has no values: it names no file"; }, p.attribute.name);
-    add_loss(scanner.losses,
-             {LossClass::identity, p.attribute.name, "a property without values", "the file declares it, but gives no values"});
+    list_dropped(scanner.losses,
+                 {LossClass::identity, p.attribute.name, "a property without values", "the file declares it, but gives no values"});
 }
 
 class Reader {

@@ -60,13 +60,10 @@ void CompanionFiles::report_rest() {
     for (const auto& [name, file] : files_) {
         const std::uint64_t size = file.input.bytes().size();
         if (file.used_to >= size) continue;
-        scanner_.log.add(
-            "F107", file.line, 0,
-            [&] {
-                return "the file " + file.input.name() + " has " + std::to_string(size) + " bytes, of which " +
-                       std::to_string(size - file.used_to) + " at its end are named by nothing";
-            },
-            name);
+        scanner_.log.drop("F107", LossClass::identity, "bytes of a file", file.line, 0,
+                          "the file " + file.input.name() + " has " + std::to_string(size) + " bytes, of which " +
+                              std::to_string(size - file.used_to) + " at its end are named by nothing",
+                          name);
     }
 }
 

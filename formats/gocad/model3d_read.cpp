@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cmath>
 
+#include "formats/drop.h"
 #include "formats/gocad/model3d.h"
 #include "formats/gocad/node_ids.h"
 #include "formats/gocad/object_head.h"
@@ -197,7 +198,8 @@ private:
                     continue;
                 }
                 unknown_number("F109", features_[f], "SURFACE", "TFACE", number);
-                add_loss(scanner_.losses, {LossClass::identity, model.features[f].name, "numbers of a SURFACE list without a TFACE", ""});
+                list_dropped(scanner_.losses,
+                             {LossClass::identity, model.features[f].name, "numbers of a SURFACE list without a TFACE", {}});
             }
         }
         resolve_regions(layers_, model.layers, "LAYER");

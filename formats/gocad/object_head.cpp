@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "formats/drop.h"
 #include "formats/gocad/region_indicators.h"
 
 namespace geomend::gocad {
@@ -144,19 +145,20 @@ bool ObjectHead::take_known(std::string_view keyword, TextCursor& line) {
 void ObjectHead::keep(std::string_view keyword, TextCursor& line) {
     std::string record = whole_record(keyword, line);
     if (is_geometry(keyword)) {
-        add_loss(scanner_.losses,
-                 {LossClass::identity, info.name, "record '" + std::string(keyword) + "'", "this object has none of its kind"});
+        scanner_.log.drop("F150", LossClass::identity, "record '" + std::string(keyword) + "'", line.line(), 1,
+                          "record '" + std::string(keyword) + "' is not read: this object has none of its kind", keyword);
     } else if (++kept_records_ <= most_records) {
         annotate(geometry_begun ? "gocad.record_after" : "gocad.record", std::move(record));
     } else {
-        add_loss(scanner_.losses, {LossClass::identity, info.name, "unknown records", "more than 10000 in one object"});
+        scanner_.log.drop("F150", LossClass::identity, "unknown records", line.line(), 1,
+                          "records that are not known are kept up to 10000 in one object, the others are not read");
     }
 }
 
 void ObjectHead::take(std::string_view keyword, TextCursor& line) {
     if (keyword.front() == '#') {
         if (++kept_records_ <= most_records) annotate("gocad.comment", std::string(trimmed(line.line_text())));
-        else add_loss(scanner_.losses, {LossClass::style, info.name, "comments", "more than 10000 in one object"});
+        else list_dropped(scanner_.losses, {LossClass::style, info.name, "comments", "more than 10000 in one object"});
         return;
     }
     if (take_known(keyword, line)) return;

@@ -12,6 +12,7 @@
 #include "base/finding.h"
 #include "base/input.h"
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/format.h"
 #include "formats/gocad/object_frame.h"
 #include "model/dataset.h"
@@ -42,16 +43,30 @@ public:
             code, line, column, [&] { return std::string(text); }, subject, element);
     }
 
+    /// The same for what is not taken from the file: `what` is listed among the losses of the object.
+    template <class Text>
+    void drop(std::string_view code, LossClass loss_class, std::string_view what, std::uint64_t line, std::uint32_t column, Text text,
+              std::string_view subject = {}) {
+        add(code, line, column, text, subject);
+        note_dropped(code, subject, loss_class, what);
+    }
+
     bool has_error() const { return has_error_; }
-    /// Adds the object to each finding and gives them all, in order of their first lines.
-    std::vector<Finding> take(const std::string& object_kind, const std::string& object_name);
+    /// Adds the object to each finding and gives them all, in order of their first lines. What was dropped is added to `losses`.
+    std::vector<Finding> take(const std::string& object_kind, const std::string& object_name, std::vector<Loss>& losses);
 
 private:
     Finding* find(std::string_view code, std::string_view subject);
     Finding& start(std::string_view code, std::uint64_t line, std::uint32_t column, std::string text, std::string_view subject);
+    void note_dropped(std::string_view code, std::string_view subject, LossClass loss_class, std::string_view what);
 
+    struct DroppedAs {
+        LossClass loss_class;
+        std::string what;
+    };
     std::string file_;
     std::vector<Finding> findings_;
+    std::vector<std::optional<DroppedAs>> dropped_;  ///< of each finding
     std::vector<std::string> subjects_;
     bool has_error_ = false;
 };

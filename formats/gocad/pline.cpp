@@ -72,7 +72,9 @@ private:
             }
         }
         add_segment(ids[0], ids[1], line.line());
-        if (!line.at_line_end()) log_.add("F118", line.line(), line.column(), "a SEG line goes on after its two nodes");
+        if (!line.at_line_end())
+            log_.drop("F118", LossClass::identity, "what follows the nodes of an element", line.line(), line.column(),
+                      "a SEG line goes on after its two nodes");
     }
 
     // A part without SEG is a polyline through its nodes in their order.

@@ -97,13 +97,12 @@ std::vector<Attribute> PropertyLists::make_attributes(AttributeLocation location
     const auto check_length = [&](const std::vector<std::string>& list, std::size_t per_entry, std::string_view what) {
         if (list.empty() || list.size() == per_entry * names.size()) return;
         const bool more = list.size() > per_entry * names.size();
-        log.add(
-            what == "ESIZES" ? "F008" : (more ? "F107" : "F105"), line_, 0,
-            [&] {
-                return std::string(what) + " has " + std::to_string(list.size()) + " entries for " + std::to_string(names.size()) +
-                       " properties";
-            },
-            what);
+        const auto text = [&] {
+            return std::string(what) + " has " + std::to_string(list.size()) + " entries for " + std::to_string(names.size()) +
+                   " properties";
+        };
+        if (more && what != "ESIZES") log.drop("F107", LossClass::identity, "entries of a record", line_, 0, text(), what);
+        else log.add(what == "ESIZES" ? "F008" : "F105", line_, 0, text, what);
     };
     check_length(sizes_, 1, "ESIZES");
     check_length(no_data_, 1, "NO_DATA_VALUES");

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "formats/drop.h"
 #include "formats/gocad/model3d.h"
 #include "formats/gocad/object_head.h"
 #include "formats/gocad/object_readers.h"
@@ -162,8 +163,13 @@ private:
             const std::string type(frame(i).type);
             if (!frame(i).group && std::ranges::find(types, type) == types.end()) types.push_back(type);
             if (!parts_[i].known) {
-                add_loss(dataset_.losses, {LossClass::substance, name_in(frame(i)), "object of type '" + type + "'",
-                                           type.empty() ? "the type is missing" : "this type is not known"});
+                drop(dataset_.findings, dataset_.losses,
+                     {LossClass::substance,
+                      name_in(frame(i)),
+                      "object of type '" + type + "'",
+                      type.empty() ? "the type is missing" : "this type is not known",
+                      1,
+                      {input_.name(), frame(i).line}});
             }
             parts_[i].first_object = static_cast<std::uint32_t>(dataset_.objects.size());
             for (Object& object : scanner.objects) {
@@ -214,7 +220,7 @@ private:
     }
 
     Result<Dataset> finish() {
-        std::vector<Finding> findings;
+        std::vector<Finding> findings = std::move(dataset_.findings);
         bool failed = false;
         for (std::size_t i = 0; i != parts_.size(); ++i) {
             if (parts_[i].failure) {
@@ -223,14 +229,14 @@ private:
             }
             const auto& object = parts_[i].scanner->objects;
             const std::string name = object.empty() ? name_in(frame(i)) : info_of(dataset_.objects[parts_[i].first_object]).name;
-            std::vector<Finding> of_part = parts_[i].scanner->log.take(std::string(frame(i).type), name);
+            std::vector<Finding> of_part = parts_[i].scanner->log.take(std::string(frame(i).type), name, dataset_.losses);
             if (object.empty() && !dataset_.objects.empty() && lacks_only_companions(of_part)) {
                 // The other objects of the file are whole: this one is told as lost instead.
                 for (Finding& finding : of_part) {
                     if (finding.severity == Severity::error) use_other_severity(finding);
                 }
-                add_loss(dataset_.losses,
-                         {LossClass::substance, name, "the whole " + std::string(frame(i).type), "a file that it names is missing"});
+                list_dropped(dataset_.losses,
+                             {LossClass::substance, name, "the whole " + std::string(frame(i).type), "a file that it names is missing"});
             } else failed |= parts_[i].scanner->log.has_error();
             for (Finding& finding : of_part) findings.push_back(std::move(finding));
         }
@@ -238,9 +244,9 @@ private:
             ObjectLog log(input_.name());
             log.add("F118", list_.first_stray_line, 0,
                     [&] { return std::to_string(list_.stray_lines) + " lines stand outside of any object; they are not read"; });
-            findings.push_back(std::move(log.take("file", input_.base_name()).front()));
-            add_loss(dataset_.losses,
-                     {LossClass::substance, "", "lines outside of any object", "nothing is known about them", list_.stray_lines});
+            findings.push_back(std::move(log.take("file", input_.base_name(), dataset_.losses).front()));
+            list_dropped(dataset_.losses,
+                         {LossClass::substance, "", "lines outside of any object", "nothing is known about them", list_.stray_lines});
         }
         if (failed) return refuse(std::move(findings));
         if (dataset_.objects.empty() && dataset_.models.empty()) {

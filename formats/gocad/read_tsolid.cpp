@@ -130,7 +130,7 @@ private:
     void read_facets(std::string_view text, std::uint64_t line, std::uint32_t column) {
         const std::size_t cells = mesh_.cell_count();
         if (cells == 0 || has_facets_) {
-            log_.add("F118", line, 1, "a CTETRA does not follow a TETRA: it is not used", "CTETRA");
+            log_.drop("F118", LossClass::identity, "CTETRA records", line, 1, "a CTETRA does not follow a TETRA: it is not used", "CTETRA");
             return;
         }
         if (const char* where = facet_reader_.read(text, facets_); where != nullptr) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "formats/drop.h"
 #include "formats/gocad/array_codec.h"
 #include "formats/gocad/companion_files.h"
 #include "formats/gocad/indexed_property.h"
@@ -251,8 +252,8 @@ private:
             log_.add("F113", catalogue_line_, 0, "the measured depths in " + catalogue_file_ + " are not those of the path");
             keep_catalogue(depths);
         }
-        add_loss(scanner_.losses, {LossClass::style, head_.info.name, "the catalogue file of measured depths",
-                                   same ? "it repeats the path" : "its depths are kept as records"});
+        list_dropped(scanner_.losses, {LossClass::style, head_.info.name, "the catalogue file of measured depths",
+                                       same ? "it repeats the path" : "its depths are kept as records"});
     }
 
     void tell_catalogue() { head_.info.annotations.push_back({"gocad.well_record", "ZM_NPTS " + std::to_string(catalogue_count_)}); }

@@ -53,7 +53,9 @@ void read_indicators(std::string_view record, bool with_ids, std::vector<RegionB
             }
             if (!set) continue;
             if (flag_index < regions.size()) regions[flag_index].members.push_back(member);
-            else log.add("F107", line.line(), line.column(), "an indicator has more flags than there are REGION records", record);
+            else
+                log.drop("F107", LossClass::identity, "flags of regions", line.line(), line.column(),
+                         "an indicator has more flags than there are REGION records", record);
         }
     }
     log.add("F004", line.line(), 0, "the object ends inside region indicators", record);

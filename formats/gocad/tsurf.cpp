@@ -116,7 +116,8 @@ private:
         if (cell_values_.width() != 0) {
             read_values(cell_values_, line, log_, [](std::string_view) { return false; });
         } else if (!line.at_line_end()) {
-            log_.add("F118", line.line(), line.column(), "a TRGL line goes on after its three nodes");
+            log_.drop("F118", LossClass::identity, "what follows the nodes of an element", line.line(), line.column(),
+                      "a TRGL line goes on after its three nodes");
         }
     }
 

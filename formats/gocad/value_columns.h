@@ -82,7 +82,7 @@ void read_values(ValueColumns& values, TextCursor& line, ObjectLog& log, Flag fl
         values.take(value);
     }
     if (values.extra() != 0) {
-        log.add("F107", line.line(), 0, [&] {
+        log.drop("F107", LossClass::substance, "values", line.line(), 0, [&] {
             return "expected " + std::to_string(values.width()) + " property values, found " +
                    std::to_string(values.given() + values.extra()) + ": the rest is not used";
         });

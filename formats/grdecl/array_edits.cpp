@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/text_cursor.h"
-#include "formats/grdecl/deck.h"
+#include "formats/grdecl/flow_words.h"
 #include "formats/grdecl/number_array.h"
 
 namespace geomend::grdecl {
@@ -266,13 +266,48 @@ void operate_in_region(Edit& e) {
     operate_in(e, 2, all, regions, region);
 }
 
+/// Where the words of an operation stand in its record.
+struct EditWords {
+    std::string_view keyword;
+    int changed = -1;             ///< an array of which OPM Flow asks that it can be operated on
+    int first = -1, second = -1;  ///< further arrays and words
+    int regions = -1;             ///< M, F or O
+};
+
+constexpr EditWords words_of_edit(std::string_view keyword) {
+    if (keyword == "COPY") return {keyword, 1, 0};
+    if (keyword == "COPYREG") return {keyword, 1, 0, -1, 3};
+    if (keyword == "OPERATE") return {keyword, 0, 7, 8};
+    if (keyword == "OPERATER") return {keyword, -1, 0, 3};
+    if (keyword.ends_with("REG")) return {keyword, -1, 0, -1, 3};
+    return {keyword, 0};
+}
+
+void note_words(const Edit& e, const EditWords& words, std::vector<Finding>& findings) {
+    const auto look = [&](int item, std::string_view what) -> std::string {
+        if (item < 0 || !e.record.given(static_cast<std::size_t>(item))) return {};
+        return take_word(e.in, e.record, static_cast<std::size_t>(item), std::string(what) + std::string(words.keyword), findings);
+    };
+    const std::string changed = look(words.changed, "an array of ");
+    static_cast<void>(look(words.first, "a word of "));
+    const std::string source = look(words.second, "an array of ");
+    if (words.keyword == "OPERATE" && !source.empty() && !flow_operates_on(source))
+        note_flow_stops(findings, e.in.location(e.record.begin), "OPERATE reads " + source);
+    const std::string regions = look(words.regions, "the kind of regions of ");
+    if (!changed.empty() && !flow_operates_on(changed))
+        note_flow_stops(findings, e.in.location(e.record.begin), std::string(words.keyword) + " changes " + changed);
+    if (!regions.empty() && regions != "M" && regions != "F" && regions != "O")
+        note_flow_stops(findings, e.in.location(e.record.begin), std::string(words.keyword) + " has the kind of regions " + shown(regions));
+}
+
 }  // namespace
 
 bool is_edit(std::string_view keyword) { return std::ranges::find(edits, keyword) != edits.end(); }
 
 EditResult apply_edit(const Scanner& in, std::string_view keyword, const Record& record, GridText& g, CellBox& box, Section section,
-                      std::uint64_t& room) {
+                      std::uint64_t& room, std::vector<Finding>& findings) {
     Edit e{in, record, g, box, section, room, {}};
+    note_words(e, words_of_edit(keyword), findings);
     if (keyword == "COPY") copy_in_box(e);
     else if (keyword == "OPERATE") operate(e);
     else if (keyword == "OPERATER") operate_in_region(e);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "formats/grdecl/deck.h"
 #include "formats/grdecl/number_array.h"
 
@@ -193,7 +194,12 @@ Trouble make_block_geometry(GridText& text, const Input& input, std::uint32_t la
         if (!stack_tops(tops, dz, d)) return lacking(input, "TOPS");
         depths_of_blocks(text, tops, dz, d);
     }
-    pillars_of_blocks(text, edges(dx, d, 0, inner), edges(dy, d, 1, 0), d);
+    const std::vector<double> along_y = edges(dy, d, 1, 0);
+    pillars_of_blocks(text, edges(dx, d, 0, inner), along_y, d);
+    if (const double most = along_y.empty() ? 0 : std::ranges::max(along_y); text.spider && most > 360 * (1 + 1e-6)) {
+        findings.push_back(
+            finding("C31", {input.name()}, "the cells around the axis take " + number_text(most) + " degrees together: more than 360"));
+    }
     if (text.spider) straighten(text.pillars);
     text.grid.cylindrical = text.radial && !text.spider;
     if (const std::uint64_t odd = irregular(dx, dy, d); odd > 0) {

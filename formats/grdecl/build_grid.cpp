@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/drop.h"
 #include "formats/grdecl/deck.h"
 #include "formats/grdecl/number_array.h"
 
@@ -101,19 +102,7 @@ void add_attribute(CornerPointGrid& grid, std::string name, std::vector<T>&& val
     if (dual) add(name + ":fracture", std::move(fracture));
 }
 
-/// A layer without any value is like the one above, as simulators take it.
-void fill_from_above(CellArray& array, const Dims& d) {
-    if (array.name != "PORO" && !array.name.starts_with("PERM")) return;
-    auto* values = std::get_if<std::vector<double>>(&array.values);
-    if (values == nullptr) return;
-    const auto layer = static_cast<std::ptrdiff_t>(std::size_t{d[0]} * d[1]);
-    const auto is_unset = [](double v) { return v == unset_real; };
-    for (auto begin = values->begin() + layer; begin != values->end(); begin += layer) {
-        if (is_unset(*begin) && std::all_of(begin, begin + layer, is_unset)) std::copy(begin - layer, begin, begin);
-    }
-}
-
-Trouble take_depths(GridText& text, CornerPointGrid& grid, const Input& input, std::vector<Loss>& losses) {
+Trouble take_depths(GridText& text, CornerPointGrid& grid, const Input& input, std::vector<Finding>& findings, std::vector<Loss>& losses) {
     const std::size_t own = 8 * grid.cell_count();
     if (text.depths.empty() != text.pillars.empty()) {
         const char* there = text.depths.empty() ? "COORD" : "ZCORN";
@@ -123,8 +112,13 @@ Trouble take_depths(GridText& text, CornerPointGrid& grid, const Input& input, s
     if (text.depths.size() == 2 * own) {
         if (!std::equal(text.depths.begin(), text.depths.begin() + static_cast<std::ptrdiff_t>(own),
                         text.depths.begin() + static_cast<std::ptrdiff_t>(own)))
-            losses.push_back({LossClass::substance, grid.info.name, "corner depths of the fracture",
-                              "they differ from those of the matrix, which are taken for both", 1});
+            drop(findings, losses,
+                 {LossClass::substance,
+                  grid.info.name,
+                  "corner depths of the fracture",
+                  "they differ from those of the matrix, which are taken for both",
+                  1,
+                  {input.name()}});
         text.depths.resize(own);
         text.depths.shrink_to_fit();
     }
@@ -158,7 +152,7 @@ Result<CornerPointGrid> build_grid(GridText&& text, const Input& input, bool dua
     text.grid.cylindrical = grid.cylindrical;
     if (auto failed = make_block_geometry(text, input, grid.dims[2], room, findings)) return std::move(*failed);
     grid.cylindrical = text.grid.cylindrical;
-    if (auto failed = take_depths(text, grid, input, losses)) return std::move(*failed);
+    if (auto failed = take_depths(text, grid, input, findings, losses)) return std::move(*failed);
     if (auto actnum = text.take("ACTNUM")) {
         const auto* values = std::get_if<std::vector<std::int32_t>>(&actnum->values);
         if (values == nullptr) return unreadable("F012", {input.name()}, "expected whole numbers in ACTNUM");
@@ -173,7 +167,6 @@ Result<CornerPointGrid> build_grid(GridText&& text, const Input& input, bool dua
                                    "elevations, with the sign turned"));
     }
     for (CellArray& array : text.arrays) {
-        fill_from_above(array, d);
         std::visit([&](auto& values) { add_attribute(grid, std::move(array.name), std::move(values)); }, array.values);
         array.values = {};
     }

@@ -144,8 +144,9 @@ struct EditResult {
 bool is_edit(std::string_view keyword);
 /// Does what one record of an operation says. `box` is the current box and becomes that of the record.
 /// \param room cells that may still be made; new arrays are taken off it
+/// Names and words that OPM Flow does not take are findings (F146, F149).
 EditResult apply_edit(const Scanner& in, std::string_view keyword, const Record& record, GridText& g, CellBox& box, Section section,
-                      std::uint64_t& room);
+                      std::uint64_t& room, std::vector<Finding>& findings);
 
 // ---- into the model (build_grid.cpp, block_geometry.cpp, local_grids.cpp) ----
 
@@ -162,5 +163,11 @@ Trouble make_block_geometry(GridText& text, const Input& input, std::uint32_t la
 Trouble refine_host(CornerPointGrid& grid, const std::array<std::vector<std::uint32_t>, 3>& fine_cells,
                     const std::array<std::vector<double>, 3>& fine_widths, const CornerPointGrid& host, const Input& input,
                     std::uint64_t& room);
+
+/// Whether a local grid is what refine_host() makes of its host: its corners and activity then go without saying.
+bool is_refined_host(const CornerPointGrid& grid, const CornerPointGrid& host);
+
+/// Numbers of fine cells of each host cell along an axis, from the hosts of the cells; empty where they are not a box.
+std::vector<std::uint32_t> fine_counts(const CornerPointGrid& grid, std::size_t axis);
 
 }  // namespace geomend::grdecl

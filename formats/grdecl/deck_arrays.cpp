@@ -35,6 +35,19 @@ bool is_file_name(std::string_view quoted) {
            std::ranges::any_of(word.substr(0, dot), is_letter);
 }
 
+/// Values that a box gives to the uppermost layer hold for the cells below that have none yet, as simulators take them.
+void fill_below(std::vector<double>& values, const CellBox& box, const Dims& d) {
+    const std::size_t layer = std::size_t{d[0]} * d[1];
+    for (std::size_t k = 1; k < d[2]; ++k) {
+        for (std::size_t j = box.first[1]; j <= box.last[1]; ++j) {
+            for (std::size_t i = box.first[0]; i <= box.last[0]; ++i) {
+                const std::size_t top = i + d[0] * j;
+                if (values[top + layer * k] == unset_real) values[top + layer * k] = values[top];
+            }
+        }
+    }
+}
+
 std::string_view text_between(const char* begin, const char* end) { return {begin, static_cast<std::size_t>(end - begin)}; }
 
 }  // namespace
@@ -111,10 +124,23 @@ Failure DeckReader::array_failure(const ArrayScan& scan, std::string_view name, 
     return unreadable("F008", at, "expected " + std::to_string(expected) + " values" + of + ", found " + std::to_string(scan.count));
 }
 
-/// The numbers of one record, with its '/'. \pre the scanner stands behind the keyword
+/// The numbers of one record, with its '/'. Where they do not fit and the keyword has text beside it, that may be a
+/// remark, as simulators take it. \pre the scanner stands behind the keyword
 template <class T>
 Trouble DeckReader::numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short,
                             std::uint64_t or_else) {
+    const char* begin = in().at();
+    auto failed = numbers_here(name, expected, defaults_allowed, values, may_be_short, or_else);
+    if (!failed || failed->kind != FailureKind::unreadable || !go_behind_remark(begin)) return failed;
+    values.clear();
+    if (numbers_here(name, expected, defaults_allowed, values, may_be_short, or_else)) return failed;
+    note_remark(begin);
+    return {};
+}
+
+template <class T>
+Trouble DeckReader::numbers_here(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values,
+                                 bool may_be_short, std::uint64_t or_else) {
     const char* begin = in().at();
     const char* slash = find_slash(begin, in().end());
     if (slash == in().end()) {
@@ -288,6 +314,9 @@ Trouble DeckReader::store(std::string_view name, std::vector<T>&& values, const 
                 target[line + i] = multiplies ? static_cast<T>(target[line + i] * values[next]) : values[next];
             }
         }
+    }
+    if constexpr (std::is_same_v<T, double>) {
+        if (box.first[2] == 0 && (name == "PORO" || name.starts_with("PERM"))) fill_below(target, box, d);
     }
     return {};
 }

@@ -3,8 +3,10 @@
 #include <array>
 
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/grdecl/companions.h"
 #include "formats/grdecl/deck_reader.h"
+#include "formats/grdecl/flow_words.h"
 
 namespace geomend::grdecl {
 
@@ -106,9 +108,20 @@ Trouble DeckReader::set_dims(const Dims& dims, std::string_view keyword, const c
     return {};
 }
 
+/// The record of the keyword at hand. Where it is not one and the keyword has text beside it, that may be a remark.
+Result<Record> DeckReader::own_record() {
+    const char* begin = in().at();
+    auto record = take_record(in(), word_, findings_);
+    if (record || !go_behind_remark(begin)) return record;
+    auto again = take_record(in(), word_, findings_);
+    if (!again) return record;
+    note_remark(begin);
+    return again;
+}
+
 Trouble DeckReader::specgrid() {
     const char* at = word_at_;
-    auto record = take_record(in(), word_, findings_);
+    auto record = own_record();
     if (!record) return std::move(record).why();
     Dims dims{1, 1, 1};
     if (auto failed = take_dims(in(), *record, dims)) return failed;
@@ -124,12 +137,14 @@ Trouble DeckReader::specgrid() {
                           "expected as many sets of coordinate lines as before: " + std::to_string(grid().coordinate_sets));
     grid().coordinate_sets = static_cast<std::uint32_t>(sets);
     grid().grid.cylindrical = !type.empty() && type[0] == 'T';
+    if (record->given(4) && record->text(4) != "F" && !probing_)
+        note_flow_stops(findings_, where(record->items[4].at), "SPECGRID has the type " + shown(record->text(4)));
     return set_dims(dims, word_, at);
 }
 
 Trouble DeckReader::dimens() {
     const char* at = word_at_;
-    auto record = take_record(in(), word_, findings_);
+    auto record = own_record();
     if (!record) return std::move(record).why();
     Dims dims{1, 1, 1};
     if (auto failed = take_dims(in(), *record, dims)) return failed;
@@ -143,7 +158,7 @@ CellBox DeckReader::whole_grid() const {
 
 Trouble DeckReader::box() {
     const char* at = word_at_;
-    auto record = take_record(in(), word_, findings_);
+    auto record = own_record();
     if (!record) return std::move(record).why();
     if (probing_) return {};
     if (auto failed = need_dims(at, word_)) return failed;
@@ -201,7 +216,7 @@ Trouble DeckReader::header() {
 }
 
 Trouble DeckReader::radius() {
-    auto record = take_record(in(), word_, findings_);
+    auto record = own_record();
     if (!record) return std::move(record).why();
     double value = 0;
     if (auto failed = need_real(in(), *record, 0, "a radius", value)) return failed;
@@ -235,7 +250,7 @@ Trouble DeckReader::title() {
 }
 
 Trouble DeckReader::gdfile() {
-    auto record = take_record(in(), word_, findings_);
+    auto record = own_record();
     if (!record) return std::move(record).why();
     grid().geometry_file = std::string(trimmed(record->text(0)));
     keep_text(word_at_, in().at());
@@ -243,15 +258,15 @@ Trouble DeckReader::gdfile() {
 }
 
 Trouble DeckReader::import_file() {
-    auto record = take_record(in(), word_, findings_);
+    auto record = own_record();
     if (!record) return std::move(record).why();
     if (probing_) return {};
     keep_text(word_at_, in().at());
-    losses_.push_back({LossClass::substance,
-                       {},
-                       companion_loss("IMPORT", trimmed(record->text(0))),
-                       "binary records are read as a file of their own: convert it by itself",
-                       1});
+    list_dropped(losses_, {LossClass::substance,
+                           {},
+                           companion_loss("IMPORT", trimmed(record->text(0))),
+                           "binary records are read as a file of their own: convert it by itself",
+                           1});
     return {};
 }
 
@@ -265,7 +280,7 @@ Trouble DeckReader::edits() {
     CellBox box = box_.value_or(whole_grid());
     return read_list(in(), keyword, findings_, [&](const Record& record) -> Trouble {
         if (stopped()) return failure(FailureKind::cancelled, "F022", {input_->name()}, "reading was stopped");
-        EditResult result = apply_edit(in(), keyword, record, grid(), box, section_, room_);
+        EditResult result = apply_edit(in(), keyword, record, grid(), box, section_, room_, findings_);
         if (result.trouble) return std::move(result.trouble);
         if (result.applied) return {};
         if (not_applied_++ == 0) {
@@ -281,7 +296,7 @@ Trouble DeckReader::edits() {
 
 Trouble DeckReader::carfin() {
     const char* at = word_at_;
-    auto record = take_record(in(), word_, findings_);
+    auto record = own_record();
     if (!record) return std::move(record).why();
     if (probing_) return {};
     if (!record->given(0)) return unreadable("F012", where(record->begin), "expected the name of a local grid");
@@ -337,7 +352,7 @@ Trouble DeckReader::radial_refinement() {
 }
 
 Trouble DeckReader::refine() {
-    auto record = take_record(in(), word_, findings_);
+    auto record = own_record();
     if (!record) return std::move(record).why();
     if (probing_) return {};
     const std::string name = upper_case(trimmed(record->text(0)));

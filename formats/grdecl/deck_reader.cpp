@@ -6,6 +6,8 @@
 
 #include "base/number_text.h"
 #include "base/text_cursor.h"
+#include "formats/drop.h"
+#include "formats/grdecl/flow_words.h"
 
 namespace geomend::grdecl {
 
@@ -80,6 +82,8 @@ Result<Dataset> DeckReader::read() {
     if (input_->bytes().empty()) return unreadable("F002", {input_->name()}, "the file is empty");
     if (auto failed = set_options()) return std::move(*failed);
     take_remark();
+    if (input_->bytes().starts_with(byte_order_mark))
+        note_flow_stops(findings_, {input_->name(), 1, 1}, "the text begins with a byte-order mark");
     if (auto failed = run()) {
         failed->also = std::move(findings_);
         return std::move(*failed);
@@ -142,6 +146,7 @@ Trouble DeckReader::keyword(const Item& word) {
     if (text.empty()) return unreadable("F012", where(word.at), "expected a keyword, found an empty name");
     word_ = word.quoted ? std::string(text) : known_name(text);
     word_at_ = word.at;
+    if (!word.quoted && !probing_ && !in_companion_ && !flow_reads(word_)) note_unread(word);
     if (word_ != "EXTERNAL_FILE" && !word.quoted) take_line_remark();
     if (word_ == "END") {
         ended_ = true;
@@ -175,6 +180,12 @@ Trouble DeckReader::keyword(const Item& word) {
     }
     if (section_ == Section::runspec) return keep(word.at, word_, true);
     return unknown(word.at, std::string(text));
+}
+
+/// A keyword that OPM Flow does not know. All of them are one finding.
+void DeckReader::note_unread(const Item& word) {
+    if (unread_count_++ == 0) first_unread_ = where(word.at);
+    if (unread_.size() < 20 && std::ranges::find(unread_, word_) == unread_.end()) unread_.push_back(word_);
 }
 
 void DeckReader::enter(Section s) {
@@ -296,7 +307,7 @@ Trouble DeckReader::open_include(std::string_view written, const char* at) {
     if (!found) {
         const std::string message = "the file " + shown(written) + " of INCLUDE is missing: tried " + tried;
         if (!skip_missing_) return unreadable("F010", where(at), message);
-        if (!probing_) losses_.push_back({LossClass::substance, {}, "the file " + shown(written), message, 1});
+        if (!probing_) drop(findings_, losses_, {LossClass::substance, {}, "the file " + shown(written), message, 1, where(at)});
         return {};
     }
     if (!*found) return std::move(*found).why();
@@ -318,7 +329,8 @@ Trouble DeckReader::skip_block(std::string_view word) {
         if (next.quoted || next.text != "ENDSKIP") continue;
         if (!probing_) {
             const auto lines = static_cast<std::uint64_t>(std::count(begin, next.at, '\n'));
-            losses_.push_back(
+            list_dropped(
+                losses_,
                 {LossClass::style, {}, "text between " + std::string(word) + " and ENDSKIP", "it is not a part of the deck", lines});
         }
         return {};
@@ -383,6 +395,7 @@ Trouble DeckReader::companion_properties() {
         frames_.push_back({&files_.back(), Scanner(files_.back()), fs::path(files_.back().name())});
         section_ = Section::none;
         ended_ = false;
+        in_companion_ = true;
         current_ = 0;
         box_.reset();
         return run();

@@ -33,6 +33,8 @@ private:
     Trouble set_options();
     void take_remark();
     void take_line_remark();  // line_remarks.cpp
+    bool go_behind_remark(const char* begin);
+    void note_remark(const char* at);
     Trouble run();
     Trouble keyword(const Item& word);
     Trouble section_text();
@@ -44,6 +46,7 @@ private:
     Trouble keep(const char* begin, std::string_view name, bool is_known);
     void keep_text(const char* begin, const char* end);
     void enter(Section s);
+    void note_unread(const Item& word);
     Trouble companion_properties();
 
     // deck_keywords.cpp: one function for each keyword that says something of a grid
@@ -90,6 +93,10 @@ private:
     Trouble numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short = false,
                     std::uint64_t or_else = 0);
     template <class T>
+    Trouble numbers_here(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short,
+                         std::uint64_t or_else);
+    Result<Record> own_record();
+    template <class T>
     Trouble store(std::string_view name, std::vector<T>&& values, const std::optional<CellKeyword>& row);
     Trouble block_sizes(std::string_view name, const CellBox& box, const char* at, std::vector<double>& values);
     Trouble afford(std::uint64_t values, const char* at, std::string_view name);
@@ -131,7 +138,11 @@ private:
     CornerPointGrid::Porosity porosity_ = CornerPointGrid::Porosity::single;
     std::string unit_system_;
     std::vector<std::pair<Section, std::string>> texts_;  ///< of sections that are kept as they stand
-    std::vector<std::string> unknown_;                    ///< keywords that were kept, for F102
+    bool in_companion_ = false;                           ///< in the file of properties that simulators do not take
+    std::vector<std::string> unread_;                     ///< keywords that OPM Flow does not know
+    Location first_unread_;
+    std::uint64_t unread_count_ = 0;
+    std::vector<std::string> unknown_;  ///< keywords that were kept, for F102
     Location first_unknown_;
     std::uint64_t unknown_count_ = 0;
     std::uint64_t stray_slashes_ = 0;

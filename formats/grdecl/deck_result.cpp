@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/grdecl/companions.h"
 #include "formats/grdecl/deck_reader.h"
 
@@ -55,8 +56,8 @@ Result<Dataset> DeckReader::finish() {
     for (std::size_t g = 0; g < texts.size(); ++g) {
         GridText& text = texts[g];
         if (text.geometry_file && text.depths.empty()) {
-            losses_.push_back({LossClass::substance, text.grid.info.name, companion_loss("GDFILE", *text.geometry_file),
-                               "convert that file, with this one as its properties", 1});
+            list_dropped(losses_, {LossClass::substance, text.grid.info.name, companion_loss("GDFILE", *text.geometry_file),
+                                   "convert that file, with this one as its properties", 1});
         }
         text.grid.unit_system = unit_system_;
         auto& crs = text.grid.info.crs;
@@ -91,6 +92,11 @@ Result<Dataset> DeckReader::finish() {
         for (const std::string& name : unknown_) names += (names.empty() ? "" : ", ") + name;
         findings_.push_back(
             finding("F102", first_unknown_, "keywords that are not known are kept as they stand: " + names, unknown_count_));
+    }
+    if (unread_count_ > 0) {
+        std::string names;
+        for (const std::string& name : unread_) names += (names.empty() ? "" : ", ") + name;
+        findings_.push_back(finding("F149", first_unread_, "OPM Flow does not know the keywords: " + names, unread_count_));
     }
     if (remarks_ > 0)
         findings_.push_back(finding("F144", first_remark_, "text behind a keyword on its line is taken as a remark", remarks_));

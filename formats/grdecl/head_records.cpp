@@ -2,13 +2,15 @@
 #include <algorithm>
 
 #include "base/text_cursor.h"
-#include "formats/grdecl/deck.h"
+#include "formats/grdecl/flow_words.h"
 
 namespace geomend::grdecl {
 
 namespace {
 
 std::string word(const Record& record, std::size_t i) { return upper_case(trimmed(record.text(i))); }
+
+bool is_unit(std::string_view word) { return word == "METRES" || word == "FEET" || word == "CM"; }
 
 Failure bad_word(const Scanner& in, const Record& record, std::size_t i, const std::string& expected) {
     return unreadable("F012", in.location(record.items[i].at), "expected " + expected + ", found " + shown(record.text(i)));
@@ -31,14 +33,16 @@ Trouble read_map_axes(Scanner& in, GridText& g, std::vector<Finding>& findings) 
 Trouble read_map_units(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     auto record = take_record(in, "MAPUNITS", findings);
     if (!record) return std::move(record).why();
-    g.grid.map_unit = word(*record, 0);
+    g.grid.map_unit = take_word(in, *record, 0, "the unit of MAPUNITS", findings);
     return {};
 }
 
 Trouble read_grid_unit(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     auto record = take_record(in, "GRIDUNIT", findings);
     if (!record) return std::move(record).why();
-    const std::string unit = record->items.empty() || !record->given(0) ? "METRES" : word(*record, 0);
+    const std::string unit =
+        record->items.empty() || !record->given(0) ? "METRES" : take_word(in, *record, 0, "the unit of GRIDUNIT", findings);
+    if (!is_unit(unit)) note_flow_stops(findings, in.location(record->begin), "GRIDUNIT has the unit " + shown(unit));
     g.grid.info.crs.axis_units.fill(unit);
     g.grid.info.crs.stated = true;
     g.grid.map_relative = word(*record, 1) == "MAP";
@@ -88,7 +92,7 @@ Trouble read_pinch(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     if (auto failed = take_real(in, *record, 2, "the largest gap", pinch.largest_gap)) return failed;
     const auto choose = [&](std::size_t i, const char* no, const char* yes, bool& value) -> Trouble {
         if (!record->given(i)) return {};
-        const std::string text = word(*record, i);
+        const std::string text = take_word(in, *record, i, "a word of PINCH", findings);
         if (text != no && text != yes) return bad_word(in, *record, i, std::string(no) + " or " + yes);
         value = text == yes;
         return {};

@@ -57,7 +57,7 @@ bool is_edited_array(std::string_view word) { return opens_quote(word[0]) || cel
 bool begins_record(std::string_view keyword, const std::vector<std::string_view>& words) {
     if (has_ending_slash(words)) return true;
     const bool second_is_number = words.size() > 1 && begins_like_number(words[1]);
-    if (keyword == "FAULTS" || keyword == "MULTFLT" || keyword == "CARFIN") return second_is_number;
+    if (keyword == "FAULTS" || keyword == "MULTFLT" || keyword == "CARFIN") return second_is_number && !words[0].starts_with('(');
     if (keyword.starts_with("COPY")) return words.size() > 1 && is_edited_array(words[0]) && is_edited_array(words[1]);
     if (is_edit(keyword)) return second_is_number && is_edited_array(words[0]);
     return opens_quote(words[0][0]);
@@ -74,20 +74,26 @@ void DeckReader::take_line_remark() {
         std::string_view(line.data() + line.size(), static_cast<std::size_t>(in().end() - line.data()) - line.size());
     const std::size_t next = behind.find_first_not_of(" \t\r\n");
     const char follows = next == std::string_view::npos ? '\0' : behind[next];
+    const std::string_view next_line =
+        next == std::string_view::npos ? std::string_view{} : behind.substr(next, behind.find('\n', next) - next);
+    const bool number_follows = follows != '/' && !words_of(next_line, 1).empty() && begins_like_number(words_of(next_line, 1)[0]);
     switch (first_item(word_)) {
         case FirstItem::nothing: {
-            // Several keywords on one line, as some files have them.
-            const auto is_alone = [](std::string_view w) { return first_item(known_name(w)) == FirstItem::nothing; };
+            // Several keywords on one line, as some files have them. Names of sections and END are words of remarks there.
+            const auto is_alone = [](std::string_view w) { return shape_of(known_name(w)) == Shape::alone; };
             if (section_of(word_) == Section::none && std::ranges::all_of(words, is_alone)) return;
             break;
         }
         case FirstItem::number:
+            if (words[0].starts_with('/') && number_follows) break;
             if (begins_like_number(words[0]) || (has_ending_slash(words) && !(follows >= '0' && follows <= '9'))) return;
             break;
         case FirstItem::word:
-            if (follows == '/' || begins_record(word_, words)) return;
+            if (words[0].starts_with('/') ? !begins_record(word_, words_of(next_line, 16)) : follows == '/' || begins_record(word_, words))
+                return;
             break;
         case FirstItem::path:
+            if (words[0].starts_with('/') && opens_quote(follows)) break;
             if (opens_quote(words[0][0]) || follows == '/' || has_ending_slash(words) || !opens_quote(follows)) return;
             break;
         case FirstItem::any:
@@ -95,8 +101,20 @@ void DeckReader::take_line_remark() {
     }
     const bool says_something = std::ranges::any_of(
         line.substr(0, line.find("--")), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
-    if (says_something && !probing_ && remarks_++ == 0) first_remark_ = where(words[0].data());
+    if (says_something) note_remark(words[0].data());
     in().skip_line();
+}
+
+void DeckReader::note_remark(const char* at) {
+    if (!probing_ && remarks_++ == 0) first_remark_ = where(at);
+}
+
+/// Goes to the line below the keyword that ends at `begin`; false where nothing stands beside it.
+bool DeckReader::go_behind_remark(const char* begin) {
+    in().jump(begin);
+    if (words_of(in().rest_of_line(), 1).empty()) return false;
+    in().skip_line();
+    return true;
 }
 
 /// Values on the lines below an unknown keyword with text beside it: whether they were taken as a property.
@@ -107,7 +125,7 @@ bool DeckReader::unknown_below_remark(const std::string& name, Trouble& failed) 
     if (words.empty() || begins_like_number(words[0]) || opens_quote(words[0][0]) || has_ending_slash(words)) return false;
     in().skip_line();
     if (in().skip() && begins_like_number(Scanner(in()).item().text) && unknown_numbers(name, failed)) {
-        if (!probing_ && remarks_++ == 0) first_remark_ = where(words[0].data());
+        note_remark(words[0].data());
         return true;
     }
     in().jump(begin);

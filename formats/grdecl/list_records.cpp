@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <array>
+#include <span>
 #include <unordered_map>
 
 #include "base/text_cursor.h"
-#include "formats/grdecl/deck.h"
+#include "formats/drop.h"
+#include "formats/grdecl/flow_words.h"
 
 namespace geomend::grdecl {
 
 namespace {
 
 using Fault = CornerPointGrid::Fault;
+
+constexpr std::array<std::string_view, 7> directions = {"X", "Y", "Z", "XY", "YZ", "XZ", "XYZ"};
+
+bool among(std::span<const std::string_view> words, std::string_view word) { return std::ranges::find(words, word) != words.end(); }
 
 /// X, X+, I, I+ and their like; the letter alone is the + side.
 std::optional<CellFace> face_of(std::string_view text) {
@@ -37,9 +44,7 @@ Trouble take_fault_box(const Scanner& in, const Record& record, Fault::Box& box,
         return unreadable("F012", in.location(record.items[7].at),
                           "expected a face (X, X-, Y, I, J-, ...), found " + shown(record.text(7)));
     box.face = *face;
-    if (trimmed(record.text(7))[0] > 'Z' && std::ranges::find(findings, "F146", &Finding::code) == findings.end())
-        findings.push_back(
-            finding("F146", in.location(record.items[7].at), "the face " + shown(record.text(7)) + " of a fault is in lower case"));
+    static_cast<void>(take_word(in, record, 7, "the face of a fault", findings));
     return {};
 }
 
@@ -102,8 +107,10 @@ Trouble read_fault_multipliers(Scanner& in, GridText& g, bool in_edit, std::vect
         if (!record.given(0)) return unreadable("F012", in.location(record.begin), "expected the name of a fault");
         double value = 1;
         if (auto failed = take_real(in, record, 1, "a multiplier", value)) return failed;
+        if (!record.given(1)) note_flow_stops(findings, in.location(record.slash), "a record of MULTFLT has no multiplier");
         const std::string name(trimmed(record.text(0)));
         if (name.ends_with('*')) {
+            note_flow_stops(findings, in.location(record.items[0].at), "a record of MULTFLT names faults by a '*'");
             const std::string_view stem = std::string_view(name).substr(0, name.size() - 1);
             bool met = false;
             for (Fault& fault : g.grid.faults) {
@@ -123,6 +130,7 @@ Trouble read_fault_multipliers(Scanner& in, GridText& g, bool in_edit, std::vect
 
 Trouble read_connections(Scanner& in, GridText& g, std::vector<Finding>& findings, std::vector<Loss>& losses) {
     std::uint64_t more = 0;
+    Location first_more;
     auto failed = read_list(in, "NNC", findings, [&](const Record& record) -> Trouble {
         CornerPointGrid::Connection c;
         if (auto wrong = take_cell(in, record, 0, *g.dims, c.first)) return wrong;
@@ -132,15 +140,16 @@ Trouble read_connections(Scanner& in, GridText& g, std::vector<Finding>& finding
         if (record.given(6)) c.transmissibility = value;
         for (std::size_t i = 7; i < record.items.size(); ++i) {
             if (!record.given(i)) continue;
-            ++more;
+            if (more++ == 0) first_more = in.location(record.items[i].at);
             break;
         }
         g.grid.connections.push_back(c);
         return {};
     });
     if (more > 0)
-        losses.push_back({LossClass::substance, g.grid.info.name, "further items of stated connections (tables, faces, areas)",
-                          "only cells and transmissibility are kept", more});
+        drop(findings, losses,
+             {LossClass::substance, g.grid.info.name, "further items of stated connections (tables, faces, areas)",
+              "only cells and transmissibility are kept", more, first_more});
     return failed;
 }
 
@@ -164,10 +173,20 @@ Trouble read_region_multipliers(Scanner& in, GridText& g, std::vector<Finding>& 
         if (auto failed = take_real(in, record, 2, "a multiplier", m.value)) return failed;
         if (from > 0 && from < 2147483647) m.from = static_cast<int>(from);
         if (to > 0 && to < 2147483647) m.to = static_cast<int>(to);
-        if (record.given(3)) m.directions = upper_case(trimmed(record.text(3)));
-        if (record.given(4)) m.connections = upper_case(trimmed(record.text(4)));
+        if (from == 0 && to == 0 && record.given(0) && record.given(1))
+            note_flow_stops(findings, in.location(record.begin), "MULTREGT has a multiplier within region 0");
+        if (record.given(3)) {
+            m.directions = take_word(in, record, 3, "the directions of MULTREGT", findings);
+            if (!among(directions, m.directions))
+                note_flow_stops(findings, in.location(record.items[3].at), "MULTREGT has the directions " + shown(m.directions));
+        }
+        if (record.given(4)) {
+            m.connections = take_word(in, record, 4, "the kind of connections of MULTREGT", findings);
+            if (m.connections != "ALL" && m.connections != "NNC" && m.connections != "NONNC")
+                note_flow_stops(findings, in.location(record.items[4].at), "MULTREGT has the kind of connections " + shown(m.connections));
+        }
         if (record.given(5)) {
-            const std::string word = upper_case(trimmed(record.text(5)));
+            const std::string word = take_word(in, record, 5, "the kind of regions of MULTREGT", findings);
             if (word != "M" && word != "F" && word != "O")
                 return unreadable("F012", in.location(record.items[5].at), "expected M, F or O, found " + shown(record.text(5)));
             m.regions = word[0];

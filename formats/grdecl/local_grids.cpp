@@ -126,4 +126,33 @@ Trouble refine_host(CornerPointGrid& grid, const std::array<std::vector<std::uin
     return {};
 }
 
+bool is_refined_host(const CornerPointGrid& grid, const CornerPointGrid& host) {
+    if (!grid.host || grid.host->cells.empty() || host.depths.empty() || grid.depths.empty()) return false;
+    CornerPointGrid made;
+    made.info.name = grid.info.name;
+    made.dims = grid.dims;
+    made.host = CornerPointGrid::Host{grid.host->grid, grid.host->first, grid.host->last, {}};
+    std::array<std::vector<std::uint32_t>, 3> counts;
+    for (std::size_t a = 0; a < 3; ++a) counts[a] = fine_counts(grid, a);
+    std::uint64_t room = std::uint64_t{1} << 62;
+    const Input nothing = Input::from_memory({}, {});
+    if (refine_host(made, counts, {}, host, nothing, room)) return false;
+    return made.depths == grid.depths && made.pillars == grid.pillars && made.activity == grid.activity &&
+           made.host->cells == grid.host->cells;
+}
+
+std::vector<std::uint32_t> fine_counts(const CornerPointGrid& grid, std::size_t axis) {
+    const auto& host = *grid.host;
+    std::vector<std::uint32_t> counts(host.last[axis] - host.first[axis] + 1, 0);
+    if (host.cells.size() != grid.cell_count()) return {};
+    const std::size_t step = axis == 0 ? 1 : axis == 1 ? grid.dims[0] : std::size_t{grid.dims[0]} * grid.dims[1];
+    std::size_t now = 0;
+    for (std::size_t n = 0; n < grid.dims[axis]; ++n) {
+        if (n > 0 && host.cells[n * step] != host.cells[(n - 1) * step]) ++now;
+        if (now == counts.size()) return {};
+        ++counts[now];
+    }
+    return now + 1 == counts.size() ? counts : std::vector<std::uint32_t>{};
+}
+
 }  // namespace geomend::grdecl

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/text_cursor.h"
+#include "formats/grdecl/deck.h"
 #include "formats/grdecl/writing.h"
 
 namespace geomend::grdecl {
@@ -85,14 +86,23 @@ void write_remark(const CornerPointGrid& grid, DeckOutput& to, bool keywords_too
     if (!words.empty()) to.main << "--geomend" << words << "\n\n";
 }
 
+/// The grid that a local grid refines; the main one where its host is not written.
+const CornerPointGrid& host_of(const CornerPointGrid& local, const std::vector<const CornerPointGrid*>& grids) {
+    for (const CornerPointGrid* grid : grids) {
+        if (grid->host && grid != &local && grid->info.name == local.host->grid) return *grid;
+    }
+    return *grids[0];
+}
+
 void write_grids(const std::vector<const CornerPointGrid*>& grids, bool properties_only, Section section, DeckOutput& to) {
     for (const CornerPointGrid* grid : grids) {
         const bool local = grid != grids[0];
         if (local) write_local_grid_begin(*grid, to);
         else if (!properties_only) write_head(*grid, to);
         if (!properties_only) {
-            write_geometry(*grid, to);
-            write_faults_and_connections(*grid, to);
+            const bool implied = local && is_refined_host(*grid, host_of(*grid, grids));
+            if (!implied) write_geometry(*grid, to);
+            write_faults_and_connections(*grid, to, !implied);
         }
         write_properties(*grid, local ? Section::none : section, to);  // other sections have no place for local grids
         if (!properties_only) write_records(*grid, "", to);

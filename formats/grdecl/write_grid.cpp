@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/text_cursor.h"
+#include "formats/grdecl/deck.h"
 #include "formats/grdecl/value_text.h"
 #include "formats/grdecl/writing.h"
 
@@ -121,21 +122,6 @@ void write_region_multipliers(const CornerPointGrid& grid, OutputFile& out) {
     out << "/\n\n";
 }
 
-/// Numbers of fine cells of each host cell along an axis, from the hosts of the cells.
-std::vector<std::uint32_t> fine_counts(const CornerPointGrid& grid, std::size_t axis) {
-    const auto& host = *grid.host;
-    std::vector<std::uint32_t> counts(host.last[axis] - host.first[axis] + 1, 0);
-    if (host.cells.size() != grid.cell_count()) return {};
-    const std::size_t step = axis == 0 ? 1 : axis == 1 ? grid.dims[0] : std::size_t{grid.dims[0]} * grid.dims[1];
-    std::size_t now = 0;
-    for (std::size_t n = 0; n < grid.dims[axis]; ++n) {
-        if (n > 0 && host.cells[n * step] != host.cells[(n - 1) * step]) ++now;
-        if (now == counts.size()) return {};
-        ++counts[now];
-    }
-    return now + 1 == counts.size() ? counts : std::vector<std::uint32_t>{};
-}
-
 }  // namespace
 
 std::string_view unit_word(std::string_view unit) {
@@ -193,9 +179,9 @@ void write_geometry(const CornerPointGrid& grid, DeckOutput& to) {
     write_array(to.main, "ZCORN", is_dual(grid) ? 2 * n : n, [&](std::size_t i) { return at(grid.depths[i < n ? i : i - n]); });
 }
 
-void write_faults_and_connections(const CornerPointGrid& grid, DeckOutput& to) {
+void write_faults_and_connections(const CornerPointGrid& grid, DeckOutput& to, bool activity_too) {
     const std::size_t cells = grid.cell_count();
-    if (!grid.activity.empty()) {
+    if (!grid.activity.empty() && activity_too) {
         if (is_dual(grid)) {
             write_array(to.main, "ACTNUM", 2 * cells, [&](std::size_t i) {
                 return Element<std::uint32_t>{i < cells ? grid.activity[i] & 1u : (grid.activity[i - cells] >> 1) & 1u};

@@ -33,7 +33,7 @@ std::string companion_name(const OutputSet& files);
 /// Keywords of the grid's head and geometry (write_grid.cpp).
 void write_head(const CornerPointGrid& grid, DeckOutput& to);
 void write_geometry(const CornerPointGrid& grid, DeckOutput& to);
-void write_faults_and_connections(const CornerPointGrid& grid, DeckOutput& to);
+void write_faults_and_connections(const CornerPointGrid& grid, DeckOutput& to, bool activity_too);
 void write_local_grid_begin(const CornerPointGrid& grid, DeckOutput& to);
 /// METRES, FEET or CM for a unit that is one of them however it is spelt; else empty.
 std::string_view unit_word(std::string_view unit);

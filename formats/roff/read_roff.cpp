@@ -8,6 +8,7 @@
 #include "base/big_array.h"
 #include "base/number_text.h"
 #include "formats/roff/document.h"
+#include "formats/roff/subgrids.h"
 #include "formats/roff/tag_text.h"
 
 namespace geomend::roff {
@@ -255,7 +256,15 @@ private:
         auto text = tag_text(doc_, tag);
         if (!text) return text.why();
         grid_.info.annotations.push_back({std::string(tag_key), std::move(*text)});
+        if (tag.name == "subgrids") take_subgrids();
         return {};
+    }
+
+    /// Which subgrid a cell is in, as a property: so it gets into formats that know no subgrids.
+    void take_subgrids() {
+        const auto& attributes = grid_.info.attributes;
+        if (std::ranges::find(attributes, subgrid_name, &Attribute::name) != attributes.end()) return;
+        if (auto a = subgrid_attribute(grid_)) grid_.info.attributes.push_back(std::move(*a));
     }
 
     Result<void> take_parameter(const Tag& tag) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "formats/roff/read_roff.h"
+#include "formats/roff/subgrids.h"
 #include "formats/roff/tag_text.h"
 
 namespace geomend::roff {
@@ -30,6 +31,7 @@ public:
                 lose(LossClass::substance, "attribute '" + a.name + "'", "ROFF files hold values of cells");
                 continue;
             }
+            if (a.name == subgrid_name && says_subgrids(a)) continue;  // the tag says it
             if (!a.unit.empty()) lose(LossClass::identity, "unit of attribute '" + a.name + "'", "ROFF files have no place for it");
             for (std::uint32_t c = 0; c < a.components; ++c) {
                 std::visit([&](const auto& values) { write(a, c, values); }, a.values);
@@ -39,6 +41,11 @@ public:
 
 private:
     void lose(LossClass c, std::string what, std::string why) { add_loss(losses_, {c, grid_.info.name, std::move(what), std::move(why)}); }
+
+    bool says_subgrids(const Attribute& a) const {
+        const auto made = subgrid_attribute(grid_);
+        return made && made->values == a.values;
+    }
 
     std::string parameter_name(const Attribute& a, std::uint32_t component) {
         std::string name = a.components > 1 ? a.name + "_" + std::to_string(component + 1) : a.name;

@@ -9,6 +9,7 @@
 #include "formats/roff/losses.h"
 #include "formats/roff/node_depths.h"
 #include "formats/roff/read_roff.h"
+#include "formats/roff/subgrids.h"
 #include "formats/roff/tag_text.h"
 #include "formats/roff/write_parameters.h"
 #include "model/annotations.h"
@@ -203,13 +204,7 @@ private:
             if (a.key != tag_key) continue;
             const auto kept = tag_from_text(a.value);
             if (!kept || kept->tags.front().name != "subgrids") continue;
-            const Entry* entry = find_entry(kept->tags.front(), "nLayers");
-            const auto layers = entry != nullptr ? integers(*kept, *entry) : Result<std::vector<std::int32_t>>(std::vector<std::int32_t>{});
-            std::int64_t sum = 0;
-            if (layers) {
-                for (const std::int32_t n : *layers) sum += n;
-            }
-            if (sum == grid_.dims[2]) {
+            if (!subgrid_layers(grid_).empty()) {
                 write_tag(*kept);
             } else {
                 add_loss(losses_, {LossClass::identity, grid_.info.name, "subgrids", "their layers do not add up to those of the grid"});

@@ -4,6 +4,7 @@
 
 #include "base/number_text.h"
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/vtk/legacy_file.h"
 
 // The records of the format stand in VTK's user's guide ("Simple Legacy Formats"); the layout with OFFSETS and
@@ -223,8 +224,8 @@ bool Parser::unknown(std::string_view word, std::uint64_t at) {
             if (s_.binary)
                 return s_.fail("F008", at,
                                "a keyword is expected here: the record before is longer than stated, or of a kind that is not known");
-            note("F102", "the record '" + name + "' is not known and was not read", at);
-            add_loss(file_.losses, {LossClass::substance, "", "record '" + name + "'", "it is not a record of the legacy VTK format"});
+            drop(file_.findings, file_.losses,
+                 {.what = "record '" + name + "'", .why = "it is not a record of the legacy VTK format", .where = s_.location(at)});
             return true;
         }
         s_.line();
@@ -239,9 +240,13 @@ void Parser::note(const char* code, std::string message, std::uint64_t at) {
 bool Parser::trailing(std::uint64_t at) {
     if (file_.kind == LegacyKind::none && file_.fields.empty()) return s_.fail("F012", at, "a DATASET or FIELD record is expected");
     const std::uint64_t size = s_.bytes().size() - at;
-    note("F102", std::to_string(size) + " bytes after the last record were not read", at);
-    use_other_severity(file_.findings.back());
-    add_loss(file_.losses, {LossClass::style, "", "bytes after the last record", "they belong to no record"});
+    drop(file_.findings, file_.losses,
+         {.loss_class = LossClass::identity,
+          .what = "bytes after the last record",
+          .why = "they belong to no record",
+          .count = size,
+          .where = s_.location(at),
+          .message = std::to_string(size) + " bytes after the last record are not read"});
     s_.take_rest();
     return true;
 }
@@ -519,7 +524,7 @@ bool Parser::lookup_table() {
             return true;
         }
     }
-    add_loss(file_.losses, {LossClass::style, name, "colour table '" + name + "'", "no SCALARS name it"});
+    list_dropped(file_.losses, {LossClass::style, name, "colour table '" + name + "'", "no SCALARS name it"});
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/vtk/legacy.h"
 #include "formats/vtk/legacy_file.h"
 #include "formats/vtk/vtk_structure.h"
@@ -334,7 +335,14 @@ bool Mapper::unstructured(CellMesh& mesh) {
         if (problem != CellProblem::none) return cell_fault(problem, i);
     }
     if (builder.empty_cells() != 0)
-        findings_.push_back(make_finding("F119", "empty cells are left out", s_.location(file_.types_offset), builder.empty_cells()));
+        drop(findings_, file_.losses,
+             {.loss_class = LossClass::identity,
+              .what = "empty cells",
+              .why = "they have no nodes",
+              .count = builder.empty_cells(),
+              .where = s_.location(file_.types_offset),
+              .code = "F119",
+              .message = "empty cells are left out"});
     const std::uint64_t point_count = file_.points.size();
     mesh.points = std::move(file_.points);
     note_points(mesh.info, "UnstructuredGrid");
@@ -443,7 +451,7 @@ bool Mapper::run(Dataset& data) {
         ObjectInfo none;
         fields(none);
         for (const Attribute& a : none.attributes)
-            add_loss(data.losses, {LossClass::substance, a.name, "array '" + a.name + "'", "it stands on no geometry"});
+            list_dropped(data.losses, {LossClass::substance, a.name, "array '" + a.name + "'", "it stands on no geometry"});
         findings_.push_back(make_finding("F119", "the file holds arrays only, and no geometry", s_.location(0), 1));
     } else {
         ObjectInfo& info = info_of(object);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "formats/drop.h"
 #include "formats/vtk/vtk_cells.h"
 #include "model/attribute_operations.h"
 
@@ -161,7 +162,8 @@ private:
         for (Attribute& a : all) {
             if (a.name != like.name) continue;
             if (!same_shape(a, like)) {
-                add_loss(losses_, {LossClass::substance, info.name, "attribute '" + like.name + "'", "blocks give it different types", 1});
+                list_dropped(losses_,
+                             {LossClass::substance, info.name, "attribute '" + like.name + "'", "blocks give it different types", 1});
                 return nullptr;
             }
             resize_with_missing(a, things);
@@ -282,7 +284,7 @@ private:
             if (!on_cells) {
                 if (a.location != AttributeLocation::point ||
                     mesh_.entities[mesh_.cell_entity.empty() ? 0 : mesh_.cell_entity.back()].dimension != 3)
-                    add_loss(losses_, {LossClass::substance, info.name, "attribute '" + a.name + "'", "a mesh has no place for it", 1});
+                    list_dropped(losses_, {LossClass::substance, info.name, "attribute '" + a.name + "'", "a mesh has no place for it", 1});
                 continue;
             }
             Attribute* to = column(cell_attributes_, a, mesh_.cell_count(), info);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "formats/drop.h"
 #include "formats/vtk/xml_pieces.h"
 
 namespace geomend::vtk {
@@ -37,8 +38,8 @@ std::vector<Attribute> common_attributes(std::vector<Piece*>& pieces, ReadNotes&
     std::vector<Attribute> common;
     if (pieces.empty()) return common;
     const auto lose = [&](const Attribute& a) {
-        add_loss(notes.losses,
-                 {LossClass::substance, a.name, "attribute '" + a.name + "'", "not every piece has it with the same type", 1});
+        drop(notes.findings, notes.losses,
+             {LossClass::substance, a.name, "attribute '" + a.name + "'", "not every piece has it with the same type"});
     };
     for (Attribute& first : pieces.front()->attributes) {
         const bool everywhere = std::ranges::all_of(pieces, [&](Piece* p) {
@@ -277,8 +278,8 @@ std::vector<Attribute> lattice_attributes(std::vector<Piece*>& pieces, const Ext
             return other != nullptr && same_shape(*other, a);
         });
         if (!everywhere) {
-            add_loss(notes.losses,
-                     {LossClass::substance, a.name, "attribute '" + a.name + "'", "not every piece has it with the same type", 1});
+            drop(notes.findings, notes.losses,
+                 {LossClass::substance, a.name, "attribute '" + a.name + "'", "not every piece has it with the same type"});
             continue;
         }
         shapes.push_back(a);

@@ -2,6 +2,7 @@
 // .vtm: named blocks within blocks, each a file of its own.
 #include <algorithm>
 
+#include "formats/drop.h"
 #include "formats/vtk/vtk_model.h"
 #include "formats/vtk/xml_read.h"
 
@@ -94,7 +95,7 @@ Result<Dataset> read_multiblock(const XmlDocument& document, const Input& input,
         if (const auto* words = std::get_if<std::vector<std::string>>(&a.values)) {
             for (const std::string& word : *words) dataset.annotations.push_back({"vtk.field", a.name + ": " + word});
         } else {
-            add_loss(dataset.losses, {LossClass::style, {}, "field array '" + a.name + "'", "it belongs to no block", 1});
+            drop(dataset.findings, dataset.losses, {LossClass::identity, {}, "field array '" + a.name + "'", "it belongs to no block"});
         }
     }
     return dataset;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 
 namespace geomend::vtk {
 
@@ -415,8 +416,9 @@ private:
     bool later_time_step(const XmlElement& array) {
         const std::string_view steps = trimmed(doc_.raw_attribute(array, "TimeStep"));
         if (steps.empty() || steps.starts_with("0")) return false;
-        add_loss(notes_.losses,
-                 {LossClass::substance, array_name(doc_, array), "values of later time steps", "only the first time step is read", 1});
+        drop(notes_.findings, notes_.losses,
+             {LossClass::substance, array_name(doc_, array), "values of later time steps", "only the first time step is read", 1,
+              doc_.where(array)});
         return true;
     }
 

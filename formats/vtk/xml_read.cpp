@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text_cursor.h"
+#include "formats/drop.h"
 #include "formats/vtk/vtk_merge.h"
 #include "formats/vtk/vtk_structure.h"
 #include "model/dataset_text.h"
@@ -97,11 +98,14 @@ private:
         std::size_t empty = 0;
         for (const Piece& p : pieces_) empty += p.empty_cells;
         if (empty != 0) {
-            Finding finding = make_finding("F119", {}, {doc_.file}, 0);
-            finding.element_kind = "cell";
-            finding.count = empty;
-            finding.message = std::to_string(empty) + " empty cells are left out";
-            notes_.findings.push_back(std::move(finding));
+            drop(notes_.findings, notes_.losses,
+                 {.loss_class = LossClass::identity,
+                  .what = "empty cells",
+                  .why = "they have no nodes",
+                  .count = empty,
+                  .where = {doc_.file},
+                  .code = "F119",
+                  .message = std::to_string(empty) + " empty cells are left out"});
         }
         if (kind_ == DatasetKind::unstructured) {
             CellMesh mesh = join_meshes(pieces_, doc_.file, notes_);

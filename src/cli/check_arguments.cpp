@@ -2,6 +2,7 @@
 #include "cli/check_arguments.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "drawing/scene.h"
 #include "pipeline/grids.h"
@@ -47,10 +48,19 @@ Result<validators::CheckOptions> check_options(const CommonOptions& common, cons
     return o;
 }
 
+namespace {
+
+// From which severity on findings fail; none: never.
+std::optional<Severity> fails_from(const CheckArguments& a) {
+    if (a.fail_on == "never") return std::nullopt;
+    return a.fail_on == "info" ? Severity::info : a.fail_on == "warning" ? Severity::warning : Severity::error;
+}
+
+}  // namespace
+
 bool fails(const CheckArguments& a, std::span<const Finding> findings) {
-    if (a.fail_on == "never") return false;
-    const Severity least = a.fail_on == "info" ? Severity::info : a.fail_on == "warning" ? Severity::warning : Severity::error;
-    return std::ranges::any_of(findings, [&](const Finding& f) { return f.severity >= least; });
+    const auto least = fails_from(a);
+    return least && std::ranges::any_of(findings, [&](const Finding& f) { return f.severity >= *least; });
 }
 
 Inspect inspection(const CheckArguments& a, DebrisFolder& debris, std::size_t files) {
@@ -79,6 +89,7 @@ Report empty_report(const CheckArguments& a) {
     Report report;
     report.tool = "geomend " GEOMEND_VERSION;
     report.most_findings = a.max_findings;
+    report.fails_from = fails_from(a);
     return report;
 }
 

@@ -73,6 +73,7 @@ Result<Report> judge_many(const CLI::App& command, const ValidateOptions& o, con
     Report head = empty_report(o);
     all->tool = std::move(head.tool);
     all->most_findings = head.most_findings;
+    all->fails_from = head.fails_from;
     std::vector<std::string> names;
     for (const ReportedFile& file : all->files) names.push_back(file.file);
     const Earlier earlier = baseline_files(baseline, names);

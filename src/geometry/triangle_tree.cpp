@@ -99,8 +99,8 @@ Box TriangleTree::box(const Vec3& low, const Vec3& high, double distance) const 
     Box box{};
     const double reach = distance > 0 ? distance + box_error_ : 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        box.low[k] = static_cast<float>(low[k] - origin_[k] - reach);
-        box.high[k] = static_cast<float>(high[k] - origin_[k] + reach);
+        box.low[k] = static_cast<float>(space_.at(k, low[k]) - origin_[k] - reach);
+        box.high[k] = static_cast<float>(space_.at(k, high[k]) - origin_[k] + reach);
     }
     return box;
 }
@@ -118,13 +118,18 @@ Box TriangleTree::widened(const Box& box, double distance) const {
 void TriangleTree::sort_triangles(std::span<const Triangle> triangles) {
     const std::size_t count = triangles.size();
     if (count == 0) return;
-    const Extent extent = extent_of(vertices_);
-    double side = 0;
+    Extent extent = extent_of(vertices_);
+    space_ = SqueezedSpace(vertices_, triangles, extent.low, extent.high);
+    double side = 0, stretch = 0;
     for (std::size_t k = 0; k < 3; ++k) {
+        stretch = std::max(stretch, extent.high[k] - extent.low[k]);
+        extent.low[k] = space_.at(k, extent.low[k]);
+        extent.high[k] = space_.at(k, extent.high[k]);
         origin_[k] = extent.low[k] + 0.5 * (extent.high[k] - extent.low[k]);
         side = std::max(side, extent.high[k] - extent.low[k]);
     }
-    box_error_ = side * 0x1p-23;  // a float within side / 2 of 0 is rounded by 2^-25 of the side at most
+    // A float within side / 2 of 0 is rounded by 2^-25 of the side at most; squeezing rounds as double precision does.
+    box_error_ = side * 0x1p-23 + stretch * 0x1p-50;
     // A key is the place of the centre on the curve, followed by the number of the triangle; those left out come last.
     const auto number_bits = static_cast<unsigned>(std::bit_width(count));
     const unsigned bits = std::min(16u, (63 - number_bits) / 3);
@@ -140,8 +145,8 @@ void TriangleTree::sort_triangles(std::span<const Triangle> triangles) {
             }
             std::array<std::uint32_t, 3> cell{};
             for (std::size_t k = 0; k < 3; ++k) {
-                const double sum =
-                    (vertices_[t[0]][k] - extent.low[k]) + (vertices_[t[1]][k] - extent.low[k]) + (vertices_[t[2]][k] - extent.low[k]);
+                double sum = 0;
+                for (const std::uint32_t v : t) sum += space_.at(k, vertices_[v][k]) - extent.low[k];
                 cell[k] = static_cast<std::uint32_t>(std::clamp(sum * scale, 0.0, cells - 1.0));
             }
             keys[i] = hilbert_place(cell, bits) << number_bits | i;

@@ -13,12 +13,13 @@
 #endif
 
 #include "base/vec3.h"
+#include "geometry/squeezed_space.h"
 #include "geometry/triangle_pair.h"
 
 namespace geomend {
 
-/// A box along the axes. Coordinates are relative to the tree's origin and rounded to float: rounding keeps the order of
-/// numbers, so that things which have a point in common still have boxes that do.
+/// A box along the axes. Coordinates are relative to the tree's origin, in its squeezed space, and rounded to float: both keep the
+/// order of numbers, so that things which have a point in common still have boxes that do.
 struct Box {
     std::array<float, 3> low, high;
 };
@@ -63,7 +64,8 @@ Box outer_box(std::span<const FourBoxes> fours, std::size_t first, std::size_t l
 
 /// A search tree over the triangles of a soup: they are put in the order of a Hilbert curve through their centres, and boxes
 /// are put around each four, each four fours, and so on (a packed R-tree). Degenerate triangles (equal vertex numbers, or
-/// positions in line) are left out. Memory: 48 bytes per triangle. Cost: linear, about 0.1 s per million.
+/// positions in line) are left out. Long empty stretches cost nothing: parts may lie
+/// any distance apart. Memory: 48 bytes per triangle. Cost: linear, about 0.1 s per million.
 class TriangleTree {
 public:
     /// \param margin boxes are so much wider that triangles within this distance of each other have boxes that overlap
@@ -90,7 +92,7 @@ public:
         const FourBoxes& boxes = levels_.front()[i / 4];
         double square = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double x = point[k] - origin_[k], slack = box_error_;
+            const double x = space_.at(k, point[k]) - origin_[k], slack = box_error_;
             const double beyond = std::max({0.0, boxes.low[k][i % 4] - x - slack, x - boxes.high[k][i % 4] - slack});
             square += beyond * beyond;
         }
@@ -139,6 +141,7 @@ public:
 
 private:
     std::span<const Vec3> vertices_;
+    SqueezedSpace space_;
     Vec3 origin_{};
     double box_error_ = 0;  ///< no box coordinate is rounded by more
     std::vector<std::uint32_t> order_;

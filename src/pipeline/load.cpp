@@ -7,7 +7,6 @@
 #include "formats/options.h"
 #include "formats/registry.h"
 #include "pipeline/deck_companions.h"
-#include "pipeline/dropped.h"
 #include "topology/keys.h"
 
 namespace geomend {
@@ -45,7 +44,6 @@ Result<Dataset> load(const OpenedInput& opened, const LoadOptions& options, std:
             if (auto followed = follow_deck_companions(*dataset, input, options); !followed) return std::move(followed).why();
         }
         if (dataset) topology::report_stated_keys(input.name(), *dataset);
-        if (dataset) list_what_was_dropped(*dataset);
         if (companions != nullptr) *companions = input.companions();
         return dataset;
     } catch (const std::bad_alloc&) {

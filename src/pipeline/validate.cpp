@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <map>
 #include <new>
+#include <utility>
 
+#include "base/wording.h"
 #include "pipeline/command_options.h"
 #include "validators/readiness.h"
 
@@ -42,6 +44,21 @@ void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
                     (f.count == 1 ? " was read, but holds" : " were read, but hold") + " nothing that a check looks at";
         findings.push_back(std::move(f));
     }
+}
+
+// The lengths of clusters of objects, where they differ by what a report shows of them.
+std::vector<ReportedLengths> lengths_by_cluster(const Dataset& dataset, const topology::LocalLengths& local) {
+    std::vector<ReportedLengths> clusters;
+    std::map<std::pair<std::string, std::string>, std::size_t> known;
+    for (std::uint32_t o = 0; o < local.cluster_of.size(); ++o) {
+        if (local.cluster_of[o] == no_index) continue;
+        const topology::Lengths& l = local.of(o);
+        const auto [at, is_new] = known.try_emplace({rounded(l.tolerance), rounded(l.near)}, clusters.size());
+        if (is_new) clusters.push_back({l.tolerance, l.near, {}});
+        clusters[at->second].objects.push_back(info_of(dataset.objects[o]).name);
+    }
+    if (clusters.size() < 2) clusters.clear();
+    return clusters;
 }
 
 // The options by which the checks run: what other checks find is told again by S02, also where it is not wanted itself.
@@ -88,6 +105,7 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         if (!checked) return std::move(checked).why();
         take(*checked);
         lengths = std::move(checked->local);
+        file.clusters = lengths_by_cluster(dataset, lengths);
         if (const auto& c = checked->closing) file.closing = {c->tolerance, c->errors, c->left};
     }
     if (validators::wanted(options, "F160")) tell_unchecked(dataset, file.findings);
@@ -98,8 +116,9 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
                              [&](const Finding& f) { return validators::wanted(options, f.code); });
         if (run.only != options.only) std::erase_if(file.findings, [&](const Finding& f) { return !validators::wanted(options, f.code); });
     }
+    if (validators::leaves_checks_out(options, dataset)) file.chosen = ChosenChecks{options.only, options.skip};
     if (has_errors(file.findings)) file.valid = false;
-    else if (all_judged) file.valid = true;
+    else if (all_judged && !file.chosen) file.valid = true;
     return file;
 }
 

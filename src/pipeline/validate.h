@@ -14,7 +14,7 @@ namespace geomend {
 
 /// Runs the checks that apply to each object; what the reader noticed is in the report, too. The file is not called valid
 /// where an object holds nothing that a check looks at (F160), where the reader left something out that it could not read, or
-/// where the options ask for no check.
+/// where the options leave out checks that might find something in it.
 /// Failure: a code of the options is of no check (usage), or stopped (cancelled).
 /// \param judged where not null: takes the boundary representations that findings are about
 Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, const validators::CheckOptions& options,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/objects.h"
 #include "repair/soup_edges.h"
 
 namespace geomend::repair {

@@ -11,14 +11,14 @@ namespace geomend::repair {
 namespace {
 
 constexpr std::array<std::string_view, 7> clean_mends = {"B01", "M02", "M03", "M04", "M05", "M08", "B26"};
-constexpr std::array<std::string_view, 14> cut_mends = {"B05", "B06", "B09", "B12", "B23", "B02", "B08",
-                                                        "B10", "B11", "B20", "B22", "B26", "B27", "B28"};
+constexpr std::array<std::string_view, 15> cut_mends = {"B05", "B06", "B09", "B12", "B23", "B02", "B08", "B10",
+                                                        "B11", "B20", "B22", "B26", "B27", "B28", "B32"};
 constexpr std::array<std::string_view, 4> holes_mends = {"B05", "B06", "B12", "M07"};
 constexpr std::array<std::string_view, 6> weld_mends = {"M01", "B05", "B07", "B11", "B12", "B27"};
-constexpr std::array<std::string_view, 6> close_mends = {"B05", "B06", "B07", "B09", "B12", "B23"};
+constexpr std::array<std::string_view, 7> close_mends = {"B05", "B06", "B07", "B09", "B12", "B23", "B29"};
 constexpr std::array<std::string_view, 12> tails_mends = {"B02", "B05", "B06", "B08", "B09", "B10",
                                                           "B11", "B12", "B16", "B20", "B22", "B23"};
-constexpr std::array<std::string_view, 8> rebuild_mends = {"B05", "B06", "B12", "B13", "B14", "B18", "B19", "F106"};
+constexpr std::array<std::string_view, 10> rebuild_mends = {"B05", "B06", "B12", "B13", "B14", "B18", "B19", "F106", "B30", "B31"};
 
 constexpr std::array steps = {
     SurfaceStepRow{"clean", "triangles without area, doubles and small stray parts are removed", clean_mends, clean_surfaces},

@@ -40,6 +40,10 @@ constexpr std::array advice = {
     Advice{"B26", "remove one of the parts"},
     Advice{"B27", "insert the vertices of the border into the triangles that it ends on"},
     Advice{"B28", "share the point, or move one of the two parts away"},
+    Advice{"B29", "close the border that the finding shows, or state the role of the surface"},
+    Advice{"B30", "change the sign of the surface in the region's list"},
+    Advice{"B31", "list the outer sides of the regions, and no other, in the Universe"},
+    Advice{"B32", "cut them along the line that the finding shows, or write them into files of their own"},
     // Corner-point grids, numbered as in the rules that they come from.
     Advice{"C01", "correct SPECGRID or the array"},
     Advice{"C02", "export the grid again, or make the cells inactive"},
@@ -104,6 +108,8 @@ constexpr std::array advice = {
     Advice{"F145", "state one for each cell"},
     Advice{"F146", "write it in upper case"},
     Advice{"F147", "put it there"},
+    Advice{"F149", "correct or remove the record"},
+    Advice{"F150", "see what is lost; convert asks for --lossy where it is substance"},
     Advice{"F153", "geomend repair --step minpv makes them inactive"},
     Advice{"F161", "give the file that holds COORD and ZCORN"},
     // Geology.
@@ -113,6 +119,7 @@ constexpr std::array advice = {
     Advice{"G05", "correct one of them, or state an unconformity that ends the other"},
     Advice{"G06", "rename one of them"},
     Advice{"G07", "correct their lists"},
+    Advice{"G09", "correct the lists of the layers"},
     // Meshes of surfaces and cells.
     Advice{"M01", "join them, or check again with a smaller --tolerance"},
     Advice{"M02", "remove them"},
@@ -140,6 +147,7 @@ constexpr std::array advice = {
     Advice{"M34", "sort its samples"},
     Advice{"M35", "turn the order of their nodes"},
     Advice{"M36", "join them by cells, or give each its own nodes"},
+    Advice{"M37", "make each part a region of its own"},
     Advice{"M40", "correct its axes"},
     Advice{"M42", "remove it, or export it again"},
     Advice{"M43", "declare the value that stands for missing"},

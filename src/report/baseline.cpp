@@ -11,6 +11,7 @@
 
 #include "report/elements.h"
 #include "report/json.h"
+#include "report/place.h"
 
 namespace geomend {
 
@@ -41,8 +42,33 @@ std::uint64_t number_at(const Json& j, const char* key) {
     return at != j.end() && at->is_number_unsigned() ? at->get<std::uint64_t>() : 0;
 }
 
+double real_at(const Json& j, const char* key) {
+    const auto at = j.find(key);
+    return at != j.end() && at->is_number() ? at->get<double>() : 0;
+}
+
+// What stands in a report as [x,y,z]; what is no point is left out.
+void add_points(const Json& all, std::vector<Vec3>& points) {
+    for (const Json& p : all) {
+        const bool is_point = p.is_array() && p.size() == 3 && p[0].is_number() && p[1].is_number() && p[2].is_number();
+        if (is_point) points.push_back({p[0].get<double>(), p[1].get<double>(), p[2].get<double>()});
+    }
+}
+
+std::vector<Vec3> known_place(const Json& j) {
+    Finding f;
+    if (const auto points = j.find("points"); points != j.end() && points->is_array()) add_points(*points, f.points);
+    if (const auto lines = j.find("polylines"); lines != j.end() && lines->is_array()) {
+        for (const Json& line : *lines) {
+            if (line.is_array()) add_points(line, f.polylines.emplace_back());
+        }
+    }
+    return whole_place(f);
+}
+
 KnownFinding known_finding(const Json& j) {
-    KnownFinding known{text_at(j, "code"), text_at(j, "message"), text_at(j, "element_kind"), {}, {}, number_at(j, "count")};
+    KnownFinding known{text_at(j, "code"),    text_at(j, "message"), text_at(j, "element_kind"), {}, {},
+                       number_at(j, "count"), known_place(j)};
     if (const auto entities = j.find("entities"); entities != j.end() && entities->is_array()) {
         for (const Json& e : *entities) {
             if (!e.is_object()) continue;
@@ -104,6 +130,15 @@ bool no_worse(const Finding& f, const KnownFinding& known) {
     return f.count <= known.count;
 }
 
+// Code, and kinds and names of wholes, each once.
+std::string key_of_wholes(const std::string& code, const std::vector<EntityRef>& entities) {
+    std::set<std::string> names;
+    for (const EntityRef& e : entities) names.insert(in_json(e.kind) + in_json(std::string(name_of_whole(e.name))));
+    std::string key = in_json(code);
+    for (const std::string& name : names) key += name;
+    return key;
+}
+
 std::string name_of(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 }  // namespace
@@ -126,7 +161,7 @@ Result<Baseline> read_baseline(const std::string& path) {
     for (const Json& file : *files) {
         if (!file.is_object() || !file.contains("findings") || !file["findings"].is_array())
             return no_report(path, "a file in it has no list of \"findings\"");
-        baseline.files.push_back({text_at(file, "file"), {}, number_at(file, "not_listed")});
+        baseline.files.push_back({text_at(file, "file"), {}, number_at(file, "not_listed"), real_at(file, "tolerance")});
         for (const Json& f : file["findings"]) {
             if (f.is_object()) baseline.files.back().findings.push_back(known_finding(f));
         }
@@ -159,21 +194,78 @@ std::vector<const Baseline::File*> baseline_files(const Baseline& baseline, cons
     return chosen;
 }
 
-void leave_out_known(ReportedFile& file, const Baseline::File& earlier) {
-    std::map<std::string, std::vector<std::size_t>> by_key;
-    for (std::size_t e = 0; e < earlier.findings.size(); ++e)
-        by_key[key_of(earlier.findings[e].code, earlier.findings[e].entities)].push_back(e);
-    std::vector<bool> used(earlier.findings.size(), false), known(file.findings.size(), false);
-    // Those that are exactly the same first, so that a worse one does not take their place.
-    for (const auto& matches : {same_elements, no_worse}) {
-        for (std::size_t f = 0; f < file.findings.size(); ++f) {
-            const auto candidates = by_key.find(key_of(file.findings[f].code, file.findings[f].entities));
-            if (known[f] || candidates == by_key.end()) continue;
-            const auto e = std::ranges::find_if(candidates->second,
-                                                [&](std::size_t c) { return !used[c] && matches(file.findings[f], earlier.findings[c]); });
-            if (e != candidates->second.end()) known[f] = used[*e] = true;
+namespace {
+
+// Findings of an earlier report that are not spoken for yet, by a key.
+class Earlier {
+public:
+    explicit Earlier(const Baseline::File& file) : file_(file), used_(file.findings.size(), false) {
+        for (std::size_t e = 0; e < file.findings.size(); ++e) {
+            const KnownFinding& known = file.findings[e];
+            by_entities_[key_of(known.code, known.entities)].push_back(e);
+            by_wholes_[key_of_wholes(known.code, known.entities)].push_back(e);
         }
     }
+
+    // Whether one is there that fits, which then stands for the finding.
+    template <class Fits>
+    bool take_by_entities(const Finding& f, const Fits& fits) {
+        return take(by_entities_, key_of(f.code, f.entities), fits);
+    }
+    template <class Fits>
+    bool take_by_wholes(const Finding& f, const Fits& fits) {
+        return take(by_wholes_, key_of_wholes(f.code, f.entities), fits);
+    }
+
+private:
+    using Keys = std::map<std::string, std::vector<std::size_t>>;
+    template <class Fits>
+    bool take(const Keys& keys, const std::string& key, const Fits& fits) {
+        const auto candidates = keys.find(key);
+        if (candidates == keys.end()) return false;
+        const auto e = std::ranges::find_if(candidates->second, [&](std::size_t c) { return !used_[c] && fits(file_.findings[c]); });
+        if (e == candidates->second.end()) return false;
+        used_[*e] = true;
+        return true;
+    }
+
+    const Baseline::File& file_;
+    std::vector<bool> used_;
+    Keys by_entities_, by_wholes_;
+};
+
+// Which findings of a file an earlier report has.
+std::vector<bool> known_findings(const ReportedFile& file, const Baseline::File& earlier_file) {
+    Earlier earlier(earlier_file);
+    const double tolerance = std::max(file.tolerance, earlier_file.tolerance);
+    std::vector<bool> known(file.findings.size(), false);
+    // Those that are exactly the same first, so that a worse one does not take their place.
+    for (const bool exactly : {true, false}) {
+        for (std::size_t f = 0; f < known.size(); ++f) {
+            const Finding& finding = file.findings[f];
+            const auto place = whole_place(finding);
+            if (known[f] || place.empty()) continue;
+            known[f] = earlier.take_by_wholes(finding, [&](const KnownFinding& k) {
+                return !k.place.empty() && lies_within(place, k.place, tolerance) && (!exactly || lies_within(k.place, place, tolerance));
+            });
+        }
+    }
+    for (const auto& matches : {same_elements, no_worse}) {
+        for (std::size_t f = 0; f < known.size(); ++f) {
+            const Finding& finding = file.findings[f];
+            const bool has_place = !whole_place(finding).empty();
+            if (known[f]) continue;
+            known[f] = earlier.take_by_entities(
+                finding, [&](const KnownFinding& k) { return (!has_place || k.place.empty()) && matches(finding, k); });
+        }
+    }
+    return known;
+}
+
+}  // namespace
+
+void leave_out_known(ReportedFile& file, const Baseline::File& earlier) {
+    const std::vector<bool> known = known_findings(file, earlier);
     std::vector<Finding> left, out;
     const bool marked = file.scene && file.scene->marks.size() == known.size();
     std::vector<SceneMark> marks;

@@ -18,6 +18,7 @@ struct KnownFinding {
     std::vector<EntityRef> entities;
     std::vector<std::int64_t> elements;  ///< as in Finding, groups of (i,j,k) one after the other
     std::uint64_t count = 0;
+    std::vector<Vec3> place;  ///< its points and polylines; empty where the report lists no more than a part of them
 };
 
 struct Baseline {
@@ -25,6 +26,7 @@ struct Baseline {
         std::string file;
         std::vector<KnownFinding> findings;
         std::uint64_t not_listed = 0;  ///< findings that the report counts but does not list: they are not known
+        double tolerance = 0;
     };
     std::vector<File> files;
 };
@@ -37,8 +39,11 @@ Result<Baseline> read_baseline(const std::string& path);
 /// else the one at the same place in the list, if it stands for no other. nullptr where there is none.
 std::vector<const Baseline::File*> baseline_files(const Baseline& baseline, const std::vector<std::string>& files);
 
-/// Takes the findings out of a report that an earlier one has, too, and counts them in file.known. One is known where the
-/// code and the entities are the same, in whatever order, and
+/// Takes the findings out of a report that an earlier one has, too, and counts them in file.known. Where both say all of
+/// where they are, one is known where the code is the same, the kinds of entities and their names (but for numbers of parts) are,
+/// and each of its places is one of the earlier ones, within the larger tolerance of the two: so a new hole elsewhere is new, and
+/// a model that was written anew, or in another order, has nothing new. Otherwise one is known where the code and the entities are
+/// the same, in whatever order, and
 /// - the elements and their number are the same; or
 /// - both list all their elements, and none of the new ones is new; or
 /// - one of them lists no more than a part of its elements, or none, and there are no more than before; where neither

@@ -59,6 +59,7 @@ Json step_json(const ReportedStep& s) {
 Json file_json(const ReportedFile& file, std::size_t most) {
     Json j{{"file", file.file}};
     if (file.valid) j["valid"] = *file.valid;
+    if (file.chosen) j["judged"] = {{"only", file.chosen->only}, {"skip", file.chosen->skip}};
     if (file.outcome != FileOutcome::judged) j["outcome"] = to_string(file.outcome);
     if (!file.companions.empty()) j["companions"] = file.companions;
     const SeverityCounts counts = count_by_severity(file.findings);
@@ -66,6 +67,8 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     if (file.known) j["known"] = {{"error", file.known->error}, {"warning", file.known->warning}, {"info", file.known->info}};
     j["tolerance"] = file.tolerance;
     j["near"] = file.near;
+    for (const ReportedLengths& cluster : file.clusters)
+        j["clusters"].push_back({{"tolerance", cluster.tolerance}, {"near", cluster.near}, {"objects", cluster.objects}});
     if (file.closing) {
         j["closes_with"] = {{"tolerance", file.closing->tolerance},
                             {"errors", file.closing->errors},
@@ -101,6 +104,26 @@ std::string closing_sentence(const ReportedClosing& closing) {
     if (closing.left == 0) return agree + "with --tolerance " + length + " the model closes";
     return agree + "of " + counted(closing.errors, "error", "errors") + " " + std::to_string(closing.errors - closing.left) +
            " vanish with --tolerance " + length;
+}
+
+namespace {
+
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+}  // namespace
+
+std::string judged_text(const ChosenChecks& checks) {
+    const std::string all = checks.only.empty() ? "all" : listed(checks.only);
+    return checks.skip.empty() ? all : all + " but " + listed(checks.skip);
+}
+
+std::string not_judged_text(const ChosenChecks& checks) {
+    if (checks.only.empty()) return listed(checks.skip);
+    return checks.skip.empty() ? "all others" : "all others, " + listed(checks.skip);
 }
 
 SeverityCounts count_by_severity(std::span<const Finding> findings) {

@@ -58,12 +58,31 @@ struct ReportedClosing {
 /// In one sentence, without a full stop.
 std::string closing_sentence(const ReportedClosing& closing);
 
+/// What of the checks was asked for: words of --checks and --skip.
+struct ChosenChecks {
+    std::vector<std::string> only;  ///< nothing else was judged; empty: all
+    std::vector<std::string> skip;  ///< and not these
+};
+/// What was judged, in words: "G", "all but B05", "B but B05".
+std::string judged_text(const ChosenChecks& checks);
+/// What was not: "all others", "B05", "all others, B05".
+std::string not_judged_text(const ChosenChecks& checks);
+
+/// The lengths by which some objects that lie near one another were judged.
+struct ReportedLengths {
+    double tolerance = 0, near = 0;
+    std::vector<std::string> objects;  ///< names
+};
+
 /// What was found in one file.
 struct ReportedFile {
     std::string file;
     FileOutcome outcome = FileOutcome::judged;
-    std::optional<bool> valid;  ///< no error; nothing where not all of the file could be judged and no error was found
-    double tolerance = 0, near = 0;
+    std::optional<bool> valid;  ///< no error; nothing where not all of the file was judged and no error was found
+    /// Where checks that might find something in the file were left out: which ones were not.
+    std::optional<ChosenChecks> chosen;
+    double tolerance = 0, near = 0;         ///< the largest
+    std::vector<ReportedLengths> clusters;  ///< where they differ; else empty
     std::optional<ReportedClosing> closing;
     std::vector<Finding> findings;
     std::vector<ReportedStep> steps;               ///< of a repair
@@ -79,6 +98,7 @@ struct Report {
     bool all_notes = true;                                     ///< false: text tells many notes of one code in one line
     std::size_t most_findings = static_cast<std::size_t>(-1);  ///< listed for each file; all are counted
     std::optional<RunSummary> summary;                         ///< of a run over many files
+    std::optional<Severity> fails_from = Severity::error;      ///< from which on a finding fails the run; none: it never does
 };
 
 /// The schema that INTERFACE states (1): files with findings, worst first.

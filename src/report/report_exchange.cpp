@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
+#include <string_view>
 
 #include "base/codes.h"
 #include "base/utf8.h"
 #include "base/xml_text.h"
 #include "report/advice.h"
 #include "report/json.h"
+#include "report/place.h"
 #include "report/report.h"
+#include "report/report_parts.h"
 #include "report/worst_first.h"
 
 // Forms that other programs read: JUnit (as continuous integration servers take it) and SARIF 2.1.0 (OASIS standard).
@@ -41,8 +46,25 @@ Json sarif_rules(const Report& report) {
     return rules;
 }
 
+/// A path as a reference that is a URI: all but letters, digits and a few marks as %XX, byte by byte.
+std::string uri_of(const std::string& path) {
+    constexpr std::string_view plain = "-._~/", digits = "0123456789ABCDEF";
+    std::string uri = path.starts_with('/') ? "file://" : "";
+    for (const char c : path) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || plain.find(c) != plain.npos;
+        if (is_plain) uri += c;
+        else {
+            uri += '%';
+            uri += digits[byte / 16];
+            uri += digits[byte % 16];
+        }
+    }
+    return uri;
+}
+
 Json sarif_result(const ReportedFile& file, const Finding& f) {
-    Json physical{{"artifactLocation", {{"uri", f.where.file.empty() ? file.file : f.where.file}}}};
+    Json physical{{"artifactLocation", {{"uri", uri_of(f.where.file.empty() ? file.file : f.where.file)}}}};
     if (f.where.line > 0) {
         physical["region"] = {{"startLine", f.where.line}};
         if (f.where.column > 0) physical["region"]["startColumn"] = f.where.column;
@@ -55,6 +77,7 @@ Json sarif_result(const ReportedFile& file, const Finding& f) {
     }
     Json result{{"ruleId", f.code}, {"level", level(f.severity)}, {"message", {{"text", f.message}}}};
     result["locations"] = Json::array({std::move(place)});
+    result["partialFingerprints"] = {{"codeEntitiesPlace/v1", fingerprint(f)}};
     Json all = finding_json(f), more = Json::object();
     for (const char* key : {"elements", "index", "element_kind", "count", "points", "polylines", "measures"}) {
         if (all.contains(key)) more[key] = std::move(all[key]);
@@ -65,29 +88,66 @@ Json sarif_result(const ReportedFile& file, const Finding& f) {
 
 }  // namespace
 
+namespace {
+
+/// What becomes of a finding in JUnit.
+enum class Fate { passed_over, failure, error };
+
+Fate fate_of(const Report& report, const ReportedFile& file, const Finding& f) {
+    if (file.outcome != FileOutcome::judged && f.severity == Severity::error) return Fate::error;
+    return report.fails_from && f.severity >= *report.fails_from ? Fate::failure : Fate::passed_over;
+}
+
+/// Code and entities; the same name for a second time gets a number.
+std::string case_name(const Finding& f, std::map<std::string, int>& times) {
+    constexpr std::size_t named = 3;
+    std::string name = f.code + ' ' + entity_of(f);
+    for (std::size_t e = 1; e < std::min(named, f.entities.size()); ++e) name += ", " + f.entities[e].name;
+    if (f.entities.size() > named) name += ", ...";
+    const int before = times[name]++;
+    return before == 0 ? name : name + " (" + std::to_string(before + 1) + ")";
+}
+
+void add_case(const Finding& f, Fate fate, const std::string& start, std::string& text) {
+    const std::string message = xml_attribute(f.message), words = xml_text(finding_text(f));
+    text += start + "\">";
+    if (fate == Fate::passed_over) {
+        const char* word = f.severity == Severity::info ? "note" : to_string(f.severity);
+        text += std::string("<skipped message=\"") + word + ": " + message + "\"/><system-out>" + words + "</system-out>";
+    } else {
+        const std::string tag = fate == Fate::error ? "error" : "failure";
+        text += "<" + tag + " type=\"" + f.code + "\" message=\"" + message + "\">" + words + "</" + tag + ">";
+    }
+    text += "</testcase>\n";
+}
+
+void add_suite(const Report& report, const ReportedFile& file, std::string& text) {
+    const auto listed = worst_first(file.findings, report.most_findings);
+    std::array<std::size_t, 3> number{};  // by fate
+    for (const Finding* f : listed) ++number[static_cast<std::size_t>(fate_of(report, file, *f))];
+    const std::size_t failed = number[1] + number[2], passed = failed == 0 ? 1 : 0;
+    const std::string name = xml_attribute(file.file), start = "  <testcase classname=\"" + name + "\" name=\"";
+    text += " <testsuite name=\"" + name + "\" tests=\"" + std::to_string(passed + listed.size()) + "\" failures=\"" +
+            std::to_string(number[1]) + "\" errors=\"" + std::to_string(number[2]) + "\" skipped=\"" + std::to_string(number[0]) + "\">\n";
+    std::string properties;
+    const auto property = [&](const char* key, const std::string& value) {
+        properties += std::string("<property name=\"") + key + "\" value=\"" + xml_attribute(value) + "\"/>";
+    };
+    if (listed.size() < file.findings.size()) property("not_listed", std::to_string(file.findings.size() - listed.size()));
+    if (file.chosen) property("not_judged", not_judged_text(*file.chosen));
+    if (!properties.empty()) text += "  <properties>" + properties + "</properties>\n";
+    const std::string judged = file.chosen ? "checks run: " + judged_text(*file.chosen) : std::string("all checks");
+    if (passed > 0) text += start + xml_attribute(judged) + "\"/>\n";
+    std::map<std::string, int> times;
+    for (const Finding* f : listed) add_case(*f, fate_of(report, file, *f), start + xml_attribute(case_name(*f, times)), text);
+    text += " </testsuite>\n";
+}
+
+}  // namespace
+
 std::string report_junit(const Report& report) {
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"" + xml_attribute(report.tool) + "\">\n";
-    for (const ReportedFile& file : report.files) {
-        const auto listed = worst_first(file.findings, report.most_findings);
-        const auto failures = std::ranges::count(listed, Severity::error, &Finding::severity);
-        const std::size_t cases = std::max<std::size_t>(1, listed.size());
-        text += " <testsuite name=\"" + xml_attribute(file.file) + "\" tests=\"" + std::to_string(cases) + "\" failures=\"" +
-                std::to_string(failures) + "\">\n";
-        if (listed.size() < file.findings.size())
-            text += "  <properties><property name=\"not_listed\" value=\"" + std::to_string(file.findings.size() - listed.size()) +
-                    "\"/></properties>\n";
-        if (listed.empty()) text += "  <testcase classname=\"" + xml_attribute(file.file) + "\" name=\"all checks\"/>\n";
-        for (const Finding* f : listed) {
-            text +=
-                "  <testcase classname=\"" + xml_attribute(file.file) + "\" name=\"" + f->code + ' ' + xml_attribute(entity_of(*f)) + "\">";
-            const bool error = f->severity == Severity::error;
-            text += error ? "<failure type=\"" + f->code + "\" message=\"" + xml_attribute(f->message) + "\">" : "<system-out>";
-            text += xml_text(json_text(finding_json(*f)));
-            text += error ? "</failure>" : "</system-out>";
-            text += "</testcase>\n";
-        }
-        text += " </testsuite>\n";
-    }
+    for (const ReportedFile& file : report.files) add_suite(report, file, text);
     return valid_utf8(text + "</testsuites>\n");
 }
 
@@ -104,7 +164,12 @@ std::string report_sarif(const Report& report) {
         not_listed += file.findings.size() - listed.size();
     }
     Json run{{"tool", {{"driver", std::move(driver)}}}, {"results", std::move(results)}};
-    if (not_listed > 0) run["properties"] = {{"not_listed", not_listed}};
+    if (not_listed > 0) run["properties"]["not_listed"] = not_listed;
+    Json chosen = Json::array();
+    for (const ReportedFile& file : report.files) {
+        if (file.chosen) chosen.push_back({{"file", file.file}, {"only", file.chosen->only}, {"skip", file.chosen->skip}});
+    }
+    if (!chosen.empty()) run["properties"]["judged"] = std::move(chosen);
     return json_text(
         Json{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({std::move(run)})}});
 }

@@ -11,4 +11,7 @@ namespace geomend {
 /// A file with its findings, worst first, `most` of them at most, as the JSON report has it.
 Json file_json(const ReportedFile& file, std::size_t most);
 
+/// A finding in words, as the text report has it, a line for each thing that is said of it.
+std::string finding_text(const Finding& finding);
+
 }  // namespace geomend

@@ -96,10 +96,18 @@ ReportedFile file(const Json& j) {
     ReportedFile file;
     file.file = j.at("file").get<std::string>();
     if (j.contains("valid")) file.valid = j["valid"].get<bool>();
+    if (j.contains("judged")) {
+        file.chosen =
+            ChosenChecks{j["judged"].at("only").get<std::vector<std::string>>(), j["judged"].at("skip").get<std::vector<std::string>>()};
+    }
     if (j.contains("outcome")) file.outcome = outcome(j["outcome"].get<std::string>());
     if (j.contains("companions")) file.companions = j["companions"].get<std::vector<std::string>>();
     if (j.contains("tolerance")) file.tolerance = real(j["tolerance"]);
     if (j.contains("near")) file.near = real(j["near"]);
+    if (j.contains("clusters")) {
+        for (const Json& c : j["clusters"])
+            file.clusters.push_back({real(c.at("tolerance")), real(c.at("near")), c.at("objects").get<std::vector<std::string>>()});
+    }
     if (j.contains("closes_with")) {
         const Json& c = j["closes_with"];
         file.closing = {real(c.at("tolerance")), whole<std::uint64_t>(c.at("errors")), whole<std::uint64_t>(c.at("left"))};

@@ -7,7 +7,9 @@
 #include "base/wording.h"
 #include "report/advice.h"
 #include "report/elements.h"
+#include "report/json.h"
 #include "report/report.h"
+#include "report/report_parts.h"
 #include "report/worst_first.h"
 
 namespace geomend {
@@ -21,15 +23,31 @@ class Text {
 public:
     Text(bool colour, bool all_notes) : colour_(colour), all_notes_(all_notes) {}
 
+    /// One finding by itself.
+    void alone(const Finding& f) {
+        const char* word = f.severity == Severity::info ? "note" : to_string(f.severity);
+        text_ += std::string(word) + ' ' + f.code;
+        if (!f.entities.empty()) text_ += " of " + f.entities.front().kind + " '" + f.entities.front().name + "'";
+        text_ += ": " + f.message + '\n';
+        if (!f.where.file.empty() && (f.where.line > 0 || f.where.offset >= 0)) text_ += indent() + to_string(f.where) + '\n';
+        details(f);
+    }
+
     void file(const ReportedFile& file, std::size_t most) {
         const SeverityCounts n = count_by_severity(file.findings);
         if (file.outcome != FileOutcome::judged) return without_verdict(file, most);
-        const char* state = !file.valid ? "not fully checked" : *file.valid ? "valid" : "not valid";
+        const bool is_part = !file.valid && file.chosen;
+        const char* state = is_part       ? "no error among the checks run"
+                            : !file.valid ? "not fully checked"
+                            : *file.valid ? "valid"
+                                          : "not valid";
         text_ += file.file + ": " +
                  painted(state, !file.valid   ? "33"
                                 : *file.valid ? "32"
                                               : "31") +
-                 "; " + counted(n.error, "error", "errors") + ", " + counted(n.warning, "warning", "warnings") + ", " +
+                 (is_part ? ": " + judged_text(*file.chosen) : std::string()) +
+                 (file.chosen ? "; not judged: " + not_judged_text(*file.chosen) : std::string()) + "; " +
+                 counted(n.error, "error", "errors") + ", " + counted(n.warning, "warning", "warnings") + ", " +
                  counted(n.info, "note", "notes");
         if (file.tolerance > 0) text_ += "; tolerance " + rounded(file.tolerance) + ", near " + rounded(file.near);
         if (file.known) {
@@ -37,6 +55,7 @@ public:
             text_ += "; " + counted(known, "finding", "findings") + " of the baseline left out";
         }
         text_ += '\n';
+        for (const ReportedLengths& cluster : file.clusters) lengths(cluster);
         if (file.closing) text_ += "  " + closing_sentence(*file.closing) + '\n';
         for (const ReportedStep& s : file.steps) step(s);
         by_entity(file, most);
@@ -46,6 +65,14 @@ public:
 private:
     std::string painted(const std::string& word, const char* colour) const {
         return colour_ ? std::string("\033[1;") + colour + "m" + word + "\033[0m" : word;
+    }
+
+    void lengths(const ReportedLengths& cluster) {
+        constexpr std::size_t named = 3;
+        text_ += "  tolerance " + rounded(cluster.tolerance) + ", near " + rounded(cluster.near) + " for ";
+        for (std::size_t o = 0; o < std::min(named, cluster.objects.size()); ++o) text_ += (o > 0 ? ", '" : "'") + cluster.objects[o] + "'";
+        if (cluster.objects.size() > named) text_ += " and " + std::to_string(cluster.objects.size() - named) + " more";
+        text_ += '\n';
     }
 
     void without_verdict(const ReportedFile& file, std::size_t most) {
@@ -104,8 +131,13 @@ private:
         text_ += "    " + painted(words[severity], colours[severity]) + ' ' + f.code + "  ";
         if (!f.where.file.empty() && (f.where.line > 0 || f.where.offset >= 0)) text_ += to_string(f.where) + ": ";
         text_ += f.message + '\n';
+        details(f);
+    }
+
+    void details(const Finding& f) {
         further_entities(f);
         elements(f);
+        place(f);
         const std::string_view advice = advice_for(f.code);
         if (!advice.empty() && f.severity > Severity::info) text_ += indent() + "to mend it: " + std::string(advice) + '\n';
     }
@@ -145,6 +177,17 @@ private:
         text_ += '\n';
     }
 
+    // Where it is, or where the first of several places is; elevations are positive upwards.
+    void place(const Finding& f) {
+        const Vec3* first = nullptr;
+        if (!f.points.empty()) first = &f.points.front();
+        else if (!f.polylines.empty() && !f.polylines.front().empty()) first = &f.polylines.front().front();
+        if (first == nullptr) return;
+        const std::size_t places = f.points.empty() ? f.polylines.size() : f.points.size();
+        text_ += indent() + (places > 1 ? "first at (" : "at (") + short_number((*first)[0]) + ", " + short_number((*first)[1]) + ", " +
+                 short_number((*first)[2]) + ")\n";
+    }
+
     static std::string indent() { return std::string(18, ' '); }
 
     bool colour_, all_notes_;
@@ -152,6 +195,12 @@ private:
 };
 
 }  // namespace
+
+std::string finding_text(const Finding& finding) {
+    Text text(false, true);
+    text.alone(finding);
+    return text.take();
+}
 
 std::string report_text(const Report& report, bool colour) {
     Text text(colour, report.all_notes);

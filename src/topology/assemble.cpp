@@ -91,6 +91,24 @@ void name_lines(const SurfaceComplex& complex, Assembly& a) {
     }
 }
 
+/// Per line whether the polygons of one surface at each of its edges use the same nodes.
+std::vector<std::uint8_t> lines_with_shared_nodes(const Assembly& a) {
+    std::vector<PolygonEdges> edges_of;
+    for (const auto& surface : a.brep.surfaces) edges_of.emplace_back(surface.polygons);
+    std::vector<std::uint8_t> joined(a.brep.lines.size(), 1);
+    std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> nodes;  // per surface
+    for (const auto& edge : a.graph.edges) {
+        nodes.clear();
+        for (const EdgeUse& use : a.graph.edge_uses(edge)) {
+            if (use.surface == no_index) continue;
+            const auto& edges = edges_of[use.surface];
+            const std::pair<std::uint32_t, std::uint32_t> here = std::minmax({edges.start_node(use.corner), edges.end_node(use.corner)});
+            if (nodes.emplace(use.surface, here).first->second != here) joined[edge.line] = 0;
+        }
+    }
+    return joined;
+}
+
 /// Lines and corners. Gives the polygons that were turned over, per surface, where the complex is taken apart.
 std::vector<std::vector<std::uint32_t>> make_lines(SurfaceComplex& complex, Assembly& a) {
     a.graph = build_lines(a.brep, a.faces, complex.lines);
@@ -102,6 +120,7 @@ std::vector<std::vector<std::uint32_t>> make_lines(SurfaceComplex& complex, Asse
     }
     name_corners(complex, a.brep);
     name_lines(complex, a);
+    a.joined_lines = lines_with_shared_nodes(a);
     for (std::size_t f = 0; f < complex.faces.size(); ++f) {
         if (complex.faces[f].shared_nodes) split_nodes_along_cuts(a.brep, a.brep.surfaces[f]);
     }
@@ -141,6 +160,7 @@ Result<JudgedModel> assemble(SurfaceComplex complex, RegionSearch search) {
     for (const auto& face : complex.faces) a.tolerances.push_back(face.tolerance);
     make_interfaces(complex, a.brep);
     make_regions(complex, a);
+    if (search == RegionSearch::where_none_are_stated) report_wrong_sides(a);
     make_contacts(a.brep);
     count_internal_lines(a.brep);
     make_features(complex, a.brep);
@@ -169,7 +189,9 @@ Result<JudgedModel> assemble(SurfaceComplex complex, RegionSearch search) {
                        std::move(source_polygons),
                        std::move(turned),
                        std::move(first_polygon),
-                       std::move(a.findings)};
+                       std::move(a.findings),
+                       std::move(a.claims),
+                       std::move(a.joined_lines)};
 }
 
 }  // namespace geomend::topology

@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "topology/frontiers.h"
 #include "topology/line_graph.h"
+#include "topology/stated_claims.h"
 #include "topology/surface_complex.h"
 
 namespace geomend::topology {
@@ -29,6 +30,9 @@ struct JudgedModel {
     std::vector<std::vector<std::uint32_t>> turned_polygons;
     std::vector<std::uint64_t> first_polygon;  ///< per surface
     std::vector<Finding> findings;             ///< where the file's claims disagree with its geometry
+    StatedClaims claims;                       ///< what else judges compare
+    /// Per line 1 where both sides of each surface that it runs inside of have the same nodes in the file: nothing is cut there.
+    std::vector<std::uint8_t> joined_lines;
 };
 
 /// Whether regions are looked for along the surfaces where the complex states its own: judges compare the two.

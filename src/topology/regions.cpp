@@ -31,18 +31,10 @@ void mention(Finding& finding, const BrepData& brep, const std::vector<SurfaceId
     finding.element_kind = "surface";
 }
 
-void judge_stated(Assembly& a, const StatedRegion& stated, const SolvedSides::Region& solved, const Enclosed& as_stated) {
+void judge_stated(Assembly& a, const StatedRegion& stated, const SolvedSides::Region& solved) {
     if (stated.sides.empty()) {
         a.findings.push_back(region_finding(a.brep, "F121", stated.name, "region '" + stated.name + "' has no boundary"));
         return;
-    }
-    if (!solved.turned.empty()) {
-        auto finding = region_finding(a.brep, "F113", stated.name,
-                                      "region '" + stated.name + "' is stated on the wrong side of " +
-                                          list_of_names(a.brep, solved.turned) + "; its boundary was turned to what the geometry shows");
-        mention(finding, a.brep, solved.turned);
-        finding.measures = {{"volume_as_stated", as_stated.volume}, {"volume", solved.enclosed.volume}};
-        a.findings.push_back(std::move(finding));
     }
     // A region may have nothing but internal surfaces: then there is nothing to close.
     if (!solved.enclosed.closed && solved.enclosed.singles > 0) {
@@ -67,13 +59,22 @@ std::vector<RegionId> add_stated_regions(Assembly& a, const std::vector<StatedRe
         if (stated[r].universe) universe = r;
     }
     const SolvedSides solved = solve_sides(sides, universe, a.cones, a.graph);
+    a.claims.reversed_convention = solved.reversed_convention;
     std::vector<RegionId> ids;
     for (std::uint32_t r = 0; r < stated.size(); ++r) {
         auto as_stated = enclosed(stated[r].sides, a.cones, a.graph);
         if (solved.reversed_convention) as_stated.volume = -as_stated.volume;
-        judge_stated(a, stated[r], solved.regions[r], as_stated);
+        judge_stated(a, stated[r], solved.regions[r]);
+        if (!solved.regions[r].turned.empty()) {
+            const std::int64_t number = r == universe ? -1 : static_cast<std::int64_t>(a.brep.regions.size());
+            a.claims.wrong_sides.push_back(
+                {stated[r].name, number, solved.regions[r].turned, as_stated.volume, solved.regions[r].enclosed.volume});
+        }
         if (r == universe) {
             a.brep.universe = solved.regions[r].sides;
+            a.claims.universe_stated = true;
+            a.claims.universe_name = stated[r].name;
+            a.claims.universe = solved.regions[r].sides;
             ids.emplace_back();
             continue;
         }
@@ -86,6 +87,17 @@ std::vector<RegionId> add_stated_regions(Assembly& a, const std::vector<StatedRe
         a.brep.regions.push_back(std::move(region));
     }
     return ids;
+}
+
+void report_wrong_sides(Assembly& a) {
+    for (const auto& wrong : a.claims.wrong_sides) {
+        auto finding = region_finding(a.brep, "F113", wrong.name,
+                                      "region '" + wrong.name + "' is stated on the wrong side of " + list_of_names(a.brep, wrong.turned) +
+                                          "; its boundary was turned to what the geometry shows");
+        mention(finding, a.brep, wrong.turned);
+        finding.measures = {{"volume_as_stated", wrong.volume_as_stated}, {"volume", wrong.volume}};
+        a.findings.push_back(std::move(finding));
+    }
 }
 
 void add_found_regions(Assembly& a) {

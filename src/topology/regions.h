@@ -9,6 +9,7 @@
 #include "topology/face_edges.h"
 #include "topology/frontiers.h"
 #include "topology/line_graph.h"
+#include "topology/stated_claims.h"
 #include "topology/surface_complex.h"
 
 namespace geomend::topology {
@@ -21,12 +22,14 @@ struct Assembly {
     std::vector<double> cones;       ///< see cone_volumes
     FoundRegions found;              ///< where the surfaces were walked along
     std::vector<double> tolerances;  ///< per surface, within which polygons at a line coincide
+    StatedClaims claims;
+    std::vector<std::uint8_t> joined_lines;  ///< per line, see JudgedModel
     std::vector<Finding> findings;
 };
 
 /// Appends the regions that the file lists. Their sides are brought into agreement with the geometry (see
-/// solve_sides); what had to be turned, does not close, has no side or claims a side that another region has, is a
-/// finding F113 or F121, one per region. Gives for each stated region its id (the Universe: none).
+/// solve_sides); what had to be turned is in the claims; what does not close, has no side or claims a side that another region
+/// has, is a finding F113 or F121, one per region. Gives for each stated region its id (the Universe: none).
 std::vector<RegionId> add_stated_regions(Assembly& assembly, const std::vector<StatedRegion>& stated);
 
 /// Appends regions found by walking along the surfaces, and sets the Universe.
@@ -35,6 +38,9 @@ void add_found_regions(Assembly& assembly);
 /// Tells surfaces which regions lie on their two sides; fills the Universe (all sides that no region has) where
 /// it is not known, and its volume.
 void settle_universe(Assembly& assembly);
+
+/// F113 for each region that is stated on the wrong side of a surface, where no judge reports it.
+void report_wrong_sides(Assembly& assembly);
 
 /// Finding about one region of a model.
 Finding region_finding(const BrepData& brep, std::string code, std::string region, std::string message);

@@ -145,6 +145,11 @@ std::vector<RegionId> compare_regions(const std::vector<StatedRegion>& stated, c
             return std::ranges::none_of(sides, [&](const auto& s) { return s.surface == side.surface && s.front == side.front; });
         });
         if (absent == list.sides.end()) continue;
+        const auto wrong = std::ranges::find_if(sides, [&](const auto& s) { return s.surface == absent->surface; });
+        if (wrong != sides.end()) {
+            a.claims.wrong_sides.push_back({list.name, found->second.value, {absent->surface}, 0, 0});
+            continue;
+        }
         a.findings.push_back(region_finding(a.brep, "F113", list.name,
                                             "region '" + list.name + "' is stated " + (absent->front ? "in front of " : "behind ") +
                                                 a.brep.surfaces[absent->surface.value].name + ", but its cells are not there"));
@@ -161,6 +166,8 @@ void regions_from_volumes(const SurfaceComplex& complex, const std::vector<State
         std::vector<StatedRegion> lists;
         for (const std::uint32_t v : hollow) lists.push_back(complex.volumes[v].boundary);
         const auto ids = add_stated_regions(a, lists);
+        report_wrong_sides(a);  // meshers are not strict about signs where nothing depends on them
+        a.claims = {};
         for (std::size_t i = 0; i < hollow.size(); ++i) region_of[hollow[i]] = ids[i];
     }
     make_lists(complex, compare_regions(stated, region_of, a), a);

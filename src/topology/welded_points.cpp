@@ -24,14 +24,10 @@ const std::vector<std::uint32_t>& alias_of(const Object& object) {
 
 /// The vertices of some objects, ascending.
 std::vector<std::uint32_t> vertices_of(const WeldedPoints& welded, std::span<const std::uint32_t> objects) {
-    std::vector<std::uint8_t> used(welded.welder.positions().size(), 0);
-    for (const std::uint32_t o : objects) {
-        for (const std::uint32_t v : welded.of.at(o)) used[v] = 1;
-    }
     std::vector<std::uint32_t> vertices;
-    for (std::uint32_t v = 0; v < used.size(); ++v) {
-        if (used[v] != 0) vertices.push_back(v);
-    }
+    for (const std::uint32_t o : objects) vertices.insert(vertices.end(), welded.of.at(o).begin(), welded.of.at(o).end());
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     return vertices;
 }
 

@@ -15,7 +15,8 @@ nlohmann::json table_of_checks() {
 TEST(Checks, SayWhichStepsMendACodeOrWhyNoneDoes) {
     for (const auto& row : table_of_checks()) {
         EXPECT_NE(row.at("steps").empty(), !row.contains("why_no_steps")) << row.at("code");
-        if (row.at("code") == "C04") EXPECT_EQ(row.at("steps"), nlohmann::json::array({"close-gaps"}));
+        if (row.at("code") != "C04") continue;
+        EXPECT_EQ(row.at("steps"), nlohmann::json::array({"close-gaps"}));
     }
 }
 

@@ -77,6 +77,14 @@ TEST(Grammar, ABoxIsFilledAndTheRestStaysAsItWas) {
     EXPECT_EQ(values(g, "NTG"), std::vector<double>(4, 0.7));
 }
 
+TEST(Grammar, ABoxOfTheUppermostLayerHoldsForThoseBelow) {
+    const auto g = good(small + "BOX\n 1 2 1 1 1 1 /\nPORO\n 0.5 0.6 /\nNTG\n 0.5 0.6 /\nENDBOX\nPERMX\n 5 6 2* /\n");
+    EXPECT_EQ(values(g, "PORO"), (std::vector<double>{0.5, 0.6, 0.5, 0.6}));
+    EXPECT_EQ(values(g, "NTG"), (std::vector<double>{0.5, 0.6, 1, 1}));
+    const double none = *attribute(g, "PERMX").no_data;  // defaults are no values
+    EXPECT_EQ(values(g, "PERMX"), (std::vector<double>{5, 6, none, none}));
+}
+
 TEST(Grammar, OperationsAreDoneInTheirOrder) {
     const auto g =
         good(small +
@@ -86,7 +94,8 @@ TEST(Grammar, OperationsAreDoneInTheirOrder) {
     EXPECT_EQ(values(g, "PORO"), (std::vector<double>{0.25, 0.25, 0.3, 0.25}));
     EXPECT_EQ(values(g, "PERMX"), (std::vector<double>{50, 100, 100, 100}));
     EXPECT_EQ(values(g, "PERMY"), (std::vector<double>{100, 105, 100, 105}));
-    EXPECT_EQ(values(g, "PERMZ"), (std::vector<double>{10, 10, 10, 10}));  // the layer below takes it from above
+    const double none = *attribute(g, "PERMZ").no_data;
+    EXPECT_EQ(values(g, "PERMZ"), (std::vector<double>{10, 10, none, none}));  // an operation says nothing of other layers
     EXPECT_EQ(values(g, "SATNUM"), (std::vector<double>{1, 2, 1, 2}));
 }
 

@@ -180,9 +180,9 @@ TEST(SurfaceRepair, PointsMovedWithinTheToleranceAreWeldedToTheSameModel) {
             if ((words >> key) && (key == "VRTX" || key == "PVRTX") && (words >> id >> p[0] >> p[1] >> p[2])) {
                 std::getline(words, rest);
                 moved += key + ' ' + id;
-                for (const double x : p) moved += ' ' + number(x + tolerance / 4 * (engine() / 2147483648.0 - 1));
+                for (const double x : p) moved += ' ' + number(x + tolerance / 4 * (static_cast<double>(engine()) / 2147483648.0 - 1));
                 moved += rest + '\n';
-            } else if (key != "ATOM" && key != "PATOM") {
+            } else {
                 moved += line + '\n';
             }
         }

@@ -89,6 +89,39 @@ TEST(Baseline, ADefectThatMovedIsNewThoughTheNumberStayed) {
     EXPECT_EQ(left(before, {made("M03", {surface_a}, {9, 7}, 2)}), Codes{}) << "the order says nothing";
 }
 
+TEST(Baseline, AHoleElsewhereIsNewAndOneInAnotherOrderIsNot) {
+    Finding hole = made("M07", {{"surface", "A_2", 3}}, {}, 1);
+    hole.polylines = {{{1, 2, 3}, {2, 2, 3}, {1, 3, 3}, {1, 2, 3}}};
+    Finding elsewhere = hole;
+    for (Vec3& p : elsewhere.polylines[0]) p[0] += 10;
+    Finding again = hole;  // written anew: other number of the part, another start, rounded
+    again.entities = {{"surface", "A_1", 7}};
+    again.polylines = {{{2, 2, 3}, {1, 3, 3 + 1e-9}, {1, 2, 3}, {2, 2, 3}}};
+    const Baseline baseline = through_file({file_of({hole})});
+    const auto left_of = [&](const Finding& now) {
+        ReportedFile file = file_of({now});
+        file.tolerance = 1e-6;
+        leave_out_known(file, baseline.files.at(0));
+        return file.findings.size();
+    };
+    EXPECT_EQ(left_of(hole), 0u);
+    EXPECT_EQ(left_of(elsewhere), 1u);
+    EXPECT_EQ(left_of(again), 0u);
+    Finding two = hole;
+    two.count = 2;
+    two.polylines.push_back(elsewhere.polylines[0]);
+    EXPECT_EQ(left_of(two), 1u);
+    again.entities = {{"surface", "B_1", 7}};
+    EXPECT_EQ(left_of(again), 1u);
+    // Numbers of triangles change with their order, their places do not.
+    Finding flat = made("M03", {surface_a}, {7, 9}, 2), shuffled = made("M03", {surface_a}, {1, 2}, 2), other = shuffled;
+    flat.points = {{0, 0, 0}, {5, 5, 5}};
+    shuffled.points = {{5, 5, 5}, {0, 0, 0}};
+    other.points = {{5, 5, 5}, {1, 1, 1}};
+    EXPECT_EQ(left({flat}, {shuffled}), Codes{});
+    EXPECT_EQ(left({flat}, {other}), Codes{"M03"});
+}
+
 TEST(Baseline, OfLongListsTheNumberDecides) {
     std::vector<std::int64_t> first(100), others(100);
     for (std::size_t i = 0; i < 100; ++i) {

@@ -95,7 +95,12 @@ TEST(HtmlReport, TextOfFilesNeverBecomesMarkup) {
     report.tool = evil;
     report.files[0].file = evil;
     report.files[0].debris = {{evil}};
-    report.files[0].steps.push_back({evil, f});
+    ReportedStep step;
+    step.step = step.why = evil;
+    step.what = f;
+    step.kept = false;
+    step.contacts.push_back({evil, evil, 1, evil, evil});
+    report.files[0].steps.push_back(step);
     Scene scene;
     scene.parts = {square(2, evil)};
     scene.parts[0].kind = evil;

@@ -17,6 +17,8 @@ Report full_report() {
     one.tolerance = 1.0 / 3;
     one.near = 1e-300;
     one.companions = {"part.grdecl"};
+    one.clusters = {{0.25, 3, {"a", "b"}}, {1.0 / 3, 1e-300, {"c"}}};
+    one.closing = ReportedClosing{0.03, 236, 6};
     Finding f;
     f.code = "B08";
     f.severity = Severity::error;

@@ -49,11 +49,108 @@ TEST(Report, JsonHasTriplesForCellsAndTheWorstFirst) {
     EXPECT_TRUE(file["findings"][2]["fix"].is_null());
 }
 
+TEST(Report, SaysFirstAtWhichToleranceAModelCloses) {
+    Report report = made_report();
+    report.files[0].closing = ReportedClosing{0.03, 236, 0};
+    const std::string text = report_text(report, false),
+                      words = "points of borders agree within 0.03 only: with --tolerance 0.03 the model closes";
+    EXPECT_EQ(text.find(words), text.find('\n') + 3) << text;
+    const auto closes = nlohmann::json::parse(report_json(report))["files"][0]["closes_with"];
+    EXPECT_EQ(closes["tolerance"], 0.03);
+    EXPECT_EQ(closes["errors"], 236);
+    EXPECT_EQ(closes["left"], 0);
+    EXPECT_EQ(closes["message"], words);
+    report.files[0].closing->left = 6;
+    EXPECT_NE(report_text(report, false).find("of 236 errors 230 vanish with --tolerance 0.03"), std::string::npos);
+}
+
+TEST(Report, NamesTheLengthsOfClustersThatDiffer) {
+    Report report = made_report();
+    EXPECT_FALSE(nlohmann::json::parse(report_json(report))["files"][0].contains("clusters"));
+    report.files[0].clusters = {{0.5, 20, {"a", "b", "c", "d"}}, {0.01, 1, {"e"}}};
+    const std::string text = report_text(report, false);
+    EXPECT_NE(text.find("  tolerance 0.5, near 20 for 'a', 'b', 'c' and 1 more\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("  tolerance 0.01, near 1 for 'e'\n"), std::string::npos) << text;
+    const auto clusters = nlohmann::json::parse(report_json(report))["files"][0]["clusters"];
+    ASSERT_EQ(clusters.size(), 2u);
+    EXPECT_EQ(clusters[1]["near"], 1);
+    EXPECT_EQ(clusters[1]["objects"][0], "e");
+}
+
 TEST(Report, LeavesOutWhetherAFileIsValidWhereItIsNotKnown) {
     Report report = made_report();
     report.files[0].valid.reset();
     EXPECT_FALSE(nlohmann::json::parse(report_json(report))["files"][0].contains("valid"));
     EXPECT_NE(report_text(report, false).find("not fully checked"), std::string::npos);
+}
+
+TEST(Report, SaysWhatWasJudgedWhereThatIsAPart) {
+    Report report = made_report();
+    ReportedFile& file = report.files[0];
+    file.valid.reset();
+    file.findings = {made("C06", Severity::info, "one")};
+    file.chosen = ChosenChecks{{"C", "G"}, {"C05"}};
+    const auto j = nlohmann::json::parse(report_json(report))["files"][0];
+    EXPECT_FALSE(j.contains("valid"));
+    EXPECT_EQ(j["judged"], nlohmann::json::parse(R"({"only":["C","G"],"skip":["C05"]})"));
+    const std::string text = report_text(report, false);
+    EXPECT_NE(text.find("no error among the checks run: C, G but C05; not judged: all others, C05; 0 errors"), std::string::npos) << text;
+    EXPECT_NE(report_junit(report).find("name=\"checks run: C, G but C05\""), std::string::npos) << report_junit(report);
+    EXPECT_NE(report_junit(report).find("name=\"not_judged\" value=\"all others, C05\""), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(report_sarif(report))["runs"][0]["properties"]["judged"][0]["skip"][0], "C05");
+    EXPECT_NE(report_html(report).find("\"judged\""), std::string::npos);
+    file.chosen = ChosenChecks{{}, {"C05"}};
+    EXPECT_NE(report_text(report, false).find("no error among the checks run: all but C05; not judged: C05;"), std::string::npos);
+    file.valid = false;
+    EXPECT_NE(report_text(report, false).find("not valid; not judged: C05;"), std::string::npos);
+}
+
+TEST(Report, JunitFailsFromTheSeverityThatTheRunFailsFrom) {
+    Report report = made_report();
+    const auto counts = [&] {
+        const std::string xml = report_junit(report);
+        const std::size_t from = xml.find("tests=");
+        return xml.substr(from, xml.find('>', from) - from);
+    };
+    EXPECT_EQ(counts(), R"(tests="3" failures="1" errors="0" skipped="2")");
+    report.fails_from = Severity::warning;
+    EXPECT_EQ(counts(), R"(tests="3" failures="2" errors="0" skipped="1")");
+    report.fails_from.reset();
+    EXPECT_EQ(counts(), R"(tests="4" failures="0" errors="0" skipped="3")");
+    report.files[0].outcome = FileOutcome::unreadable;
+    EXPECT_EQ(counts(), R"(tests="3" failures="0" errors="1" skipped="2")");
+}
+
+TEST(Report, JunitCasesHaveNamesOfTheirOwnAndBodiesInWords) {
+    Report report = made_report();
+    Finding pair = made("B11", Severity::error, "A");
+    pair.entities.push_back({"surface", "B"});
+    Finding other = pair;
+    other.entities[1].name = "C";
+    report.files[0].findings = {pair, other, pair};
+    const std::string xml = report_junit(report);
+    for (const char* name : {"\"B11 A, B\"", "\"B11 A, C\"", "\"B11 A, B (2)\""})
+        EXPECT_NE(xml.find(name), std::string::npos) << name << xml;
+    EXPECT_NE(xml.find("error B11 of corner-point-grid 'A': about A"), std::string::npos) << xml;
+    EXPECT_EQ(xml.find("&quot;severity&quot;"), std::string::npos) << "no JSON";
+}
+
+TEST(Report, SarifNamesFilesByUrisAndPlacesByFingerprints) {
+    Report report = made_report();
+    report.files[0].file =
+        "a b#c%20d/m\xc3\xb6"
+        "del.ml";
+    Finding one = made("M07", Severity::info, "H1_2");
+    one.polylines = {{{1, 2, 3}, {4, 5, 6}}};
+    Finding shuffled = made("M07", Severity::info, "H1_1");
+    shuffled.polylines = {{{4, 5, 6}, {1, 2, 3}}};
+    Finding elsewhere = one;
+    elsewhere.polylines = {{{1, 2, 3}, {4, 5, 7}}};
+    report.files[0].findings = {one, shuffled, elsewhere};
+    const auto results = nlohmann::json::parse(report_sarif(report))["runs"][0]["results"];
+    EXPECT_EQ(results[0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"], "a%20b%23c%2520d/m%C3%B6del.ml");
+    EXPECT_EQ(results[0]["partialFingerprints"], results[1]["partialFingerprints"]);
+    EXPECT_NE(results[0]["partialFingerprints"], results[2]["partialFingerprints"]);
 }
 
 TEST(Report, ListsNoMoreFindingsThanAskedButCountsAll) {

@@ -60,6 +60,42 @@ TEST(ReadRoff, TwoDepthsOfANodeAreBelowThenAbove) {
     EXPECT_EQ(grid_of(data).depths, (std::vector<double>{98, 100, 100, 100, 106, 105, 105, 105}));
 }
 
+// A column of three cells of 1 x 1 x 1 in two subgrids, of one and two layers.
+std::string three_layers(const std::string& layers) {
+    return "roff-asc\ntag filedata\nint byteswaptest 1\nchar filetype \"grid\"\nendtag\n"
+           "tag dimensions\nint nX 1\nint nY 1\nint nZ 3\nendtag\ntag subgrids\n" +
+           layers +
+           "endtag\ntag cornerLines\narray float data 24\n0 0 3 0 0 0 0 1 3 0 1 0 1 0 3 1 0 0 1 1 3 1 1 0\nendtag\n"
+           "tag zvalues\narray float data 16\n3 2 1 0 3 2 1 0 3 2 1 0 3 2 1 0\nendtag\ntag eof\nendtag\n";
+}
+
+TEST(ReadRoff, SubgridsAreAPropertyOfCellsToo) {
+    auto data = read_roff_bytes(three_layers("array int nLayers 2\n1 2\n"));
+    const CornerPointGrid& grid = grid_of(data);
+    ASSERT_EQ(grid.info.attributes.size(), 1U);
+    EXPECT_EQ(grid.info.attributes[0].name, "SUBGRID");
+    EXPECT_EQ(std::get<std::vector<std::int32_t>>(grid.info.attributes[0].values), (std::vector<std::int32_t>{1, 2, 2}));
+    // There and back it is no parameter: the tag says it.
+    TemporaryFolder folder;
+    write_roff(grid, text_row(), folder / "memory.roff");
+    EXPECT_EQ(read_file(folder / "memory.roff").find("SUBGRID"), std::string::npos);
+    auto back = read_roff(folder / "memory.roff");
+    ASSERT_EQ(grid_of(back).info.attributes.size(), 1U);
+    EXPECT_EQ(grid_of(back).info.attributes[0].values, grid.info.attributes[0].values);
+    // A property that says something else is written.
+    CornerPointGrid other = grid;
+    std::get<std::vector<std::int32_t>>(other.info.attributes[0].values)[1] = 1;
+    write_roff(other, text_row(), folder / "other.roff");
+    EXPECT_NE(read_file(folder / "other.roff").find("SUBGRID"), std::string::npos);
+}
+
+TEST(ReadRoff, OneSubgridOrWrongOnesAreNoProperty) {
+    for (const char* layers : {"array int nLayers 1\n3\n", "array int nLayers 2\n1 1\n", "array int nLayers 2\n4 -1\n", ""}) {
+        auto data = read_roff_bytes(three_layers(layers));
+        EXPECT_TRUE(grid_of(data).info.attributes.empty()) << layers;
+    }
+}
+
 TEST(ReadRoff, UnknownTagsGoBack) {
     std::string text = one_cell();
     text.insert(text.find("tag eof"), "tag mystery\nint a 3\narray char b 2\n\"x y\"\n\"\"\nbool c 1\ndouble d 0.5\nendtag\n");

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <random>
 
 #include "validators/registry.h"
@@ -137,6 +139,98 @@ TEST(CellsInEachOther, OtherMeshesOnACommonPlaneDoNotMatch) {
     add_block(mesh, {0, 0, 0}, 100, 2, Kind::hexahedra);
     add_block(mesh, {100, 0, 0}, 100, 3, Kind::hexahedra);
     EXPECT_EQ(codes_in_all_frames(mesh), (Codes{{"M24", 4 + 9}}));
+}
+
+/// Hexahedra on both sides of one bent face between two straight pillars, with other nodes along them; the right side moved by `moved`.
+CellMesh beside_a_bent_face(double moved) {
+    CellMesh mesh;
+    const auto side = [&](double outer, double shift, std::initializer_list<double> depths) {
+        const auto first = static_cast<std::uint32_t>(mesh.points.size());
+        std::uint32_t layers = 0;
+        for (const double t : depths) {
+            mesh.points.push_back({0.3 * t + shift, 0, t});
+            mesh.points.push_back({-0.3 * t + shift, 1, t});
+            mesh.points.push_back({outer, 0, t});
+            mesh.points.push_back({outer, 1, t});
+            ++layers;
+        }
+        for (std::uint32_t k = 0; k + 1 < layers; ++k) {
+            const std::uint32_t a = first + 4 * k, b = a + 4;
+            if (outer > 0) mesh.add_cell(CellType::hexahedron, std::array{a, a + 2, a + 3, a + 1, b, b + 2, b + 3, b + 1});
+            else mesh.add_cell(CellType::hexahedron, std::array{a + 2, a, a + 1, a + 3, b + 2, b, b + 1, b + 3});
+        }
+    };
+    side(-2, 0, {0, 1, 2});
+    side(2, -moved, {0, 0.6, 2});
+    return mesh;
+}
+
+TEST(CellsInEachOther, WhatTrianglesDifferFromBentFacesIsNoOverlap) {
+    EXPECT_FALSE(codes_of(beside_a_bent_face(0)).contains("M29"));
+    EXPECT_TRUE(codes_of(beside_a_bent_face(0.5)).contains("M29"));
+}
+
+/// Two blocks of one mesh with an array of regions.
+CellMesh blocks_with_regions(const std::string& name, double gap, std::int32_t second) {
+    CellMesh mesh;
+    add_block(mesh, {0, 0, 0}, 100, 2, Kind::tetrahedra);
+    const auto cells = static_cast<std::ptrdiff_t>(mesh.cell_count());
+    add_block(mesh, {100 + gap, 0, 0}, 100, 2, Kind::tetrahedra);
+    std::vector<std::int32_t> regions(mesh.cell_count(), 1);
+    std::fill(regions.begin() + cells, regions.end(), second);
+    Attribute a;
+    a.name = name;
+    a.location = AttributeLocation::cell;
+    a.values = std::move(regions);
+    mesh.info.attributes.push_back(std::move(a));
+    return mesh;
+}
+
+std::optional<Severity> severity_of(const CellMesh& mesh, std::string_view code) {
+    Dataset data;
+    data.objects.emplace_back(mesh);
+    const auto checked = validators::check_models(data, {});
+    EXPECT_TRUE(checked);
+    for (const Finding& f : checked->findings) {
+        if (f.code == code) return f.severity;
+    }
+    return {};
+}
+
+TEST(RegionsOfCells, AreOneVolumeEach) {
+    for (const char* name : {"region", "Regions", "Region_ID", "region id"})
+        EXPECT_EQ(severity_of(blocks_with_regions(name, 50, 1), "M37"), Severity::error) << name;
+    for (const char* name : {"MaterialIDs", "attribute", "CellEntityIds"})  // several bodies of one material are usual
+        EXPECT_EQ(severity_of(blocks_with_regions(name, 50, 1), "M37"), Severity::warning) << name;
+    EXPECT_FALSE(severity_of(blocks_with_regions("region", 50, 2), "M37")) << "two regions, one volume each";
+    EXPECT_FALSE(severity_of(blocks_with_regions("region", 0, 1), "M37")) << "faces at one position join";
+    EXPECT_FALSE(severity_of(blocks_with_regions("porosity class", 50, 1), "M37")) << "no array of regions";
+}
+
+TEST(RegionsOfCells, AreTheEntitiesWhereAMeshHasThem) {
+    CellMesh mesh = blocks_with_regions("region", 50, 2);
+    mesh.entities = {{3, 7, "rock", {}, {}, {}, {}, {}}};
+    mesh.cell_entity.assign(mesh.cell_count(), 0);
+    EXPECT_EQ(severity_of(mesh, "M37"), Severity::error);
+    mesh.entities.push_back({3, 8, "rock too", {}, {}, {}, {}, {}});
+    for (std::size_t c = mesh.cell_count() / 2; c < mesh.cell_count(); ++c) mesh.cell_entity[c] = 1;
+    EXPECT_FALSE(severity_of(mesh, "M37"));
+}
+
+TEST(RegionsOfCells, OfAMillionCellsCostLittle) {
+    const double before = static_cast<double>(std::clock());
+    CellMesh large;
+    add_block(large, {0, 0, 0}, 100, 55, Kind::tetrahedra);  // 998,250 cells
+    Attribute a;
+    a.name = "region";
+    a.location = AttributeLocation::cell;
+    a.values = std::vector<std::int32_t>(large.cell_count(), 1);
+    large.info.attributes.push_back(std::move(a));
+    const double made = static_cast<double>(std::clock());
+    EXPECT_FALSE(severity_of(large, "M29"));
+    const double all = (static_cast<double>(std::clock()) - made) / CLOCKS_PER_SEC;
+    std::printf("all checks of a million tetrahedra: %.2f s of processor time (made in %.2f)\n", all, (made - before) / CLOCKS_PER_SEC);
+    EXPECT_LT(all, 30);
 }
 
 TEST(CellsInEachOther, AHealthyTetrahedronIsNotBlamedForADegenerateOne) {

@@ -100,8 +100,23 @@ TEST(Choice, AppliesToWhatReadersSay) {
 TEST(Choice, OfNothingThatJudgesMakesNoModelValid) {
     const Dataset data = LayeredModel().data();
     EXPECT_EQ(validate("made", data, {})->valid, true);
-    EXPECT_EQ(validate("made", data, only({"G03"}))->valid, true);
+    EXPECT_FALSE(validate("made", data, only({"G03"}))->valid.has_value());
     EXPECT_FALSE(validate("made", data, only({"F1*"}))->valid.has_value());
+}
+
+TEST(Choice, OfAPartOfTheChecksSaysWhatWasJudged) {
+    const Dataset data = LayeredModel().data();
+    const auto part = validate("made", data, without({"B05"}));
+    EXPECT_FALSE(part->valid.has_value());
+    ASSERT_TRUE(part->chosen.has_value());
+    EXPECT_EQ(part->chosen->skip, std::vector<std::string>{"B05"});
+    EXPECT_FALSE(validate("made", data, {})->chosen.has_value());
+    // What cannot be found in such a file, or is a note at most, is no part of the verdict.
+    for (const char* word : {"C", "S", "F112", "B25"}) EXPECT_EQ(validate("made", data, without({word}))->valid, true) << word;
+    Dataset broken = data;
+    std::get<Surface>(broken.objects[0]).polygons.corners[1] = std::get<Surface>(broken.objects[0]).polygons.corners[0];
+    EXPECT_EQ(validate("made", broken, without({"B05"}))->valid, false) << "an error is an error";
+    EXPECT_TRUE(validate("made", broken, without({"B05"}))->chosen.has_value());
 }
 
 TEST(Choice, OfAFindingThatFollowsFromOthersRunsThese) {

@@ -82,6 +82,13 @@ Triangles sheet(double z, double inner, bool hole = false) {
     return all;
 }
 
+/// A box, whole or without its last triangle.
+Dataset box_of(std::size_t left_out) {
+    Triangles all = test::box({0, 0, 0}, {4, 3, 2});
+    all.resize(all.size() - left_out);
+    return loose({all});
+}
+
 Dataset triangle(double x, double y) { return loose({{{{{0, 0, 0}, {1, 0, 0}, {x, y, 0}}}}}); }
 /// Two triangles at one edge that enclose an angle in degrees: of one surface, or of two.
 Triangles leaf(double degrees) {
@@ -368,6 +375,21 @@ Dataset region_name_in_capitals() {
 Dataset region_named_like_a_surface() {
     return renamed([](StatedModel& m) { m.regions[2].name = "upper"; });
 }
+Dataset side_turned() {
+    return renamed([](StatedModel& m) { m.regions[1].sides[1].front = !m.regions[1].sides[1].front; });
+}
+Dataset universe_open() {
+    return renamed([](StatedModel& m) { m.regions[0].sides.pop_back(); });
+}
+Dataset layers_swapped_across_the_fault() {
+    return renamed([](StatedModel& m) { std::swap(m.layers[0].regions[1], m.layers[1].regions[1]); });
+}
+/// A surface that the model does not state, at a distance from its lowest layer or through its bottom.
+Dataset beside_the_model(double low) {
+    LayeredModel model;
+    model.data().objects.emplace_back(loose_surface("beside", {{{{1, 0.4, low}, {1.5, 0.4, low}, {1, 1, 0.4}}}}));
+    return model.data();
+}
 Dataset layer_without_region() {
     return renamed([](StatedModel& m) { m.layers[1].regions.clear(); });
 }
@@ -491,6 +513,10 @@ constexpr Fixture fixtures[] = {
     {"B26", [] { return loose({spiral(0)}); }, [] { return loose({spiral(0.5)}); }},
     {"B27", [] { return loose({hook(0)}); }, [] { return loose({hook(0.5)}); }},
     {"B28", [] { return loose({hook_with_tip(0)}); }, [] { return loose({hook_with_tip(0.5)}); }},
+    {"B29", [] { return box_of(1); }, [] { return box_of(0); }},
+    {"B30", side_turned, layered},
+    {"B31", universe_open, layered},
+    {"B32", [] { return beside_the_model(-0.4); }, [] { return beside_the_model(0.2); }},
     {"G01", region_name_twice, layered},
     {"G02", layer_without_region, layered},
     {"G03", fault_without_throw, fault_with_throw},
@@ -499,6 +525,7 @@ constexpr Fixture fixtures[] = {
     {"G06", region_name_in_capitals, layered},
     {"G07", region_in_two_layers, layered},
     {"G08", region_named_like_a_surface, layered},
+    {"G09", layers_swapped_across_the_fault, layered},
     {"M01", near_points, layered},
     {"M02", unused_point, layered},
     {"M03", flat_triangle, sound_triangle},

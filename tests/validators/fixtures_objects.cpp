@@ -39,6 +39,16 @@ Dataset changed_cubes(const Change& change) {
     change(mesh);
     return of(mesh);
 }
+/// A row of three cubes with an array of regions.
+Dataset cubes_of_regions(std::vector<std::int32_t> regions) {
+    return changed_cubes([&](CellMesh& m) {
+        Attribute a;
+        a.name = "Region_ID";
+        a.location = AttributeLocation::cell;
+        a.values = std::move(regions);
+        m.info.attributes.push_back(std::move(a));
+    });
+}
 void add_tetrahedron(CellMesh& mesh, std::array<std::uint32_t, 4> nodes) { mesh.add_cell(CellType::tetrahedron, nodes); }
 
 /// Two tetrahedra on a triangle, and one more beside them or on it, too.
@@ -269,6 +279,13 @@ constexpr Fixture fixtures[] = {
      },
      sound_cubes},
     {"M36", [] { return around_an_edge(false); }, [] { return around_an_edge(true); }},
+    {"M37",
+     [] {
+         return cubes_of_regions({1, 2, 1});
+     },
+     [] {
+         return cubes_of_regions({1, 1, 2});
+     }},
     {"M40",
      [] {
          return raster({50, 0, 0}, {1, 2, 3, 4});

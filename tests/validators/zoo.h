@@ -20,8 +20,15 @@ struct Counts {
 struct Animal {
     BlockModel model;
     Counts counts{};
-    std::set<std::string> codes;          ///< that `validate` must give, and no other
-    std::vector<double> volumes_by_hand;  ///< per region, where the form allows it; else those of the cells count
+    std::set<std::string> codes;                     ///< that `validate` must give, and no other
+    std::vector<double> volumes_by_hand;             ///< per region, where the form allows it; else those of the cells count
+    std::set<std::string> codes_without_lists = {};  ///< further ones where no list of a region says what its surfaces are
+
+    std::set<std::string> codes_of_unlisted() const {
+        std::set<std::string> all = codes;
+        all.insert(codes_without_lists.begin(), codes_without_lists.end());
+        return all;
+    }
 };
 
 struct Species {

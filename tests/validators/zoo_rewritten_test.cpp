@@ -88,6 +88,60 @@ TEST_P(RewrittenZoo, IsJudgedTheSameAsABasinManyTimesWiderThanThick) {
     }
 }
 
+/// One triangle of each surface divided again and again, without new points on its edges.
+Dataset refined(Dataset data, int times) {
+    for (Object& object : data.objects) {
+        auto& surface = std::get<Surface>(object);
+        auto& corners = surface.polygons.corners;
+        // The new ones go to the end, so it is a triangle of the last part.
+        const std::uint64_t chosen = corners.size() / 3 - 1;
+        for (int k = 0; k < times; ++k) {
+            const std::array<std::uint32_t, 3> t{corners[3 * chosen], corners[3 * chosen + 1], corners[3 * chosen + 2]};
+            Vec3 middle{};
+            for (const std::uint32_t v : t) {
+                for (std::size_t x = 0; x < 3; ++x) middle[x] += surface.points[v][x] / 3;
+            }
+            const auto m = static_cast<std::uint32_t>(surface.points.size());
+            surface.points.push_back(middle);
+            corners[3 * chosen + 2] = m;
+            corners.insert(corners.end(), {t[1], t[2], m, t[2], t[0], m});
+        }
+        surface.labels = {};
+        surface.alias.clear();
+        surface.border_corners.clear();
+        surface.border_starts.clear();
+        surface.info.attributes.clear();
+    }
+    return data;
+}
+
+/// Without what is said of the shape of triangles.
+std::multiset<std::string> without_quality(Verdict v) {
+    std::erase_if(v.findings, [](const std::string& f) { return f.starts_with("Q") || f.starts_with("F111"); });
+    return v.findings;
+}
+
+TEST_P(RewrittenZoo, IsJudgedTheSameWhereOneTriangleIsRefined) {
+    const Animal animal = GetParam().make();
+    EXPECT_EQ(without_quality(verdict(refined(animal.model.data, 6))), without_quality(verdict(animal.model.data)));
+}
+
+TEST_P(RewrittenZoo, IsJudgedTheSameBesideAStrayPart) {
+    const Animal animal = GetParam().make();
+    for (const double distance : {60.0, 1e4, 1e7}) {
+        Surface stray;
+        stray.info.name = "stray";
+        stray.points = {{distance, 1, 1}, {distance + 0.3, 1, 1.2}, {distance, 1.4, 1}};
+        stray.polygons.corners = {0, 1, 2};
+        Dataset alone, both = animal.model.data;
+        alone.objects.emplace_back(stray);
+        both.objects.emplace_back(stray);
+        auto known = without_quality(verdict(animal.model.data));
+        known.merge(without_quality(verdict(alone)));
+        EXPECT_EQ(without_quality(verdict(both)), known) << distance;
+    }
+}
+
 TEST_P(RewrittenZoo, IsJudgedTheSameWithoutItsRegionLists) {
     const Animal animal = GetParam().make();
     const Dataset data = without_lists(animal.model.data);

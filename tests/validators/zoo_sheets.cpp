@@ -77,7 +77,7 @@ Animal crossing_sheets() {
         if (w.axis == 0 && w.plane() == 2 && within(w.low[1], 1, 3)) return "A";
         return w.axis == 1 && w.plane() == 2 && within(w.low[0], 1, 3) ? "B" : "";
     });
-    return {make_block_model(b), {10, 17, 10, 1, 8, 15, 5, 0}, {"B25"}, {125}};
+    return {make_block_model(b), {10, 17, 10, 1, 8, 15, 5, 0}, {"B25"}, {125}, {"B29"}};  // no role says what B is
 }
 
 Animal low_sheet_through_a_high_one() {
@@ -86,7 +86,7 @@ Animal low_sheet_through_a_high_one() {
         return w.axis == 1 && w.plane() == 2 && within(w.low[0], 1, 3) && within(w.low[2], 2, 3) ? "B" : "";
     });
     b.size = {5, 5, 6};
-    return {make_block_model(b), {11, 16, 9, 1, 8, 15, 4, 1}, {"B25"}, {150}};
+    return {make_block_model(b), {11, 16, 9, 1, 8, 15, 4, 1}, {"B25"}, {150}, {"B29"}};
 }
 
 Animal tube_with_one_line() {

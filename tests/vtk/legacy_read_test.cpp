@@ -144,7 +144,7 @@ TEST(LegacyRead, UnknownRecordsAreToldAndPassedOver) {
     const Dataset data = must_read(head + "DATASET POLYDATA\nPOINTS 1 float\n0 0 0\nHYPERFACES 1 2\n1 0\nVERTICES 1 2\n1 0\n");
     EXPECT_EQ(only<PointSet>(data).points.size(), 1u);
     ASSERT_EQ(data.findings.size(), 1u);
-    EXPECT_EQ(data.findings[0].code, "F102");
+    EXPECT_EQ(data.findings[0].code, "F150");
     EXPECT_EQ(data.findings[0].where.line, 7u);
     ASSERT_EQ(data.losses.size(), 1u);
     EXPECT_EQ(data.losses[0].loss_class, LossClass::substance);

@@ -138,6 +138,8 @@ function footnote(total) {
 
 // ---- head and filters
 
+const notJudged = ({only, skip}) => [...(only.length ? ['all but ' + only.join(', ')] : []), ...skip].join('; ');
+
 function drawVerdict() {
   const file = report.files[state.file], verdict = $('verdict');
   if (!file) {
@@ -145,10 +147,13 @@ function drawVerdict() {
     verdict.replaceChildren(make('span', {class: `badge ${bad ? 'invalid' : ''}`}, `${grouped(bad)} of ${counted(report.files.length, ['file', 'files'])} not valid`));
     return;
   }
-  const [word, look] = file.valid === undefined ? ['not fully checked', ''] : file.valid ? ['valid', 'valid'] : ['not valid', 'invalid'];
+  const part = file.valid === undefined && file.judged;
+  const [word, look] = part ? ['no error among the checks run', ''] : file.valid === undefined ? ['not fully checked', ''] : file.valid ? ['valid', 'valid'] : ['not valid', 'invalid'];
   const length = (name, value) => value > 0 ? make('span', {}, `${name} `, make('b', {}, figure(value))) : null;
-  verdict.replaceChildren(...[make('span', {class: `badge ${look}`}, word), length('tolerance', file.tolerance), length('near', file.near),
-    file.closes_with ? make('span', {}, file.closes_with.message) : null].filter((e) => e));
+  const choice = file.judged ? make('span', {}, 'not judged: ', make('b', {}, notJudged(file.judged))) : null;
+  const closing = file.closes_with ? make('span', {}, file.closes_with.message) : null;
+  verdict.replaceChildren(...[make('span', {class: `badge ${look}`}, word), choice, length('tolerance', file.tolerance),
+    length('near', file.near), closing].filter((e) => e));
 }
 
 function drawSeverities() {

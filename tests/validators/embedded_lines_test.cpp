@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "validators/checks_testing.h"
+#include "validators/rewritten.h"
+
+// Lines that a mesh states inside of a face, as faults, wells and rivers are: the face is not cut there, and nothing is wrong.
+
+namespace geomend {
+namespace {
+
+using namespace testing;
+
+constexpr std::uint32_t n = 4;  // squares along each side of the sheet
+
+std::uint32_t node(std::uint32_t i, std::uint32_t j) { return i * (n + 1) + j; }
+
+void add_entity(CellMesh& mesh, int dimension, const std::string& name) {
+    CellMesh::Entity entity;
+    entity.dimension = dimension;
+    entity.tag = 1;
+    entity.name = name;
+    mesh.entities.push_back(entity);
+}
+void add_cell(CellMesh& mesh, CellType type, const std::vector<std::uint32_t>& nodes) {
+    mesh.add_cell(type, nodes);
+    mesh.cell_entity.push_back(static_cast<std::uint32_t>(mesh.entities.size() - 1));
+}
+
+/// A sheet of triangles with a line along x from one node to another in the middle of y; cut there where asked: then the triangles
+/// on one side have points of their own.
+Dataset sheet_with_line(std::uint32_t from, std::uint32_t to, bool cut) {
+    CellMesh mesh;
+    mesh.info.name = "sheet";
+    for (std::uint32_t i = 0; i <= n; ++i) {
+        for (std::uint32_t j = 0; j <= n; ++j) mesh.points.push_back({1.0 * i, 1.0 * j, 0.1 * i * j});
+    }
+    std::map<std::uint32_t, std::uint32_t> twin;
+    for (std::uint32_t i = from; cut && i <= to; ++i) {
+        if ((i == from && i > 0) || (i == to && i < n)) continue;  // the ends inside are joined
+        twin[node(i, 2)] = static_cast<std::uint32_t>(mesh.points.size());
+        const Vec3 p = mesh.points[node(i, 2)];
+        mesh.points.push_back(p);
+    }
+    add_entity(mesh, 1, "trace");
+    for (std::uint32_t i = from; i < to; ++i) add_cell(mesh, CellType::line, {node(i, 2), node(i + 1, 2)});
+    add_entity(mesh, 2, "face");
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) {
+            const auto at = [&](std::uint32_t v) { return j >= 2 && twin.contains(v) ? twin[v] : v; };
+            const std::uint32_t a = at(node(i, j)), b = at(node(i + 1, j)), c = at(node(i + 1, j + 1)), d = at(node(i, j + 1));
+            add_cell(mesh, CellType::triangle, {a, b, c});
+            add_cell(mesh, CellType::triangle, {a, c, d});
+        }
+    }
+    Dataset data;
+    data.objects.emplace_back(std::move(mesh));
+    return data;
+}
+
+std::set<std::string> codes(const Dataset& data) {
+    auto checked = validators::check_models(data, {});
+    EXPECT_TRUE(checked);
+    std::set<std::string> all;
+    for (const Finding& f : checked->findings) {
+        if (f.severity > Severity::info) all.insert(f.code);
+    }
+    return all;
+}
+
+TEST(ALineInAFace, IsNoSeamAndNoCutHoweverLongItIs) {
+    for (const auto& [from, to] : {std::pair{1u, 2u}, {1u, 3u}, {0u, 3u}, {2u, 4u}, {0u, 4u}}) {
+        EXPECT_EQ(codes(sheet_with_line(from, to, false)), std::set<std::string>{}) << from << " to " << to;
+    }
+}
+
+TEST(ALineInAFace, AlongWhichTheFaceIsCutIsASeam) {
+    EXPECT_TRUE(codes(sheet_with_line(1, 3, true)).contains("B07"));
+    EXPECT_TRUE(codes(sheet_with_line(0, 4, true)).contains("B04"));
+}
+
+}  // namespace
+}  // namespace geomend

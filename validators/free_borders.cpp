@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/free_borders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/disjoint_sets.h"
+#include "base/wording.h"
+#include "geometry/vectors.h"
+
+namespace geomend::validators {
+
+namespace {
+
+void measure(const BrepData& brep, FreeBorder& border) {
+    Vec3 sum{};
+    for (const std::uint32_t l : border.lines) {
+        const auto& line = brep.lines[l];
+        for (std::size_t i = 1; i < line.vertices.size(); ++i) {
+            const Vec3 &a = brep.vertices[line.vertices[i - 1].value], &b = brep.vertices[line.vertices[i].value];
+            const Vec3 way = minus(b, a);
+            const double length = std::sqrt(dot(way, way));
+            border.length += length;
+            ++border.edges;
+            sum = plus(sum, times(length / 2, plus(a, b)));
+        }
+    }
+    if (border.length > 0) border.middle = times(1 / border.length, sum);
+}
+
+/// Goes along the edges of a border from one to the next; false where they branch or end.
+bool go_round(const BrepData& brep, const FreeBorder& border, std::vector<std::uint32_t>& way) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> next;  // per vertex
+    for (const std::uint32_t l : border.lines) {
+        const auto& v = brep.lines[l].vertices;
+        for (std::size_t i = 1; i < v.size(); ++i) {
+            next[v[i - 1].value].push_back(v[i].value);
+            next[v[i].value].push_back(v[i - 1].value);
+        }
+    }
+    if (std::ranges::any_of(next, [](const auto& at) { return at.second.size() != 2; })) return false;
+    std::uint32_t here = next.begin()->first, before = no_index;
+    do {
+        way.push_back(here);
+        const auto& both = next[here];
+        const std::uint32_t to = both[0] == before ? both[1] : both[0];
+        before = here;
+        here = to;
+    } while (here != way.front() && way.size() <= next.size());
+    return way.size() == next.size();
+}
+
+void face(const BrepData& brep, FreeBorder& border) {
+    std::vector<std::uint32_t> way;
+    border.closed = go_round(brep, border, way);
+    if (!border.closed) return;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        const Vec3 a = minus(brep.vertices[way[i]], border.middle), b = minus(brep.vertices[way[(i + 1) % way.size()]], border.middle);
+        border.facing = plus(border.facing, times(0.5, cross(a, b)));
+    }
+}
+
+}  // namespace
+
+std::vector<FreeBorder> free_borders(const ModelScope& scope, std::span<const std::uint32_t> lines) {
+    const BrepData& brep = scope.brep();
+    std::map<std::uint32_t, std::uint32_t> at_corner;  // a line that ends there
+    std::vector<std::uint32_t> free;
+    for (const std::uint32_t l : lines) {
+        if (scope.free_lines()[l] != 0) free.push_back(l);
+    }
+    std::ranges::sort(free);
+    free.erase(std::unique(free.begin(), free.end()), free.end());
+    DisjointSets joined(free.size());
+    for (std::uint32_t i = 0; i < free.size(); ++i) {
+        for (const CornerId c : brep.lines[free[i]].corners) joined.join(i, at_corner.emplace(c.value, i).first->second);
+    }
+    std::map<std::uint32_t, FreeBorder> by_root;
+    for (std::uint32_t i = 0; i < free.size(); ++i) by_root[joined.root(i)].lines.push_back(free[i]);
+    std::vector<FreeBorder> borders;
+    for (auto& [root, border] : by_root) {
+        measure(brep, border);
+        face(brep, border);
+        borders.push_back(std::move(border));
+    }
+    std::ranges::stable_sort(borders, {}, &FreeBorder::length);
+    return borders;
+}
+
+std::string border_text(const ModelScope& scope, std::span<const FreeBorder> borders) {
+    if (borders.empty()) return {};
+    const FreeBorder& first = borders.front();
+    const bool is_depth = scope.brep().crs.z_positive == ZPositive::depth;
+    std::string text = counted(first.edges, "edge", "edges") + ", " + rounded(first.length) + " long, around (" +
+                       short_number(first.middle[0]) + ", " + short_number(first.middle[1]) + ", " +
+                       short_number(is_depth ? 0.0 - first.middle[2] : first.middle[2]) + ")";
+    if (borders.size() > 1) text += ", and " + counted(borders.size() - 1, "more", "more");
+    return text;
+}
+
+void mark_borders(const ModelScope& scope, std::span<const FreeBorder> borders, Finding& finding) {
+    std::uint64_t edges = 0;
+    double length = 0;
+    for (const FreeBorder& border : borders) {
+        edges += border.edges;
+        length += border.length;
+        for (const std::uint32_t l : border.lines) mark_line(scope, l, finding);
+    }
+    finding.measures.emplace_back("edges", static_cast<double>(edges));
+    finding.measures.emplace_back("length", length);
+}
+
+std::vector<std::uint32_t> surface_groups(const ModelScope& scope) {
+    const BrepData& brep = scope.brep();
+    DisjointSets groups(brep.surfaces.size());
+    std::vector<std::uint32_t> first(brep.lines.size(), no_index);
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (const auto& use : brep.surfaces[s].lines) {
+            std::uint32_t& owner = first[use.line.value];
+            if (owner == no_index) owner = s;
+            groups.join(owner, s);
+        }
+    }
+    return std::move(groups).roots();
+}
+
+std::vector<std::uint8_t> closing_groups(const ModelScope& scope) {
+    const auto& side = scope.model().found.region_of_side;
+    const auto groups = surface_groups(scope);
+    std::vector<std::uint8_t> closes(groups.size(), 0);
+    for (std::size_t s = 0; s < groups.size() && !side.empty(); ++s) {
+        if (side[2 * s] != side[2 * s + 1]) closes[groups[s]] = 1;
+    }
+    for (std::size_t s = 0; s < groups.size(); ++s) closes[s] = closes[groups[s]];  // roots come first
+    return closes;
+}
+
+}  // namespace geomend::validators

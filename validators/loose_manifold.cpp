@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "validators/loose_manifold.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "base/disjoint_sets.h"
+#include "base/wording.h"
+#include "topology/face_edges.h"
+#include "validators/found_cells.h"
+
+namespace geomend::validators {
+
+namespace {
+
+/// A part of an object, as its file has it.
+using Part = std::pair<std::uint32_t, std::uint32_t>;
+
+Part part_of(const BrepData::Surface& surface) { return {surface.source_object, surface.source_part}; }
+
+/// What is wrong with a part.
+struct Wrong {
+    std::vector<std::array<Vec3, 2>> edges;
+    std::set<Vec3> points;
+    std::set<std::uint32_t> surfaces;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> polygons;  // surface, and its polygon
+};
+
+bool parts_regions(const ModelScope& scope, std::uint32_t surface) {
+    const auto& side = scope.model().found.region_of_side;
+    return !side.empty() && side[2 * surface] != side[2 * surface + 1];
+}
+
+void find_edges(const ModelScope& scope, std::map<Part, Wrong>& wrong) {
+    const BrepData& brep = scope.brep();
+    const topology::LineGraph& graph = scope.model().graph;
+    std::vector<topology::PolygonEdges> edges_of;
+    for (const auto& surface : brep.surfaces) edges_of.emplace_back(surface.polygons);
+    std::map<Part, std::vector<const topology::EdgeUse*>> by_part;
+    for (const auto& edge : graph.edges) {
+        const auto uses = graph.edge_uses(edge);
+        if (uses.size() < 3) continue;
+        by_part.clear();
+        for (const auto& use : uses) {
+            if (use.surface != no_index) by_part[part_of(brep.surfaces[use.surface])].push_back(&use);
+        }
+        for (const auto& [part, of_part] : by_part) {
+            if (of_part.size() < 3) continue;
+            if (std::ranges::all_of(of_part, [&](const auto* use) { return parts_regions(scope, use->surface); })) continue;
+            Wrong& here = wrong[part];
+            here.edges.push_back({brep.vertices[uses[0].low], brep.vertices[uses[0].high]});
+            for (const auto* use : of_part) {
+                here.surfaces.insert(use->surface);
+                here.polygons.emplace(use->surface, edges_of[use->surface].polygon(use->corner));
+            }
+        }
+    }
+}
+
+/// A corner of a polygon of an object, and the points before and after it.
+struct Around {
+    std::uint32_t point, before, after;
+    std::uint64_t polygon;
+};
+
+/// Whether the polygons around one point hang together by the edges there.
+bool is_one_ring(std::span<const Around> around) {
+    DisjointSets rings(around.size());
+    for (std::uint32_t i = 0; i < around.size(); ++i) {
+        for (std::uint32_t j = 0; j < i; ++j) {
+            const Around &a = around[i], &b = around[j];
+            if (a.before == b.before || a.before == b.after || a.after == b.before || a.after == b.after) rings.join(i, j);
+        }
+    }
+    for (std::uint32_t i = 0; i < around.size(); ++i) {
+        if (rings.root(i) != 0) return false;
+    }
+    return true;
+}
+
+/// Numbers of points; where polygons have points of their own, those at one position have one number.
+std::vector<std::uint32_t> numbers_of(const Surface& surface) {
+    std::vector<std::uint32_t> number(surface.points.size());
+    for (std::uint32_t i = 0; i < number.size(); ++i) number[i] = i;
+    if (10 * number.size() < 9 * surface.polygons.corners.size()) return number;
+    std::map<Vec3, std::uint32_t> first;
+    std::vector<std::uint32_t> by_position(number.size());
+    for (std::uint32_t i = 0; i < number.size(); ++i) by_position[i] = first.emplace(surface.points[i], i).first->second;
+    return 4 * first.size() < 3 * number.size() ? by_position : number;  // two triangles side by side have four positions
+}
+
+/// Corners at some points, of the polygons that have a point once only, by part and point.
+std::vector<std::pair<std::uint32_t, Around>> corners_at(const Surface& surface, const std::vector<std::uint32_t>& number,
+                                                         const std::vector<std::uint8_t>& wanted) {
+    std::vector<std::pair<std::uint32_t, Around>> corners;
+    std::uint32_t part = 0;
+    std::vector<std::uint32_t> ring;
+    for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+        while (part + 1 < surface.parts.size() && p >= surface.parts[part + 1].first_polygon) ++part;
+        const auto polygon = surface.polygons[p];
+        const std::size_t n = polygon.size();
+        if (n < 3 || std::ranges::none_of(polygon, [&](std::uint32_t corner) { return wanted[number[corner]] != 0; })) continue;
+        ring.clear();
+        for (const std::uint32_t corner : polygon) ring.push_back(number[corner]);
+        if (std::set(ring.begin(), ring.end()).size() != n) continue;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (wanted[ring[i]] != 0) corners.push_back({part, {ring[i], ring[(i + n - 1) % n], ring[(i + 1) % n], p}});
+        }
+    }
+    std::ranges::sort(corners, [](const auto& a, const auto& b) {
+        return std::tie(a.first, a.second.point, a.second.polygon) < std::tie(b.first, b.second.point, b.second.polygon);
+    });
+    return corners;
+}
+
+/// Per vertex whether it is on a line, or in several surfaces: elsewhere the surfaces by themselves are known to be in order.
+std::vector<std::uint8_t> vertices_between(const BrepData& brep) {
+    std::vector<std::uint8_t> between(brep.vertices.size(), 0);
+    for (const auto& line : brep.lines) {
+        for (const VertexId v : line.vertices) between[v.value] = 1;
+    }
+    std::vector<std::uint32_t> owner(brep.vertices.size(), no_index);
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (const VertexId v : brep.surfaces[s].nodes) {
+            if (owner[v.value] != no_index && owner[v.value] != s) between[v.value] = 1;
+            owner[v.value] = s;
+        }
+    }
+    return between;
+}
+
+/// The points, by their numbers, of all polygons of an object with such a vertex.
+std::vector<std::uint8_t> points_of_polygons_at(const ModelScope& scope, const std::vector<std::uint8_t>& between, const Surface& source,
+                                                std::span<const std::uint32_t> surfaces, const std::vector<std::uint32_t>& number) {
+    std::vector<std::uint8_t> wanted(source.points.size(), 0);
+    for (const std::uint32_t s : surfaces) {
+        const auto& surface = scope.brep().surfaces[s];
+        for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) {
+            const auto polygon = surface.polygons[p];
+            if (std::ranges::none_of(polygon, [&](std::uint32_t node) { return between[surface.nodes[node].value] != 0; })) continue;
+            const auto of_file = static_cast<std::size_t>(scope.file_number(s, p) - 1);
+            if (of_file >= source.polygons.size()) continue;
+            for (const std::uint32_t corner : source.polygons[of_file]) wanted[number[corner]] = 1;
+        }
+    }
+    return wanted;
+}
+
+/// Per polygon of an object the surface of the model that it belongs to, and its number there.
+using Belongs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+Belongs surfaces_of_polygons(const ModelScope& scope, std::span<const std::uint32_t> surfaces, std::size_t polygons) {
+    Belongs belongs(polygons, {no_index, 0});
+    for (const std::uint32_t s : surfaces) {
+        for (std::uint32_t p = 0; p < scope.brep().surfaces[s].polygons.size(); ++p) {
+            const auto number = static_cast<std::size_t>(scope.file_number(s, p) - 1);
+            if (number < polygons) belongs[number] = {s, p};
+        }
+    }
+    return belongs;
+}
+
+void find_points(const ModelScope& scope, const std::vector<std::uint8_t>& between, std::uint32_t object,
+                 std::span<const std::uint32_t> surfaces, std::map<Part, Wrong>& wrong) {
+    const auto* source = object < scope.dataset().objects.size() ? std::get_if<Surface>(&scope.dataset().objects[object]) : nullptr;
+    if (source == nullptr) return;
+    const Belongs belongs = surfaces_of_polygons(scope, surfaces, source->polygons.size());
+    const auto number = numbers_of(*source);
+    const auto corners = corners_at(*source, number, points_of_polygons_at(scope, between, *source, surfaces, number));
+    std::vector<Around> around;
+    for (std::size_t i = 0; i < corners.size();) {
+        around.clear();
+        std::size_t j = i;
+        for (; j < corners.size() && corners[j].first == corners[i].first && corners[j].second.point == corners[i].second.point; ++j)
+            around.push_back(corners[j].second);
+        const std::uint32_t part = corners[i].first;
+        i = j;
+        if (is_one_ring(around)) continue;
+        const auto is_sound = [&](const Around& a) {
+            return belongs[a.polygon].first != no_index && parts_regions(scope, belongs[a.polygon].first);
+        };
+        if (std::ranges::all_of(around, is_sound)) continue;
+        Wrong& here = wrong[{object, part}];
+        here.points.insert(source->points[around[0].point]);
+        for (const Around& a : around) {
+            if (belongs[a.polygon].first == no_index) continue;
+            here.surfaces.insert(belongs[a.polygon].first);
+            here.polygons.insert(belongs[a.polygon]);
+        }
+    }
+}
+
+Finding finding_of_part(const ModelScope& scope, const Wrong& wrong, std::uint32_t object) {
+    std::string what;
+    if (!wrong.edges.empty()) what = counted(wrong.edges.size(), "edge is", "edges are") + " shared by more than two of its triangles";
+    if (!wrong.points.empty())
+        what += (what.empty() ? "" : ", and ") + counted(wrong.points.size(), "point is", "points are") + " where it only touches itself";
+    const std::string& name = info_of(scope.dataset().objects[object]).name;
+    Finding finding = finding_of("B03", quoted(name) + " is not manifold: " + what);
+    for (const std::uint32_t s : wrong.surfaces) {
+        if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, s));
+    }
+    finding.element_kind = "triangle";
+    for (const auto& [s, p] : wrong.polygons) {
+        if (finding.elements.size() >= listed_elements) break;
+        finding.elements.push_back(scope.file_number(s, p));
+        finding.index.push_back(p);
+    }
+    finding.count = std::max<std::uint64_t>(1, wrong.polygons.size());
+    for (const auto& edge : wrong.edges) {
+        if (finding.polylines.size() < listed_elements) finding.polylines.push_back({edge[0], edge[1]});
+    }
+    for (const Vec3& p : wrong.points) {
+        if (finding.points.size() < listed_elements) finding.points.push_back(p);
+    }
+    finding.measures = {{"edges_shared_by_more_than_two", static_cast<double>(wrong.edges.size())},
+                        {"pinched_points", static_cast<double>(wrong.points.size())}};
+    return finding;
+}
+
+}  // namespace
+
+void report_loose_manifold(const ModelScope& scope, const std::vector<std::vector<std::uint32_t>>& pinched,
+                           std::vector<Finding>& findings) {
+    const BrepData& brep = scope.brep();
+    std::map<Part, Wrong> wrong;
+    find_edges(scope, wrong);
+    std::map<std::uint32_t, std::vector<std::uint32_t>> surfaces_of;  // per object
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        surfaces_of[brep.surfaces[s].source_object].push_back(s);
+        for (const std::uint32_t v : pinched[s]) {
+            wrong[part_of(brep.surfaces[s])].points.insert(brep.vertices[v]);
+            wrong[part_of(brep.surfaces[s])].surfaces.insert(s);
+        }
+    }
+    const auto between = vertices_between(brep);
+    for (const auto& [object, surfaces] : surfaces_of) find_points(scope, between, object, surfaces, wrong);
+    for (const auto& [part, what] : wrong) findings.push_back(finding_of_part(scope, what, part.first));
+}
+
+}  // namespace geomend::validators

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/wording.h"
+#include "geometry/vectors.h"
+#include "validators/found_cells.h"
+#include "validators/model_checks.h"
+
+// What a file states of the sides of its regions and of its Universe, against its surfaces.
+
+namespace geomend::validators {
+
+namespace {
+
+/// Names surfaces in a finding and marks each at the middle of its first polygon.
+void name_surfaces_at(const ModelScope& scope, std::span<const std::uint32_t> surfaces, Finding& finding) {
+    const BrepData& brep = scope.brep();
+    finding.count = std::max<std::uint64_t>(1, surfaces.size());
+    finding.element_kind = "surface";
+    for (const std::uint32_t s : surfaces) {
+        if (finding.entities.size() >= listed_elements) break;
+        finding.entities.push_back(surface_ref(scope, s));
+        finding.index.push_back(s);
+        const auto& surface = brep.surfaces[s];
+        if (surface.polygons.size() == 0) continue;
+        const auto polygon = surface.polygons[0];
+        Vec3 middle{};
+        for (const std::uint32_t node : polygon)
+            middle = plus(middle, times(1.0 / static_cast<double>(polygon.size()), scope.vertex_of_node(surface, node)));
+        finding.points.push_back(middle);
+    }
+}
+
+std::string first_names(const ModelScope& scope, std::span<const std::uint32_t> surfaces) {
+    constexpr std::size_t named = 3;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(named, surfaces.size()); ++i)
+        text += (i == 0 ? "" : ", ") + quoted(scope.brep().surfaces[surfaces[i]].name);
+    return text + (surfaces.size() > named ? ", ..." : "");
+}
+
+/// Whether the file's own key triangles disagree with its surfaces, so that a sign may mean either side.
+bool keys_are_reversed(const Dataset& dataset) {
+    return std::ranges::any_of(dataset.findings, [](const Finding& f) { return f.code == "F106"; });
+}
+
+/// Whether some sides cancel out along each line; those with both sides of a surface do by themselves.
+bool closes(const ModelScope& scope, std::span<const BrepData::Side> sides) {
+    std::map<std::uint32_t, std::int64_t> net;
+    for (const auto& side : sides) {
+        for (const auto& [line, sum] : scope.model().graph.nets[side.surface.value]) net[line] += side.front ? -sum : sum;
+    }
+    return !sides.empty() && std::ranges::all_of(net, [](const auto& entry) { return entry.second == 0; });
+}
+
+/// Per side (2 x surface, + 1 for its front) 1 where one of the lists has it.
+template <class Sides>
+void mark_sides(const Sides& sides, std::vector<std::uint8_t>& marked) {
+    for (const auto& side : sides) marked[2 * side.surface.value + (side.front ? 1 : 0)] = 1;
+}
+
+}  // namespace
+
+void check_stated_sides(const ModelScope& scope, std::vector<Finding>& findings) {
+    const topology::StatedClaims& claims = scope.model().claims;
+    for (const auto& wrong : claims.wrong_sides) {
+        std::vector<std::uint32_t> surfaces;
+        for (const SurfaceId s : wrong.turned) surfaces.push_back(s.value);
+        std::string message = "region " + quoted(wrong.name) + " is stated on the wrong side of " + first_names(scope, surfaces);
+        if (wrong.volume_as_stated != wrong.volume)
+            message += ": as stated its volume is " + rounded(wrong.volume_as_stated) + ", the surfaces enclose " + rounded(wrong.volume);
+        Finding finding = finding_of("B30", std::move(message));
+        if (keys_are_reversed(scope.dataset())) use_other_severity(finding);
+        finding.entities.push_back({"region", wrong.name, wrong.region});
+        name_surfaces_at(scope, surfaces, finding);
+        finding.measures = {{"volume_as_stated", wrong.volume_as_stated}, {"volume", wrong.volume}};
+        findings.push_back(std::move(finding));
+    }
+    if (!claims.reversed_convention || !claims.wrong_sides.empty()) return;
+    Finding finding = finding_of("B30", "the signs of all regions mean the other side: in front of a surface is stated as behind it");
+    use_other_severity(finding);
+    finding.entities.push_back({"model", scope.brep().name});
+    finding.count = 1;
+    findings.push_back(std::move(finding));
+}
+
+void check_universe(const ModelScope& scope, std::vector<Finding>& findings) {
+    const topology::StatedClaims& claims = scope.model().claims;
+    const BrepData& brep = scope.brep();
+    if (!claims.universe_stated || brep.regions.empty()) return;
+    // Where the Universe closes and a region does not, the region is what is wrong (B05).
+    const bool all_close = std::ranges::all_of(brep.regions, [](const auto& r) { return r.volume_known || !r.cell_types.empty(); });
+    if (!all_close && closes(scope, claims.universe)) return;
+    std::vector<std::uint8_t> inner(2 * brep.surfaces.size(), 0), outer(2 * brep.surfaces.size(), 0);
+    for (const auto& region : brep.regions) mark_sides(region.sides, inner);
+    mark_sides(claims.universe, outer);
+    std::vector<std::uint32_t> missing, foreign;
+    for (std::uint32_t side = 0; side < inner.size(); ++side) {
+        if (brep.surfaces[side / 2].polygons.size() == 0) continue;
+        const bool bounds_outside = inner[side] == 0 && inner[side ^ 1u] != 0;
+        if (bounds_outside && outer[side] == 0) missing.push_back(side / 2);
+        if (inner[side] != 0 && outer[side] != 0) foreign.push_back(side / 2);
+    }
+    if (missing.empty() && foreign.empty()) return;
+    std::string message = "the Universe is not what the regions leave: ";
+    if (claims.universe.empty()) message += "it is stated without any surface";
+    else if (!missing.empty()) message += "it lacks " + counted(missing.size(), "side", "sides") + ", of " + first_names(scope, missing);
+    if (!foreign.empty())
+        message += std::string(missing.empty() ? "" : ", and ") + "it has " + counted(foreign.size(), "side", "sides") +
+                   " that a region has, of " + first_names(scope, foreign);
+    Finding finding = finding_of("B31", std::move(message));
+    finding.entities.push_back({"region", claims.universe_name, -1});
+    missing.insert(missing.end(), foreign.begin(), foreign.end());
+    std::ranges::sort(missing);
+    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+    name_surfaces_at(scope, missing, finding);
+    findings.push_back(std::move(finding));
+}
+
+}  // namespace geomend::validators
