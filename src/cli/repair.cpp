@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <system_error>
 
 #include "base/input.h"
 #include "base/number_text.h"
@@ -108,7 +110,32 @@ void tell_losses(const std::vector<Loss>& losses, bool verbose) {
     }
 }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+    std::error_code none;
+    return a == b || std::filesystem::equivalent(a, b, none);
+}
+
+// What is written beside the result must be neither an input nor the result. Devices and pipes may be named twice.
+Result<void> check_places(const RepairOptions& o) {
+    std::vector<std::string> beside = o.reports;
+    if (!o.write_recipe.empty()) beside.push_back(o.write_recipe);
+    std::vector<std::string> taken = o.inputs;
+    taken.push_back(o.output);
+    if (!o.recipe.empty()) taken.push_back(o.recipe);
+    for (const std::string& file : beside) {
+        std::error_code none;
+        if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) continue;
+        for (const std::string& other : taken) {
+            if (!is_same_file(file, other)) continue;
+            return failure(FailureKind::usage, "F018", {},
+                           file + " is named twice: as " + other + ", and for a report or recipe; give it a name of its own");
+        }
+    }
+    return {};
+}
+
 ExitStatus run(const RepairOptions& o) {
+    if (auto places = check_places(o); !places) return report(places.why());
     if (o.json && o.output == "-")
         return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
     const ThreadBudget budget(o.threads);

@@ -102,6 +102,21 @@ Result<void> mend_surfaces(Dataset& dataset, const std::vector<Finding>& before,
     return {};
 }
 
+bool has_regions(const Dataset& dataset) {
+    return std::ranges::any_of(dataset.models, [](const StatedModel& m) { return !m.regions.empty(); });
+}
+
+// A result without any region states none that could be found open: what did not close before does not close now either.
+void keep_unclosed(const ReportedFile& before, ReportedFile& after) {
+    for (const Finding& f : before.findings) {
+        const bool unclosed = f.severity == Severity::error && (f.code == "B05" || f.code == "B06" || f.code == "B12");
+        const bool known = std::ranges::find(after.findings, f.code, &Finding::code) != after.findings.end();
+        if (!unclosed || known) continue;
+        after.findings.push_back(f);
+        after.valid = false;
+    }
+}
+
 Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& request, RepairReport& report) {
     const std::string& path = request.files.inputs.front();
     flatten_meshes(dataset);
@@ -113,10 +128,12 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     const bool grids = std::ranges::any_of(dataset.objects, is_grid);
     auto mended = grids ? mend_grids(dataset, request, report) : mend_surfaces(dataset, before->findings, request, report);
     if (!mended) return mended;
+    const bool closed = grids || has_regions(dataset);
     // Regions that were found, and stated by none of the inputs, are no loss where the target holds none.
     if (!stated && target.wants == WriterWants::objects) dataset.models.clear();
     auto after = validate(path, dataset, request.checks);
     if (!after) return std::move(after).why();
+    if (!closed) keep_unclosed(*before, *after);
     after->steps = std::move(report.file.steps);
     report.file = std::move(*after);
     if (request.inspect) {

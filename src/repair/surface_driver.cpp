@@ -39,6 +39,16 @@ std::string too_far(const StepOutcome& outcome, double limit) {
     return "it moves a vertex by " + rounded(outcome.max_displacement) + ", more than " + rounded(limit);
 }
 
+/// Why a model lost what no step may take: a surface of which nothing is left. Empty: it lost none.
+std::string lost_surface(const SurfaceModel& before, const SurfaceModel& after) {
+    std::vector<std::uint8_t> left(after.model.patches.size(), 0);
+    for (const std::uint32_t p : after.model.soup.patches) left[p] = 1;
+    for (const std::uint32_t p : before.model.soup.patches) {
+        if (left[p] == 0) return "nothing is left of surface '" + before.model.patches[p].name + "' after it";
+    }
+    return {};
+}
+
 /// Runs a step on a state without judging it.
 Result<SurfaceStepDone> run_step(const SurfaceStepRow& row, const SurfaceDriverOptions& options, State& state) {
     SurfaceStepDone done;
@@ -68,6 +78,7 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
         all.push_back(std::move(*done));
     }
     if (!changed) return all;
+    if (why.empty()) why = lost_surface(state.model, next.model);
     if (why.empty()) {
         auto result = result_of(next.model);
         if (!result) return std::move(result).why();

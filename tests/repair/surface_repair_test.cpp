@@ -262,6 +262,46 @@ TEST(SurfaceRepair, AMisspeltRecipeIsRefusedWithItsLine) {
     }
 }
 
+TEST(SurfaceRepair, AReportOrRecipeInThePlaceOfAnInputOrTheResultIsRefused) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", cube_of_squares(0.2));
+    const std::string in = folder / "in.ts", before = read_file(in);
+    EXPECT_EQ(run_geomend({"repair", in, "-o", folder / "out.ml", "--max-gap", "0.4", "--write-recipe", in}).status, 2);
+    EXPECT_EQ(read_file(in), before);
+    EXPECT_EQ(run_geomend({"repair", in, "-o", folder / "o.html", "--to", "gocad-ml", "--report", folder / "o.html"}).status, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "o.html"));
+}
+
+TEST(SurfaceRepair, AWeldThatWouldLeaveNothingOfASurfaceIsUndone) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", cube_of_squares(0.2));
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ts", "--steps", "weld", "--tolerance", "50", "--json"});
+    const auto j = nlohmann::json::parse(run.out, nullptr, false);
+    ASSERT_TRUE(j.contains("steps")) << run.out << run.err;
+    EXPECT_EQ(j["steps"][0]["kept"], false) << run.out;
+}
+
+TEST(SurfaceRepair, WhatDidNotCloseIsNoValidResultWithoutRegions) {
+    const TemporaryFolder folder;
+    const auto model = folder / "model.ml";
+    // A box by its role, of which a side is missing.
+    std::string open = cube_of_squares(0);
+    open.erase(open.rfind("GOCAD TSurf"));
+    std::string with_roles;
+    for (std::size_t at = 0, next = 0; next != std::string::npos; at = next) {
+        next = open.find("TFACE", at + 1);
+        with_roles += open.substr(at, next - at);
+        if (next != std::string::npos) with_roles += "GEOLOGICAL_TYPE boundary\n";
+    }
+    write_file(folder / "in.ts", with_roles);
+    ASSERT_EQ(run_geomend({"validate", folder / "in.ts"}).status, 1);
+    EXPECT_EQ(run_geomend({"repair", folder / "in.ts", "-o", model}).status, 6);
+    EXPECT_FALSE(std::filesystem::exists(model));
+    // Where it can be closed it is, also into a file that holds no regions.
+    write_file(folder / "in.ts", with_roles + tsurf("lid", {{-1, -1, 10}, {11, -1, 10}, {11, 11, 10}, {-1, 11, 10}}, halves));
+    EXPECT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "closed.ts"}).status, 0);
+}
+
 TEST(SurfaceRepair, ADryRunWritesNothing) {
     const TemporaryFolder folder;
     write_file(folder / "in.ts", cube_of_squares(0.2));
