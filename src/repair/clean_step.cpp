@@ -6,16 +6,16 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "repair/soup_edit.h"
+#include "repair/soup_measures.h"
 #include "repair/surface_steps.h"
 
 namespace geomend::repair {
 
 namespace {
 
-bool has_no_area(const TriangleSoup& soup, const Triangle& t) {
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
-    const Vec3 n = cross(minus(soup.vertices[t[1]], soup.vertices[t[0]]), minus(soup.vertices[t[2]], soup.vertices[t[0]]));
-    return n == Vec3{0, 0, 0};
+bool has_no_area(const TriangleSoup& soup, std::uint32_t t) {
+    const auto& [a, b, c] = soup.triangles[t];
+    return a == b || b == c || c == a || triangle_normal(soup, t) == Vec3{0, 0, 0};
 }
 
 /// Marks triangles that use the same three vertices as an earlier one of their patch. \return how many
@@ -80,8 +80,8 @@ Result<StepOutcome> clean_surfaces(SurfaceModel& model, const SurfaceStepOptions
     const TriangleSoup& soup = model.model.soup;
     std::vector<std::uint8_t> keep(soup.triangles.size(), 1);
     std::uint64_t flat = 0;
-    for (std::size_t t = 0; t < keep.size(); ++t) {
-        if (!has_no_area(soup, soup.triangles[t])) continue;
+    for (std::uint32_t t = 0; t < keep.size(); ++t) {
+        if (!has_no_area(soup, t)) continue;
         keep[t] = 0;
         ++flat;
     }

@@ -178,7 +178,7 @@ void tell(const SurfaceModel& model, const std::vector<Contact>& contacts, StepO
 
 Result<StepOutcome> close_borders(SurfaceModel& model, const SurfaceStepOptions& options) {
     const TriangleSoup& soup = model.model.soup;
-    const double limit = options.max_gap >= 0 ? options.max_gap : 1e-3 * model.lengths.diameter;
+    const double limit = gap_limit(model, options);
     const FreeBorders borders = free_borders(soup, edges_of(soup));
     const GapSearch search(soup, limit);
     std::vector<GapHit> hits;

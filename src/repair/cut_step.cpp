@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "arrangement/arrange.h"
-#include "base/number_text.h"
 #include "base/wording.h"
 #include "repair/soup_edges.h"
 #include "repair/surface_steps.h"

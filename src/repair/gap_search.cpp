@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/vectors.h"
 #include "geometry/closest_points.h"
@@ -41,7 +42,7 @@ BoxTree::Corners box_around(const Vec3& a, const Vec3& b, double margin) {
 
 }  // namespace
 
-GapSearch::GapSearch(const TriangleSoup& soup, double limit) : soup_(soup), limit_(limit), boxes_(boxes_of(soup)), tree_(boxes_) {}
+GapSearch::GapSearch(const TriangleSoup& soup, double limit) : soup_(soup), limit_(limit), tree_(boxes_of(soup)) {}
 
 GapHit GapSearch::ahead(const Vec3& from, const Vec3& direction, std::uint32_t own_patch, std::uint32_t only) const {
     GapHit best;

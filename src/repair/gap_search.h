@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "geometry/box_tree.h"
 #include "model/objects.h"
@@ -35,7 +34,6 @@ public:
 private:
     const TriangleSoup& soup_;
     double limit_;
-    std::vector<BoxTree::Corners> boxes_;
     BoxTree tree_;
 };
 

@@ -88,7 +88,7 @@ std::vector<Loop> holes_of(const TriangleSoup& soup, const FreeBorders& borders,
 
 Result<StepOutcome> fill_holes(SurfaceModel& model, const SurfaceStepOptions& options) {
     const TriangleSoup& soup = model.model.soup;
-    const double limit = options.max_gap >= 0 ? options.max_gap : 1e-3 * model.lengths.diameter;
+    const double limit = gap_limit(model, options);
     const FreeBorders borders = free_borders(soup, edges_of(soup));
     TriangleSoup made = soup;
     Origin origin = identity_origin(soup);

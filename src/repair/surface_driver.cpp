@@ -49,12 +49,12 @@ std::string lost_surface(const SurfaceModel& before, const SurfaceModel& after) 
     return {};
 }
 
-/// Runs a step on a state without judging it.
-Result<SurfaceStepDone> run_step(const SurfaceStepRow& row, const SurfaceDriverOptions& options, State& state) {
+/// Runs a step without judging what comes of it.
+Result<SurfaceStepDone> run_step(const SurfaceStepRow& row, const SurfaceDriverOptions& options, SurfaceModel& model) {
     SurfaceStepDone done;
     done.step = row.name;
     const double start = processor_seconds();
-    auto outcome = row.run(state.model, options.steps);
+    auto outcome = row.run(model, options.steps);
     done.seconds = processor_seconds() - start;
     if (!outcome) return std::move(outcome).why();
     done.outcome = std::move(*outcome);
@@ -67,7 +67,7 @@ Result<SurfaceStepDone> run_step(const SurfaceStepRow& row, const SurfaceDriverO
 Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRow* const> rows, const SurfaceDriverOptions& options,
                                                    State& state) {
     std::vector<SurfaceStepDone> all;
-    State next = state;
+    SurfaceModel next = state.model;
     std::string why;
     bool changed = false;
     for (const SurfaceStepRow* row : rows) {
@@ -78,19 +78,17 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
         all.push_back(std::move(*done));
     }
     if (!changed) return all;
-    if (why.empty()) why = lost_surface(state.model, next.model);
+    if (why.empty()) why = lost_surface(state.model, next);
     if (why.empty()) {
-        auto result = result_of(next.model);
+        auto result = result_of(next);
         if (!result) return std::move(result).why();
-        next.result = std::move(*result);
-        auto errors = judge(next.model, next.result, options.checks);
+        auto errors = judge(next, *result, options.checks);
         if (!errors) return std::move(errors).why();
-        next.errors = std::move(*errors);
-        if (!options.keep_worse) why = why_worse(state.errors, next.errors);
-    }
-    if (why.empty()) {
-        state = std::move(next);
-        return all;
+        if (!options.keep_worse) why = why_worse(state.errors, *errors);
+        if (why.empty()) {
+            state = State{std::move(next), std::move(*result), std::move(*errors)};
+            return all;
+        }
     }
     for (SurfaceStepDone& done : all) {
         if (done.outcome.changed == 0) continue;

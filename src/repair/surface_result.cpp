@@ -58,10 +58,6 @@ std::vector<std::vector<TriangleSide>> region_sides(const topology::JudgedModel&
     return sides;
 }
 
-std::size_t closed_regions(const BrepData& brep) {
-    return static_cast<std::size_t>(std::ranges::count_if(brep.regions, [](const auto& r) { return r.volume > 0; }));
-}
-
 }  // namespace
 
 Result<SurfaceResult> result_of(const SurfaceModel& model) {
@@ -80,8 +76,7 @@ Result<SurfaceResult> result_of(const SurfaceModel& model) {
     auto changes = carry_region_names(model, region_sides(*judged, triangles), data);
     auto brep = Brep::make(std::move(data));
     if (!brep) return std::move(brep).why();
-    SurfaceResult result{std::move(*brep), {}, std::move(changes), 0};
-    result.regions = closed_regions(*result.brep);
+    SurfaceResult result{std::move(*brep), {}, std::move(changes)};
     result.dataset = exchange::faced_model(result.brep, result.dataset.losses);
     return result;
 }

@@ -20,7 +20,6 @@ struct SurfaceResult {
     Brep brep;
     Dataset dataset;                  ///< one surface for each interface, with a model stated over them
     std::vector<NameChange> changes;  ///< of regions; in no run of a kind sorted by name
-    std::size_t regions = 0;          ///< that are closed
 };
 
 /// Makes the boundary representation of a model: surfaces are one for each piece between lines, regions are found by walking

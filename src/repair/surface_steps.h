@@ -28,6 +28,11 @@ struct SurfaceStepOptions {
     const Monitor* monitor = nullptr;
 };
 
+/// The largest gap that is closed, hole that is filled and overshoot that is trimmed: as given, else a thousandth of D.
+inline double gap_limit(const SurfaceModel& model, const SurfaceStepOptions& options) {
+    return options.max_gap >= 0 ? options.max_gap : 1e-3 * model.lengths.diameter;
+}
+
 /// What was decided about a piece of a border that nearly meets another surface.
 struct ContactDecision {
     std::string border, on;  ///< surfaces

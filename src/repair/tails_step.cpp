@@ -128,7 +128,7 @@ Removed drop_narrow(const SurfaceModel& model, double limit, std::vector<std::ui
 }  // namespace
 
 Result<StepOutcome> remove_tails(SurfaceModel& model, const SurfaceStepOptions& options) {
-    const double limit = options.max_gap >= 0 ? options.max_gap : 1e-3 * model.lengths.diameter;
+    const double limit = gap_limit(model, options);
     std::vector<std::uint8_t> keep(model.model.soup.triangles.size(), 1);
     const Removed narrow = drop_narrow(model, limit, keep);
     auto outside = outside_of_boundary(model, keep);
