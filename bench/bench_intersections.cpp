@@ -71,7 +71,7 @@ void borders(benchmark::State& state) {
     const TriangleTree tree(soup.vertices, soup.triangles);
     const ThreadBudget budget(static_cast<std::size_t>(state.range(1)));
     std::size_t misses = 0;
-    for (auto _ : state) misses = near_misses(tree, soup.groups, free.edges, free.groups, near_length(soup)).size();
+    for (auto _ : state) misses = near_misses(SurfaceDistance(tree, soup.groups), free.edges, free.groups, near_length(soup)).size();
     tell(state, soup.triangles.size(), misses);
 }
 
@@ -81,7 +81,8 @@ void insides(benchmark::State& state) {
     const TriangleTree tree(soup.vertices, soup.triangles);
     const ThreadBudget budget(static_cast<std::size_t>(state.range(1)));
     std::size_t found = 0;
-    for (auto _ : state) found = closest_pairs(tree, soup.groups, near_length(soup)).size();
+    const std::vector<double> near(soup.triangles.size(), near_length(soup));
+    for (auto _ : state) found = closest_pairs(SurfaceDistance(tree, soup.groups), near).pairs.size();
     tell(state, soup.triangles.size(), found);
 }
 
@@ -109,8 +110,8 @@ void say_near(const Soup& soup) {
     const TriangleTree tree(soup.vertices, soup.triangles);
     for (const double part : {1.0, 5.0, 0.1}) {
         const double near = part * near_length(soup);
-        const auto misses = near_misses(tree, soup.groups, free.edges, free.groups, near);
-        const auto close = closest_pairs(tree, soup.groups, near);
+        const auto misses = near_misses(SurfaceDistance(tree, soup.groups), free.edges, free.groups, near);
+        const auto close = closest_pairs(soup.vertices, soup.triangles, soup.groups, near).pairs;
         std::printf("  within %g: %zu of %zu free border edges, %zu pairs of surfaces\n", near, misses.size(), free.edges.size(),
                     close.size());
         for (std::size_t i = 0; i < std::min<std::size_t>(misses.size(), 5); ++i) {

@@ -49,95 +49,91 @@ std::vector<std::uint8_t> set_aside(const ModelScope& scope, const BrepData::Sur
     return aside;
 }
 
-/// A polygon at a vertex.
-struct PolygonAt {
-    std::uint32_t polygon, corner;
+/// The corners at each node of a surface, of polygons that are judged: how many, and one of them.
+struct CornersAt {
+    std::vector<std::uint32_t> count, any;  ///< per node
 };
 
-/// The polygons at each vertex of a surface, in the order of their corners; vertices by rank, the lowest number first.
-struct PolygonsAround {
-    std::vector<std::uint32_t> vertices;  ///< by rank
-    std::vector<std::uint32_t> first;     ///< by rank, where its polygons begin; one more behind the last
-    std::vector<PolygonAt> polygons;
-};
-
-template <class Body>
-void each_corner(const BrepData::Surface& surface, const topology::FaceEdges& face, std::span<const std::uint8_t> aside, const Body& body) {
+CornersAt corners_at(const BrepData::Surface& surface, const topology::FaceEdges& face, std::span<const std::uint8_t> aside) {
+    CornersAt at{std::vector<std::uint32_t>(surface.nodes.size()), std::vector<std::uint32_t>(surface.nodes.size())};
     std::vector<std::uint8_t> skip(surface.polygons.size(), 0);
     for (const std::uint32_t p : face.degenerate) skip[p] = 1;
     for (const std::uint32_t p : face.duplicate) skip[p] = 1;
-    for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) {
+    for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
         if (skip[p] != 0) continue;
-        const auto polygon = surface.polygons[p];
-        const auto first = static_cast<std::uint32_t>(surface.polygons.first_corner(p));
-        for (std::uint32_t i = 0; i < polygon.size(); ++i) {
-            if (aside[polygon[i]] == 0) body(polygon[i], PolygonAt{p, first + i});
+        for (std::size_t c = surface.polygons.first_corner(p); c < surface.polygons.first_corner(p + 1); ++c) {
+            const std::uint32_t node = surface.polygons.corners[c];
+            if (aside[node] != 0) continue;
+            ++at.count[node];
+            at.any[node] = static_cast<std::uint32_t>(c);
         }
     }
+    return at;
 }
 
-// Several nodes may have one vertex.
-std::vector<std::uint32_t> rank_nodes(const BrepData::Surface& surface, std::vector<std::uint32_t>& vertices) {
-    vertices.clear();
-    for (const VertexId v : surface.nodes) vertices.push_back(v.value);
-    std::ranges::sort(vertices);
-    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
-    std::vector<std::uint32_t> rank(surface.nodes.size());
-    for (std::size_t n = 0; n < rank.size(); ++n)
-        rank[n] = static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, surface.nodes[n].value) - vertices.begin());
-    return rank;
-}
+/// Walks around a node from polygon to polygon over the edges at it.
+class RingWalk {
+public:
+    RingWalk(const BrepData::Surface& surface, const topology::PolygonEdges& edges) : surface_(surface), edges_(edges) {}
 
-PolygonsAround polygons_around(const BrepData::Surface& surface, const topology::FaceEdges& face, std::span<const std::uint8_t> aside) {
-    PolygonsAround around;
-    const std::vector<std::uint32_t> rank = rank_nodes(surface, around.vertices);
-    around.first.assign(around.vertices.size() + 1, 0);
-    each_corner(surface, face, aside, [&](std::uint32_t node, const PolygonAt&) { ++around.first[rank[node] + 1]; });
-    for (std::size_t r = 1; r < around.first.size(); ++r) around.first[r] += around.first[r - 1];
-    around.polygons.resize(around.first.back());
-    std::vector<std::uint32_t> next = around.first;
-    each_corner(surface, face, aside, [&](std::uint32_t node, const PolygonAt& at) { around.polygons[next[rank[node]]++] = at; });
-    return around;
-}
-
-/// Buffers of one_ring(), used again from vertex to vertex.
-struct RingWalk {
-    std::vector<std::uint8_t> seen;
-    std::vector<std::size_t> stack;
-};
-
-/// Whether the polygons around one vertex hang together by the edges at the vertex.
-bool one_ring(const BrepData::Surface& surface, std::span<const PolygonAt> around, RingWalk& walk) {
-    walk.seen.assign(around.size(), 0);
-    walk.stack.assign(1, 0);
-    walk.seen[0] = 1;
-    std::size_t reached = 0;
-    while (!walk.stack.empty()) {
-        const PolygonAt& here = around[walk.stack.back()];
-        walk.stack.pop_back();
-        ++reached;
-        const std::size_t first = surface.polygons.first_corner(here.polygon), size = surface.polygons[here.polygon].size();
-        const std::size_t before = here.corner == first ? first + size - 1 : here.corner - 1;
-        for (const std::uint32_t q : {surface.neighbours[here.corner], surface.neighbours[before]}) {
-            for (std::size_t k = 0; q != no_index && k < around.size(); ++k) {
-                if (around[k].polygon != q || walk.seen[k] != 0) continue;
-                walk.seen[k] = 1;
-                walk.stack.push_back(k);
+    /// How many polygons hang together with that of a corner, itself included; `most` where there are more.
+    std::uint32_t size(std::uint32_t corner, std::uint32_t most) const {
+        std::uint32_t reached = 1;
+        for (const bool over_start : {true, false}) {
+            std::uint32_t here = corner, edge = over_start ? corner : before(corner);
+            while (reached <= most) {
+                const std::uint32_t next = surface_.neighbours[edge];
+                if (next == no_index) break;
+                here = corner_of(next, surface_.polygons.corners[corner]);
+                if (here == corner) return reached;  // all around
+                edge = is_same_edge(here, edge) ? before(here) : here;
+                ++reached;
             }
         }
+        return std::min(reached, most);
     }
-    return reached == around.size();
-}
 
-/// Vertices away from lines where the polygons make more than one ring.
-std::vector<std::uint32_t> pinched_vertices(const ModelScope& scope, const BrepData::Surface& surface, const topology::FaceEdges& face) {
-    const PolygonsAround around = polygons_around(surface, face, set_aside(scope, surface));
-    std::vector<std::uint32_t> pinched;
-    RingWalk walk;
-    for (std::size_t r = 0; r < around.vertices.size(); ++r) {
-        const auto here = std::span(around.polygons).subspan(around.first[r], around.first[r + 1] - around.first[r]);
-        if (!here.empty() && !one_ring(surface, here, walk)) pinched.push_back(around.vertices[r]);
+private:
+    const BrepData::Surface& surface_;
+    const topology::PolygonEdges& edges_;
+
+    std::uint32_t before(std::uint32_t corner) const {
+        const auto p = edges_.polygon(corner);
+        const auto first = static_cast<std::uint32_t>(surface_.polygons.first_corner(p)),
+                   size = static_cast<std::uint32_t>(surface_.polygons[p].size());
+        return corner == first ? first + size - 1 : corner - 1;
     }
+    std::uint32_t corner_of(std::uint32_t polygon, std::uint32_t node) const {
+        auto corner = static_cast<std::uint32_t>(surface_.polygons.first_corner(polygon));
+        while (surface_.polygons.corners[corner] != node) ++corner;
+        return corner;
+    }
+    bool is_same_edge(std::uint32_t first, std::uint32_t second) const {
+        const std::uint32_t a = edges_.start_node(first), b = edges_.end_node(first);
+        const std::uint32_t c = edges_.start_node(second), d = edges_.end_node(second);
+        return (a == c && b == d) || (a == d && b == c);
+    }
+};
+
+/// Vertices away from lines where the polygons make more than one ring; ascending.
+std::vector<std::uint32_t> pinched_vertices(const ModelScope& scope, std::uint32_t s) {
+    const auto& surface = scope.brep().surfaces[s];
+    const CornersAt at = corners_at(surface, scope.model().faces[s], set_aside(scope, surface));
+    const topology::PolygonEdges edges(surface.polygons);
+    const RingWalk walk(surface, edges);
+    std::vector<std::uint32_t> pinched, used;
+    for (std::uint32_t n = 0; n < at.count.size(); ++n) {
+        if (at.count[n] == 0) continue;
+        if (scope.has_twin_nodes(s)) used.push_back(surface.nodes[n].value);
+        if (walk.size(at.any[n], at.count[n]) != at.count[n]) pinched.push_back(surface.nodes[n].value);
+    }
+    std::ranges::sort(used);  // polygons of two nodes at one vertex have no edge in common
+    for (std::size_t i = 1; i < used.size(); ++i) {
+        if (used[i] == used[i - 1]) pinched.push_back(used[i]);
+    }
+    std::ranges::sort(pinched);
+    const auto repeats = std::ranges::unique(pinched);
+    pinched.erase(repeats.begin(), repeats.end());
     return pinched;
 }
 
@@ -180,7 +176,7 @@ void report_stated_manifold(const ModelScope& scope, const std::vector<std::vect
 void check_manifold(const ModelScope& scope, std::vector<Finding>& findings) {
     std::vector<std::vector<std::uint32_t>> pinched(scope.brep().surfaces.size());
     parallel_for_each_index(pinched.size(), [&](std::size_t s) {
-        if (!scope.stopped()) pinched[s] = pinched_vertices(scope, scope.brep().surfaces[s], scope.model().faces[s]);
+        if (!scope.stopped()) pinched[s] = pinched_vertices(scope, static_cast<std::uint32_t>(s));
     });
     if (scope.model().stated) report_stated_manifold(scope, pinched, findings);
     else report_loose_manifold(scope, pinched, findings);

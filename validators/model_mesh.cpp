@@ -88,6 +88,7 @@ void check_flat_triangles(const ModelScope& scope, std::vector<Finding>& finding
 void check_repeats(const ModelScope& scope, std::vector<Finding>& findings) {
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
+        if (!scope.has_twin_nodes(s) && scope.model().faces[s].duplicate.empty()) return std::nullopt;  // no two have the same nodes
         struct Key {
             std::array<std::uint32_t, 3> lowest;  // enough to find candidates; the whole decides
             std::uint32_t polygon;

@@ -16,85 +16,33 @@ namespace geomend::validators {
 
 namespace {
 
-/// Surfaces that are judged by the same lengths, with vertices of their own: what lies in other clusters is farther off than any
-/// search goes.
-struct Neighbours {
+/// The free borders of surfaces that are judged by the same lengths: what lies in other clusters is farther off than any search goes.
+struct Borders {
     Lengths lengths;
-    std::vector<Vec3> vertices;
-    std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> surfaces;                 ///< per triangle
-    std::vector<std::array<std::uint32_t, 2>> edges;     ///< of free borders
-    std::vector<std::uint32_t> edge_surfaces;            ///< the surface that each belongs to
-    std::vector<std::array<std::uint32_t, 2>> in_model;  ///< per edge its vertices in the model
-    std::vector<std::uint32_t> triangle_in_model;
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< vertices in the model
+    std::vector<std::uint32_t> surfaces;              ///< the surface that each belongs to
 };
 
-/// Numbers from 0 for those of a larger range that are asked for.
-class Renumbering {
-public:
-    explicit Renumbering(std::size_t range) : number_(range, no_index) {}
-    std::uint32_t of(std::uint32_t i) {
-        if (number_[i] == no_index) {
-            number_[i] = static_cast<std::uint32_t>(known_.size());
-            known_.push_back(i);
-        }
-        return number_[i];
-    }
-    std::span<const std::uint32_t> known() const { return known_; }
-    void forget() {
-        for (const std::uint32_t i : known_) number_[i] = no_index;
-        known_.clear();
-    }
-
-private:
-    std::vector<std::uint32_t> number_, known_;
-};
-
-/// The surfaces of a model by the clusters that they are judged in.
-std::vector<Neighbours> neighbours_of(const ModelScope& scope) {
+/// The free borders of a model by the lengths that they are judged by.
+std::vector<Borders> borders_by_lengths(const ModelScope& scope) {
     const auto surfaces = static_cast<std::uint32_t>(scope.brep().surfaces.size());
     std::map<std::array<double, 3>, std::uint32_t> known;
-    std::vector<Neighbours> all;
-    std::vector<std::vector<std::uint32_t>> members;
+    std::vector<Borders> all;
     std::vector<std::uint32_t> place(surfaces);
     for (std::uint32_t s = 0; s < surfaces; ++s) {
         const Lengths& l = scope.lengths(s);
         const auto [at, is_new] = known.try_emplace({l.tolerance, l.near, l.flatness}, static_cast<std::uint32_t>(all.size()));
-        if (is_new) {
-            all.emplace_back().lengths = l;
-            members.emplace_back();
-        }
+        if (is_new) all.emplace_back().lengths = l;
         place[s] = at->second;
-        members[at->second].push_back(s);
     }
-    std::vector<std::vector<std::array<std::uint32_t, 3>>> edges(all.size());  // low, high, surface
     const auto& graph = scope.model().graph;
     for (const auto& edge : graph.edges) {
         if (edge.line == no_index || scope.free_lines()[edge.line] == 0) continue;
         for (const auto& use : graph.edge_uses(edge)) {
-            if (use.surface != no_index) edges[place[use.surface]].push_back({use.low, use.high, use.surface});
+            if (use.surface == no_index) continue;
+            all[place[use.surface]].edges.push_back({use.low, use.high});
+            all[place[use.surface]].surfaces.push_back(use.surface);
         }
-    }
-    Renumbering vertex(scope.brep().vertices.size());
-    for (std::size_t n = 0; n < all.size(); ++n) {
-        Neighbours& some = all[n];
-        for (const std::uint32_t s : members[n]) {
-            for (std::uint32_t t = scope.first_triangle(s); t < scope.first_triangle(s + 1); ++t) {
-                const auto& [a, b, c] = scope.triangles()[t];
-                const std::uint32_t u = vertex.of(a), v = vertex.of(b), w = vertex.of(c);
-                some.triangles.push_back({u, v, w});
-                some.surfaces.push_back(s);
-                some.triangle_in_model.push_back(t);
-            }
-        }
-        for (const auto& [low, high, surface] : edges[n]) {
-            const std::uint32_t u = vertex.of(low), v = vertex.of(high);
-            some.edges.push_back({u, v});
-            some.edge_surfaces.push_back(surface);
-            some.in_model.push_back({low, high});
-        }
-        for (const std::uint32_t v : vertex.known()) some.vertices.push_back(scope.brep().vertices[v]);
-        vertex.forget();
     }
     return all;
 }
@@ -142,19 +90,19 @@ bool runs_along(const ModelScope& scope, const std::array<Vec3, 2>& edge, std::u
 
 /// A surface that ends on another one within the tolerance, and how it does that.
 Finding touch_finding(const ModelScope& scope, std::uint32_t border, std::uint32_t other, std::span<const NearMiss> misses,
-                      const Neighbours& some) {
+                      const Borders& some) {
     const double tolerance = some.lengths.tolerance;
     bool one_point = true, lies_on = false;
     for (const NearMiss& miss : misses.first(std::min(misses.size(), listed_elements))) {
         const Vec3 d = minus(miss.on_edge, misses[0].on_edge);
         one_point = one_point && dot(d, d) <= 4 * tolerance * tolerance;
-        const auto& edge = some.in_model[miss.border_edge];
+        const auto& edge = some.edges[miss.border_edge];
         const auto& v = scope.brep().vertices;
         one_point = one_point && !runs_along(scope, {v[edge[0]], v[edge[1]]}, other);
         for (std::uint32_t t = scope.first_triangle(border); t < scope.first_triangle(border + 1) && !lies_on; ++t) {
             const auto has = [&](std::uint32_t end) { return std::ranges::find(scope.triangles()[t], end) != scope.triangles()[t].end(); };
-            lies_on = has(edge[0]) && has(edge[1]) &&
-                      lie_on_each_other(triangle_at(scope, t), triangle_at(scope, some.triangle_in_model[miss.triangle]), tolerance);
+            lies_on =
+                has(edge[0]) && has(edge[1]) && lie_on_each_other(triangle_at(scope, t), triangle_at(scope, miss.triangle), tolerance);
         }
     }
     const std::string a = quoted(scope.brep().surfaces[border].name), b = quoted(scope.brep().surfaces[other].name);
@@ -168,13 +116,12 @@ Finding touch_finding(const ModelScope& scope, std::uint32_t border, std::uint32
     return touch;
 }
 
-void tell_borders(const ModelScope& scope, const Neighbours& some, const TriangleTree& tree, Reported& reported,
-                  std::vector<Finding>& findings) {
+void report_borders(const ModelScope& scope, const Borders& some, const SurfaceDistance& soup, Reported& reported,
+                    std::vector<Finding>& findings) {
     const double tolerance = some.lengths.tolerance;
     // In a basin that is a hundred times as wide as it is thick borders leave surfaces more slowly than in a cube.
     const double slow = 0.05 * some.lengths.flatness;
-    const auto misses =
-        near_misses(tree, some.surfaces, some.edges, some.edge_surfaces, some.lengths.near, scope.monitor(), tolerance, slow);
+    const auto misses = near_misses(soup, some.edges, some.surfaces, some.lengths.near, scope.monitor(), tolerance, slow);
     struct Pair {
         double smallest = 0, largest = 0;
         Finding finding;
@@ -182,7 +129,7 @@ void tell_borders(const ModelScope& scope, const Neighbours& some, const Triangl
     };
     std::map<std::pair<std::uint32_t, std::uint32_t>, Pair> pairs;
     for (const NearMiss& miss : misses) {
-        const std::uint32_t border = some.edge_surfaces[miss.border_edge], other = some.surfaces[miss.triangle];
+        const std::uint32_t border = some.surfaces[miss.border_edge], other = scope.surface_of(miss.triangle);
         Pair& pair = pairs[{border, other}];
         if (miss.distance <= tolerance) {
             pair.touches.push_back(miss);
@@ -219,10 +166,24 @@ void tell_borders(const ModelScope& scope, const Neighbours& some, const Triangl
     }
 }
 
-void tell_surfaces(const ModelScope& scope, const Neighbours& some, const TriangleTree& tree, const Reported& reported,
-                   std::vector<Finding>& findings) {
-    bool cut_short = false;
-    for (const ClosePair& close : closest_pairs(tree, some.surfaces, some.lengths.near, scope.monitor(), &cut_short)) {
+/// B24 where the search was cut short, one for each length.
+void report_cut_short(const ModelScope& scope, std::span<const std::uint32_t> surfaces, std::vector<Finding>& findings) {
+    std::set<double> lengths;
+    for (const std::uint32_t s : surfaces) lengths.insert(scope.lengths(s).near);
+    for (const double near : lengths) {
+        Finding finding = finding_of("B24", "the search length, " + rounded(near) +
+                                                ", is many times the edges of triangles in places: there not all that is near was looked "
+                                                "at; check again with a smaller --near");
+        finding.count = 1;
+        findings.push_back(std::move(finding));
+    }
+}
+
+void report_surfaces(const ModelScope& scope, const SurfaceDistance& soup, const Reported& reported, std::vector<Finding>& findings) {
+    std::vector<double> near;
+    for (std::uint32_t s = 0; s < scope.brep().surfaces.size(); ++s) near.push_back(scope.lengths(s).near);
+    const ClosePairs found = closest_pairs(soup, near, scope.monitor());
+    for (const ClosePair& close : found.pairs) {
         if (reported.has(close.group_a, close.group_b)) continue;
         const auto& a = scope.brep().surfaces[close.group_a];
         const auto& b = scope.brep().surfaces[close.group_b];
@@ -235,12 +196,7 @@ void tell_surfaces(const ModelScope& scope, const Neighbours& some, const Triang
         finding.measures = {{"gap", close.distance}};
         findings.push_back(std::move(finding));
     }
-    if (!cut_short) return;
-    Finding finding = finding_of("B24", "the search length, " + rounded(some.lengths.near) +
-                                            ", is many times the edges of triangles in places: there not all that is near was looked at; "
-                                            "check again with a smaller --near");
-    finding.count = 1;
-    findings.push_back(std::move(finding));
+    report_cut_short(scope, found.cut_short, findings);
 }
 
 }  // namespace
@@ -248,13 +204,15 @@ void tell_surfaces(const ModelScope& scope, const Neighbours& some, const Triang
 void check_near_misses(const ModelScope& scope, std::vector<Finding>& findings) {
     // Where very many surfaces lie across each other everything is near everything, and that has been told.
     if (std::ranges::any_of(findings, [](const Finding& f) { return f.code == "B08" && f.entities.empty(); })) return;
+    if (scope.triangles().empty() || scope.stopped()) return;
+    std::vector<std::uint32_t> surface_of;
+    for (std::uint32_t s = 0; s < scope.brep().surfaces.size(); ++s) surface_of.resize(scope.first_triangle(s + 1), s);
+    const SurfaceDistance soup(scope.tree(), surface_of);
     Reported reported(findings);
-    for (const Neighbours& some : neighbours_of(scope)) {
-        if (some.lengths.near <= 0 || some.triangles.empty() || scope.stopped()) continue;
-        const TriangleTree tree(some.vertices, some.triangles);
-        tell_borders(scope, some, tree, reported, findings);
-        tell_surfaces(scope, some, tree, reported, findings);
+    for (const Borders& some : borders_by_lengths(scope)) {
+        if (some.lengths.near > 0 && !scope.stopped()) report_borders(scope, some, soup, reported, findings);
     }
+    if (!scope.stopped()) report_surfaces(scope, soup, reported, findings);
 }
 
 }  // namespace geomend::validators

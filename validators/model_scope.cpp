@@ -148,6 +148,21 @@ ModelScope::ModelScope(const Dataset& dataset, const topology::JudgedModel& mode
     }
     free_line_.resize(b.lines.size());
     for (std::size_t l = 0; l < uses.size(); ++l) free_line_[l] = uses[l] == 1 ? 1 : 0;
+    find_twin_nodes();
+}
+
+void ModelScope::find_twin_nodes() {
+    const BrepData& b = brep();
+    has_twin_nodes_.resize(b.surfaces.size());
+    std::vector<std::uint32_t> last_surface(b.vertices.size(), no_index), last_node(b.vertices.size());
+    for (std::uint32_t s = 0; s < b.surfaces.size(); ++s) {
+        for (const std::uint32_t node : b.surfaces[s].polygons.corners) {
+            const std::uint32_t v = b.surfaces[s].nodes[node].value;
+            if (last_surface[v] == s && last_node[v] != node) has_twin_nodes_[s] = 1;
+            last_surface[v] = s;
+            last_node[v] = node;
+        }
+    }
 }
 
 const TriangleTree& ModelScope::tree() const {

@@ -54,6 +54,8 @@ public:
     const Vec3& vertex_of_node(const BrepData::Surface& surface, std::uint32_t node) const {
         return brep().vertices[surface.nodes[node].value];
     }
+    /// Whether two nodes of the surface that polygons use are one vertex.
+    bool has_twin_nodes(std::uint32_t surface) const { return has_twin_nodes_[surface] != 0; }
     /// A search tree over triangles(), made when first asked for. Not for several threads at once.
     const TriangleTree& tree() const;
     /// Where the lines of one surface alone run: its free borders.
@@ -67,7 +69,9 @@ private:
     std::vector<std::array<std::uint32_t, 3>> triangles_;
     std::vector<std::uint32_t> first_triangle_;  // per surface, and the end
     std::vector<std::uint32_t> polygon_;         // per triangle; empty where all polygons are triangles
-    std::vector<std::uint8_t> free_line_;
+    std::vector<std::uint8_t> free_line_, has_twin_nodes_;
+
+    void find_twin_nodes();
     mutable std::unique_ptr<TriangleTree> tree_;
 };
 

@@ -65,6 +65,37 @@ std::vector<Corners> polygons_of(const BrepData& brep) {
     return polygons;
 }
 
+bool surfaces_are_whole(const ModelScope& scope) {
+    const BrepData& brep = scope.brep();
+    std::vector<std::uint32_t> piece_of;
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        if (topology::number_pieces(brep.surfaces[s], scope.model().faces[s], piece_of) > 1) return false;
+    }
+    return true;
+}
+
+/// What the pieces of all surfaces part space into. \param source per piece its surface
+topology::FoundRegions regions_of_pieces(const ModelScope& scope, std::vector<std::uint32_t>& source) {
+    const BrepData& brep = scope.brep();
+    BrepData parts;
+    parts.vertices = brep.vertices;
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (auto& piece : topology::pieces_of(brep.surfaces[s], scope.model().faces[s])) {
+            piece.surface.lines.clear();
+            piece.surface.neighbours.clear();
+            parts.surfaces.push_back(std::move(piece.surface));
+            source.push_back(s);
+        }
+    }
+    std::vector<topology::FaceEdges> faces;
+    for (auto& part : parts.surfaces) faces.push_back(topology::connect_polygons(part));
+    const auto graph = topology::build_lines(parts, faces, {});
+    const auto cones = topology::cone_volumes(parts, faces);
+    std::vector<double> tolerances;
+    for (const std::uint32_t s : source) tolerances.push_back(s < scope.model().tolerances.size() ? scope.model().tolerances[s] : 0);
+    return topology::find_regions(parts, graph, cones, tolerances);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> regions_with_bare_facets(const ModelScope& scope) {
@@ -104,32 +135,24 @@ std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope) {
     }
     if (!has_inner) return volumes;
 
-    BrepData parts;
-    parts.vertices = brep.vertices;
-    std::vector<std::uint32_t> source;  // per part its surface
-    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
-        for (auto& piece : topology::pieces_of(brep.surfaces[s], scope.model().faces[s])) {
-            piece.surface.lines.clear();
-            piece.surface.neighbours.clear();
-            parts.surfaces.push_back(std::move(piece.surface));
-            source.push_back(s);
+    const auto count = [&](const topology::FoundRegions& found, const auto& surface_of) {
+        for (const auto& volume : found.regions) {
+            for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
+                if (sides[r].empty()) continue;
+                const bool is_inside = std::ranges::all_of(volume, [&](const auto& side) {
+                    return sides[r].contains({surface_of(side.surface.value), side.front});
+                });
+                volumes[r] += is_inside ? 1 : 0;
+            }
         }
-    }
-    std::vector<topology::FaceEdges> faces;
-    for (auto& part : parts.surfaces) faces.push_back(topology::connect_polygons(part));
-    const auto graph = topology::build_lines(parts, faces, {});
-    const auto cones = topology::cone_volumes(parts, faces);
-    std::vector<double> tolerances;
-    for (const std::uint32_t s : source) tolerances.push_back(s < scope.model().tolerances.size() ? scope.model().tolerances[s] : 0);
-    const auto found = topology::find_regions(parts, graph, cones, tolerances);
-    for (const auto& volume : found.regions) {
-        for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
-            if (sides[r].empty()) continue;
-            const bool is_inside = std::ranges::all_of(volume, [&](const auto& side) {
-                return sides[r].contains({source[side.surface.value], side.front});
-            });
-            volumes[r] += is_inside ? 1 : 0;
-        }
+    };
+    // Surfaces in one piece each part space as they were found to already.
+    if (surfaces_are_whole(scope)) {
+        count(scope.model().found, [](std::uint32_t s) { return s; });
+    } else {
+        std::vector<std::uint32_t> source;  // per piece its surface
+        const auto found = regions_of_pieces(scope, source);
+        count(found, [&](std::uint32_t piece) { return source[piece]; });
     }
     return volumes;
 }

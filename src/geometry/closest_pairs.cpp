@@ -34,8 +34,10 @@ struct Place {
 /// Finds places from the vertices and edges of some triangles.
 class PlaceSearch {
 public:
-    PlaceSearch(const SurfaceDistance& soup, std::span<const std::uint32_t> four_groups, double near, std::vector<Place>& places)
-        : soup_(soup), four_groups_(four_groups), near_(near), around_(soup.tree()), places_(places) {}
+    /// \param near of each group
+    PlaceSearch(const SurfaceDistance& soup, std::span<const std::uint32_t> four_groups, std::span<const double> near,
+                std::vector<Place>& places)
+        : soup_(soup), four_groups_(four_groups), near_of_(near), around_(soup.tree()), places_(places) {}
 
     /// False when there are too many triangles near those of the chunk.
     bool run(std::size_t block) {
@@ -43,11 +45,16 @@ public:
         const std::size_t first = block * fours_per_block, last = std::min(fours.size(), first + fours_per_block);
         std::uint32_t own = four_groups_[first];
         for (std::size_t four = first; four != last; ++four) own = four_groups_[four] == own ? own : mixed;
-        around_.collect(soup_.tree().widened(outer_box(fours, first, last), near_),
+        double farthest = 0;
+        for (std::size_t i = 4 * first; i < std::min(4 * last, soup_.tree().size()); ++i)
+            farthest = std::max(farthest, near_of_[soup_.group(static_cast<std::uint32_t>(i))]);
+        around_.collect(soup_.tree().widened(outer_box(fours, first, last), farthest),
                         [&](std::size_t four) { return own == mixed || four_groups_[four] != own; });
-        if (around_.empty()) return true;
+        if (around_.empty() || !(farthest > 0)) return true;
         for (std::size_t i = 4 * first; i < std::min(4 * last, soup_.tree().size()); ++i) {
             const auto t = static_cast<std::uint32_t>(i);
+            near_ = near_of_[soup_.group(t)];
+            if (!(near_ > 0)) continue;
             find_others(t);
             pairs_ += others_.size();
             if (pairs_ > most_pairs_per_chunk) return false;
@@ -62,7 +69,8 @@ public:
 private:
     const SurfaceDistance& soup_;
     const std::span<const std::uint32_t> four_groups_;
-    const double near_;
+    const std::span<const double> near_of_;
+    double near_ = 0;  ///< of the triangle at hand
     Neighbourhood around_;
     std::vector<Place>& places_;
     std::size_t pairs_ = 0;              ///< that were looked at
@@ -72,10 +80,14 @@ private:
     /// Those that share a vertex with the triangle come closer to it wherever one starts.
     void find_others(std::uint32_t t) {
         others_.clear();
-        around_.visit_triangles(soup_.tree().widened(box_of(t), near_), [&](std::size_t i) {
-            const auto other = static_cast<std::uint32_t>(i);
-            if (soup_.group(other) != soup_.group(t) && !share_a_vertex(t, other)) others_.push_back(other);
-        });
+        const std::uint32_t own = soup_.group(t);
+        around_.visit_triangles(
+            soup_.tree().widened(box_of(t), near_), [&](std::size_t four) { return four_groups_[four] != own; },
+            [&](std::size_t i) {
+                const auto other = static_cast<std::uint32_t>(i);
+                const std::uint32_t group = soup_.group(other);
+                if (group != own && near_of_[group] == near_ && !share_a_vertex(t, other)) others_.push_back(other);
+            });
     }
     Box box_of(std::uint32_t t) const { return soup_.tree().levels().front()[t / 4].box(t % 4); }
     bool share_a_vertex(std::uint32_t a, std::uint32_t b) const {
@@ -218,7 +230,8 @@ private:
 
 class PairSearch {
 public:
-    PairSearch(const SurfaceDistance& soup, double near) : soup_(soup), near_(near) {}
+    /// \param near of each group
+    PairSearch(const SurfaceDistance& soup, std::span<const double> near) : soup_(soup), near_of_(near) {}
 
     /// False when stopped.
     bool find_places(const Monitor* monitor) {
@@ -229,12 +242,14 @@ public:
         std::vector<std::uint8_t> crowded(parts.size(), 0);
         parallel_for_each_index(parts.size(), [&](std::size_t part) {
             if (monitor != nullptr && monitor->stopped()) return;
-            PlaceSearch search(soup_, groups, near_, parts[part]);
+            PlaceSearch search(soup_, groups, near_of_, parts[part]);
             const std::size_t last = std::min(blocks, (part + 1) * blocks_per_chunk);
             for (std::size_t block = part * blocks_per_chunk; block != last && crowded[part] == 0; ++block)
                 crowded[part] = search.run(block) ? 0 : 1;
         });
-        cut_short_ = std::ranges::find(crowded, 1) != crowded.end();
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            if (crowded[part] != 0) note_groups(part);
+        }
         for (const auto& part : parts) places_.insert(places_.end(), part.begin(), part.end());
         std::ranges::sort(places_, [](const Place& p, const Place& q) {
             if (p.group_a != q.group_a) return p.group_a < q.group_a;
@@ -245,7 +260,13 @@ public:
         return monitor == nullptr || !monitor->stopped();
     }
 
-    bool was_cut_short() const { return cut_short_; }
+    /// The groups near which not everything was looked at, ascending.
+    std::vector<std::uint32_t> cut_short() {
+        std::ranges::sort(cut_short_);
+        const auto repeats = std::ranges::unique(cut_short_);
+        cut_short_.erase(repeats.begin(), repeats.end());
+        return cut_short_;
+    }
 
     std::vector<ClosePair> pairs(const Monitor* monitor) {
         std::vector<std::size_t> first;  // place of each two groups
@@ -260,7 +281,9 @@ public:
             const auto miss = closest_miss(std::span(places_).subspan(first[i], first[i + 1] - first[i]), crowded[i]);
             if (miss != nullptr) found[i].push_back(pair_at(*miss));
         });
-        cut_short_ = cut_short_ || std::ranges::find(crowded, 1) != crowded.end();
+        for (std::size_t i = 0; i < crowded.size(); ++i) {
+            if (crowded[i] != 0) cut_short_.insert(cut_short_.end(), {places_[first[i]].group_a, places_[first[i]].group_b});
+        }
         std::vector<ClosePair> list;
         for (const auto& pair : found) list.insert(list.end(), pair.begin(), pair.end());
         return monitor == nullptr || !monitor->stopped() ? list : std::vector<ClosePair>{};
@@ -268,9 +291,17 @@ public:
 
 private:
     const SurfaceDistance& soup_;
-    const double near_;
+    const std::span<const double> near_of_;
     std::vector<Place> places_;  ///< by groups, then the closest first
-    bool cut_short_ = false;
+    std::vector<std::uint32_t> cut_short_;
+
+    void note_groups(std::size_t part) {
+        const std::size_t size = 4 * fours_per_block * blocks_per_chunk, last = std::min(soup_.tree().size(), (part + 1) * size);
+        for (std::size_t i = part * size; i < last; ++i) {
+            const std::uint32_t group = soup_.group(static_cast<std::uint32_t>(i));
+            if (cut_short_.empty() || cut_short_.back() != group) cut_short_.push_back(group);
+        }
+    }
 
     std::vector<std::uint32_t> groups_of_fours(std::size_t count) const {
         std::vector<std::uint32_t> groups(count);
@@ -291,13 +322,18 @@ private:
     /// The closest place from which no short way leads to where the groups meet; null where there is none.
     const Place* closest_miss(std::span<const Place> places, std::uint8_t& crowded) const {
         std::vector<const Place*> joined;
+        const double near = near_of_[places.front().group_a];
+        const auto within_near = [&](const Vec3& p, const Vec3& q) {
+            const Vec3 d = minus(p, q);
+            return dot(d, d) < near * near;
+        };
         for (const Place& place : places) {
             const auto is_beside = [&](const Place* other) {
                 return within_near(place.closest.on_first, other->closest.on_first) &&
                        within_near(place.closest.on_second, other->closest.on_second);
             };
             if (std::ranges::any_of(joined, is_beside)) continue;
-            if (!leads_to_meeting(soup_, place.triangle_a, place.triangle_b, place.closest.on_first, near_)) return &place;
+            if (!leads_to_meeting(soup_, place.triangle_a, place.triangle_b, place.closest.on_first, near)) return &place;
             joined.push_back(&place);
             if (joined.size() < most_walks) continue;
             crowded = 1;
@@ -305,29 +341,26 @@ private:
         }
         return nullptr;
     }
-
-    bool within_near(const Vec3& p, const Vec3& q) const {
-        const Vec3 d = minus(p, q);
-        return dot(d, d) < near_ * near_;
-    }
 };
 
 }  // namespace
 
-std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const std::uint32_t> groups, double near, const Monitor* monitor,
-                                     bool* cut_short) {
-    if (tree.size() == 0 || !(near > 0)) return {};
-    const SurfaceDistance soup(tree, groups);
+ClosePairs closest_pairs(const SurfaceDistance& soup, std::span<const double> near, const Monitor* monitor) {
+    if (soup.tree().size() == 0) return {};
     PairSearch search(soup, near);
     if (!search.find_places(monitor)) return {};
-    std::vector<ClosePair> pairs = search.pairs(monitor);
-    if (cut_short != nullptr) *cut_short = search.was_cut_short();
-    return pairs;
+    ClosePairs found;
+    found.pairs = search.pairs(monitor);
+    found.cut_short = search.cut_short();
+    return found;
 }
 
-std::vector<ClosePair> closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                                     std::span<const std::uint32_t> groups, double near, const Monitor* monitor) {
-    return closest_pairs(TriangleTree(vertices, triangles), groups, near, monitor);
+ClosePairs closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const std::uint32_t> groups,
+                         double near, const Monitor* monitor) {
+    const TriangleTree tree(vertices, triangles);
+    const std::uint32_t last = groups.empty() ? 0 : *std::ranges::max_element(groups);
+    const std::vector<double> all(std::size_t{last} + 1, near);
+    return closest_pairs(SurfaceDistance(tree, groups), all, monitor);
 }
 
 }  // namespace geomend

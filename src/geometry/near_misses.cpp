@@ -357,11 +357,10 @@ private:
 
 }  // namespace
 
-std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const std::uint32_t> groups, std::span<const Edge> border_edges,
+std::vector<NearMiss> near_misses(const SurfaceDistance& soup, std::span<const Edge> border_edges,
                                   std::span<const std::uint32_t> border_groups, double near, const Monitor* monitor, double touching,
                                   double slow) {
-    if (border_edges.empty() || tree.size() == 0 || !(near > 0)) return {};
-    const SurfaceDistance soup(tree, groups);
+    if (border_edges.empty() || soup.tree().size() == 0 || !(near > 0)) return {};
     BorderSearch search(soup, border_edges, border_groups, near, touching, slow);
     if (!search.find_candidates(monitor)) return {};
     search.spread();
@@ -374,7 +373,8 @@ std::vector<NearMiss> near_misses(std::span<const Vec3> vertices, std::span<cons
                                   std::span<const std::uint32_t> groups, std::span<const Edge> border_edges,
                                   std::span<const std::uint32_t> border_groups, double near, const Monitor* monitor) {
     if (border_edges.empty()) return {};
-    return near_misses(TriangleTree(vertices, triangles), groups, border_edges, border_groups, near, monitor);
+    const TriangleTree tree(vertices, triangles);
+    return near_misses(SurfaceDistance(tree, groups), border_edges, border_groups, near, monitor);
 }
 
 }  // namespace geomend

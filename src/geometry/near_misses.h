@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/monitor.h"
+#include "geometry/surface_distance.h"
 #include "geometry/triangle_tree.h"
 
 namespace geomend {
@@ -42,10 +43,10 @@ struct NearMiss {
 /// \param touching what is no farther off touches: it is told alone, as what touches by exact predicates is not told
 /// \param slow a border that is no farther off than this part of the way along it since both met leaves too slowly
 /// \pre arrays agree in length, indices are in range, coordinates finite, fewer than 1.4e9 triangles
-/// Cost: as the number of border edges, times the triangles within `near` of one; 18 bytes per triangle besides the tree.
-std::vector<NearMiss> near_misses(const TriangleTree& tree, std::span<const std::uint32_t> groups,
-                                  std::span<const std::array<std::uint32_t, 2>> border_edges, std::span<const std::uint32_t> border_groups,
-                                  double near, const Monitor* monitor = nullptr, double touching = 0, double slow = 0.05);
+/// Cost: as the number of border edges, times the triangles within `near` of one.
+std::vector<NearMiss> near_misses(const SurfaceDistance& soup, std::span<const std::array<std::uint32_t, 2>> border_edges,
+                                  std::span<const std::uint32_t> border_groups, double near, const Monitor* monitor = nullptr,
+                                  double touching = 0, double slow = 0.05);
 /// The same, with a tree of its own.
 std::vector<NearMiss> near_misses(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                   std::span<const std::uint32_t> groups, std::span<const std::array<std::uint32_t, 2>> border_edges,
@@ -59,19 +60,25 @@ struct ClosePair {
     Vec3 on_a, on_b;                       ///< the two closest points
 };
 
-/// For each two groups the closest place where the distance is smallest, as above; ascending by group_a, then group_b. Left out
+/// What was found, and where the search was cut short.
+struct ClosePairs {
+    std::vector<ClosePair> pairs;          ///< ascending by group_a, then group_b
+    std::vector<std::uint32_t> cut_short;  ///< groups near which not everything was looked at, ascending
+};
+
+/// For each two groups the closest place where the distance is smallest, as above. Left out
 /// are places that are joined: from where a way leads over both surfaces to where they meet or where a third group joins them
 /// (two contact lines on a fault), with never more than `near` between the two and no farther than 10 `near` from the place;
 /// and places within `near` of one that is left out. See leads_to_meeting().
-/// Parameters as for near_misses(). Cost: as the number of vertices, times the triangles within `near` of one, and some
+/// Cost: as the number of vertices, times the triangles within `near` of one, and some
 /// milliseconds for each place that is looked at: 20 microseconds for each vertex where `near` is three edges long, 1 where it is
 /// shorter than an edge. Where `near` is so much longer than the edges that everything is near everything, the search is cut short:
 /// it looks at some hundred triangles for each, and at a thousand places for each two groups.
-/// \param cut_short if not null, tells whether it was
-std::vector<ClosePair> closest_pairs(const TriangleTree& tree, std::span<const std::uint32_t> groups, double near,
-                                     const Monitor* monitor = nullptr, bool* cut_short = nullptr);
-/// The same, with a tree of its own.
-std::vector<ClosePair> closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                                     std::span<const std::uint32_t> groups, double near, const Monitor* monitor = nullptr);
+/// \param near of each group; only groups with the same length, more than 0, are compared
+/// \param monitor as for near_misses()
+ClosePairs closest_pairs(const SurfaceDistance& soup, std::span<const double> near, const Monitor* monitor = nullptr);
+/// The same with one length for all, and a tree of its own.
+ClosePairs closest_pairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const std::uint32_t> groups,
+                         double near, const Monitor* monitor = nullptr);
 
 }  // namespace geomend

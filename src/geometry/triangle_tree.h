@@ -175,13 +175,14 @@ public:
     bool empty() const { return fours_.empty(); }
 
     /// Calls visit(i) for each triangle in the tree's order, ascending, whose box overlaps the given one and that is in one of the
-    /// fours taken.
-    template <class Visit>
-    void visit_triangles(const Box& box, const Visit& visit) const {
+    /// fours taken for which keep(four) holds.
+    template <class Keep, class Visit>
+    void visit_triangles(const Box& box, const Keep& keep, const Visit& visit) const {
         const std::vector<FourBoxes>& triangles = tree_.levels().front();
         for (std::size_t group = 0; group < boxes_.size(); ++group) {
             visit_bits(boxes_[group].overlapping(box), [&](std::size_t k) {
                 const std::size_t four = fours_[4 * group + k];
+                if (!keep(four)) return;
                 visit_bits(triangles[four].overlapping(box), [&](std::size_t m) { visit(4 * four + m); });
             });
         }

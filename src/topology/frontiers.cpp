@@ -196,7 +196,7 @@ public:
 
     /// The smallest shell with a volume, of another group, around a shell; or nothing.
     std::optional<std::size_t> around(const Shell& inner) {
-        if (!several_) return std::nullopt;
+        if (!several_ || !another_group_is_around(inner)) return std::nullopt;
         if (!ray_) ray_.emplace(brep_);
         // Points inside polygons, so that they are on no other shell even where the two touch.
         constexpr std::size_t attempts = 20;  // a polygon on another surface: there is no answer then
@@ -214,6 +214,40 @@ public:
     }
 
 private:
+    /// A box along the axes around the vertices of a group of surfaces.
+    struct Extent {
+        Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    };
+
+    /// False only where no other group reaches around the whole group of a shell. Rays answer for very many groups.
+    bool another_group_is_around(const Shell& inner) {
+        constexpr std::size_t many = 1000;
+        if (extents_.empty()) measure_groups();
+        if (extents_.size() > many) return true;
+        const Extent& own = extents_.at(inner.group);
+        return std::ranges::any_of(extents_, [&](const auto& other) {
+            const auto& [group, extent] = other;
+            bool around = group != inner.group;
+            for (std::size_t k = 0; k < 3; ++k) around = around && extent.low[k] <= own.low[k] && own.high[k] <= extent.high[k];
+            return around;
+        });
+    }
+
+    void measure_groups() {
+        for (const Shell& shell : shells_) {
+            Extent& extent = extents_[shell.group];
+            for (const auto& side : shell.sides) {
+                if (!side.front) continue;  // both sides have the same vertices
+                for (const VertexId v : brep_.surfaces[side.surface.value].nodes) {
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        extent.low[k] = std::min(extent.low[k], brep_.vertices[v.value][k]);
+                        extent.high[k] = std::max(extent.high[k], brep_.vertices[v.value][k]);
+                    }
+                }
+            }
+        }
+    }
+
     Vec3 point_inside(const BrepData::Surface& surface, std::size_t p) const {
         const auto polygon = surface.polygons[p];
         const auto at = [&](std::size_t k) { return brep_.vertices[surface.nodes[polygon[k]].value]; };
@@ -240,6 +274,7 @@ private:
     DisjointSets& groups_;
     std::vector<std::uint32_t> shell_of_side_;
     bool several_ = false;
+    std::map<std::uint32_t, Extent> extents_;  ///< per group, once asked for
     std::optional<UpwardRay> ray_;
 };
 

@@ -122,8 +122,12 @@ void Survey::measure_cluster(Cluster& cluster) const {
     }
     if (count == 0) return;
     cluster.centroid = plus(origin, weight > 0 ? times(1 / weight, weighted) : times(1 / count, plain));
+    std::size_t triangles = 0;
+    for (const std::uint32_t p : cluster.parts) triangles += parts_[p].size();
     std::vector<std::pair<double, double>> edges;
     std::vector<std::array<Vec3, 3>> faces;
+    edges.reserve(triangles);
+    faces.reserve(triangles);
     each_triangle(cluster, [&](std::uint32_t t) {
         const auto corners = used_.corners(t);
         for (const Vec3& p : corners) {

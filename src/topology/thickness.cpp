@@ -2,8 +2,10 @@
 #include "topology/thickness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "geometry/principal_axes.h"
 #include "geometry/vectors.h"
@@ -67,23 +69,33 @@ private:
 
 }  // namespace
 
-double weighted_quantile(std::span<std::pair<double, double>> lengths, double share) {
-    double wanted = 0;
-    for (const auto& [length, weight] : lengths) wanted += weight * share;
-    auto from = lengths.begin(), to = lengths.end();
-    while (to - from > 1) {
-        const auto middle = from + (to - from) / 2;
-        std::nth_element(from, middle, to);
-        double below = 0;
-        for (auto i = from; i != middle; ++i) below += i->second;
-        if (below > wanted) {
-            to = middle;
-        } else {
-            wanted -= below;
-            from = middle;
-        }
+double weighted_quantile(std::span<const std::pair<double, double>> lengths, double share) {
+    constexpr std::size_t bins = 1024;
+    double wanted = 0, low = HUGE_VAL, high = -HUGE_VAL;
+    for (const auto& [length, weight] : lengths) {
+        wanted += weight * share;
+        low = std::min(low, length);
+        high = std::max(high, length);
     }
-    return from->first;
+    // The bin that the quantile lies in, then the members of that bin in order.
+    const double scale = high > low ? bins / (high - low) : 0;
+    const auto bin_of = [&](double length) { return std::min(bins - 1, static_cast<std::size_t>(scale * (length - low))); };
+    std::array<double, bins> weights{};
+    for (const auto& [length, weight] : lengths) weights[bin_of(length)] += weight;
+    std::size_t bin = 0;
+    while (bin + 1 < bins && weights[bin] <= wanted) wanted -= weights[bin++];
+    while (weights[bin] == 0 && bin > 0) --bin;  // rounding went past the last
+    std::vector<std::pair<double, double>> members;
+    for (const auto& length : lengths) {
+        if (bin_of(length.first) == bin) members.push_back(length);
+    }
+    if (members.empty()) return high;  // no length has a weight
+    std::ranges::sort(members);
+    for (const auto& [length, weight] : members) {
+        if (wanted < weight) return length;
+        wanted -= weight;
+    }
+    return members.back().first;
 }
 
 Slab slab_of(std::span<const std::array<Vec3, 3>> triangles) {

@@ -10,9 +10,9 @@
 
 namespace geomend::topology {
 
-/// The length up to which half of the weight lies, or another share of it (0 to 1): pairs of a length and its weight, which come
-/// in another order. \pre not empty. Cost: linear.
-double weighted_quantile(std::span<std::pair<double, double>> lengths, double share);
+/// The length up to which half of the weight lies, or another share of it (0 to 1): pairs of a length and its weight.
+/// \pre not empty, lengths are finite. Cost: linear where lengths are spread, n log n where nearly all are alike.
+double weighted_quantile(std::span<const std::pair<double, double>> lengths, double share);
 
 /// The shape of a set of triangles, seen along the direction that most of its area faces.
 struct Slab {

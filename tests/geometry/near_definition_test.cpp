@@ -240,7 +240,7 @@ double move(Soup& s, Random& random, double near) {
 
 void expect_the_same(const Soup& s, double near, unsigned seed, std::map<std::string, int>& seen) {
     const auto expected = Slow(s, near).misses();
-    const auto found = closest_pairs(s.vertices, s.triangles, s.groups, near);
+    const auto found = closest_pairs(s.vertices, s.triangles, s.groups, near).pairs;
     std::map<GroupPair, double> distances;
     for (const ClosePair& p : found) {
         distances[{p.group_a, p.group_b}] = p.distance;

@@ -76,7 +76,7 @@ Found search(const Soup& s, double near) {
     return f;
 }
 
-std::vector<ClosePair> pairs(const Soup& s, double near) { return closest_pairs(s.vertices, s.triangles, s.groups, near); }
+std::vector<ClosePair> pairs(const Soup& s, double near) { return closest_pairs(s.vertices, s.triangles, s.groups, near).pairs; }
 
 /// Takes equal positions for one vertex.
 Soup welded(const Soup& s) {
@@ -466,7 +466,7 @@ TEST(NearMisses, DoNotDependOnThreadsAndCanBeStopped) {
     Monitor monitor;
     monitor.stop = &stop;
     EXPECT_TRUE(near_misses(s.vertices, s.triangles, s.groups, b.edges, b.groups, 0.5, &monitor).empty());
-    EXPECT_TRUE(closest_pairs(s.vertices, s.triangles, s.groups, 0.5, &monitor).empty());
+    EXPECT_TRUE(closest_pairs(s.vertices, s.triangles, s.groups, 0.5, &monitor).pairs.empty());
     EXPECT_TRUE(near_misses({}, {}, {}, {}, {}, 1).empty());
 }
 
@@ -561,12 +561,30 @@ TEST(ClosePairs, AreSoughtNoFurtherWhereEverythingIsNearEverything) {
     Soup s;
     for (const double z : {0.0, 0.3})
         s.add_sheet(80, 80, [&](std::uint32_t i, std::uint32_t j) { return Vec3{1.0 * i, 1.0 * j, z + 0.01 * i}; });
+    const auto within = [&](double near) { return closest_pairs(s.vertices, s.triangles, s.groups, near); };
+    EXPECT_EQ(within(2).pairs.size(), 1u);
+    EXPECT_TRUE(within(2).cut_short.empty());
+    EXPECT_EQ(within(40).cut_short, (std::vector<std::uint32_t>{0, 1}));  // several thousand triangles are as near as that
+}
+
+// Surfaces of parts that lie far from each other have lengths of their own.
+TEST(ClosePairs, AreSoughtForEachGroupWithinItsOwnLength) {
+    Soup s;
+    for (const double x : {0.0, 1e6}) {
+        for (const double z : {0.0, 0.3})
+            s.add_sheet(8, 8, [&](std::uint32_t i, std::uint32_t j) { return Vec3{x + i, 1.0 * j, z + 0.01 * i}; });
+    }
     const TriangleTree tree(s.vertices, s.triangles);
-    bool cut_short = true;
-    EXPECT_EQ(closest_pairs(tree, s.groups, 2, nullptr, &cut_short).size(), 1u);
-    EXPECT_FALSE(cut_short);
-    closest_pairs(tree, s.groups, 40, nullptr, &cut_short);  // several thousand triangles are as near as that
-    EXPECT_TRUE(cut_short);
+    const SurfaceDistance soup(tree, s.groups);
+    const auto groups_within = [&](const std::array<double, 4>& near) {
+        std::vector<std::array<std::uint32_t, 2>> found;
+        for (const ClosePair& p : closest_pairs(soup, near).pairs) found.push_back({p.group_a, p.group_b});
+        return found;
+    };
+    using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+    EXPECT_EQ(groups_within({1, 1, 2, 2}), (Pairs{{0, 1}, {2, 3}}));
+    EXPECT_EQ(groups_within({0.1, 0.1, 2, 2}), (Pairs{{2, 3}}));
+    EXPECT_EQ(groups_within({1, 1, 0, 0}), (Pairs{{0, 1}}));
 }
 
 }  // namespace

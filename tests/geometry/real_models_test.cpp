@@ -84,8 +84,7 @@ TEST_P(RealModel, HasNoIntersectionAndNoNearMiss) {
 
 // One vertex inside a surface is moved through the nearest other surface: exactly the triangles around it must be told.
 TEST_P(RealModel, AVertexMovedThroughASurfaceIsFound) {
-    const TriangleTree tree(soup_.vertices, soup_.triangles);
-    const auto close = closest_pairs(tree, soup_.groups, 10 * thousandth_of_size(soup_));
+    const auto close = closest_pairs(soup_.vertices, soup_.triangles, soup_.groups, 10 * thousandth_of_size(soup_)).pairs;
     if (close.empty()) GTEST_SKIP() << "no two surfaces are close";
     const ClosePair& pair = close.front();
     Soup s = soup_;
