@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arrangement/arrange.h"
+#include "arrangement/rough_faults.h"
 #include "asked.h"
 #include "base/parallel.h"
 #include "peak_memory.h"
@@ -130,8 +131,30 @@ std::vector<std::pair<const char*, TriangleSoup>> degenerate_soups() {
     return soups;
 }
 
+void print_rough_faults() {
+    const TriangleSoup soup = geomend::test::rough_faults_through_topography(707, 158);
+    geomend::bench::Least least;
+    std::size_t result = 0, turned = 0;
+    for (int round = 0; round < 2; ++round) {
+        std::optional<geomend::arrangement::Arrangement> cut;
+        least.take([&] { cut = std::move(*geomend::arrangement::arrange(soup, {.tolerance = 0.003})); });
+        result = cut->soup.triangles.size();
+        turned = 0;
+        for (std::size_t t = 0; t < result; ++t) {
+            const Vec3 a = geomend::test::area_vector_of(cut->soup, t);
+            const Vec3 b = geomend::test::area_vector_of(soup, cut->origin.triangles[t]);
+            if (!(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > 0)) ++turned;
+        }
+    }
+    std::printf(
+        "rough faults through a topography             asked  5.00  measured %5.2f s (%.2f on the wall): %zu -> %zu triangles, %zu "
+        "turned\n",
+        least.cpu, least.wall, soup.triangles.size(), result, turned);
+}
+
 void print_asked() {
     const geomend::ThreadBudget one_thread(1);
+    print_rough_faults();
     for (auto& [name, soup] : degenerate_soups()) {
         geomend::bench::Least least;
         std::optional<geomend::arrangement::Arrangement> result;

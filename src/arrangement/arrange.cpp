@@ -6,6 +6,7 @@
 
 #include "arrangement/cut_round.h"
 #include "arrangement/snap_grid.h"
+#include "arrangement/unfold.h"
 #include "base/parallel.h"
 #include "geometry/vectors.h"
 
@@ -122,11 +123,17 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     Snapped s = snapped(soup, options.tolerance);
     Arrangement result;
     result.clean = false;
+    constexpr unsigned most_unfoldings = 4;
+    unsigned unfoldings = 0;
     const auto stopped = [&] { return options.monitor != nullptr && options.monitor->stopped(); };
     while (!result.clean && result.rounds < options.most_rounds && !stopped()) {
         s.state.reach = reach_of_round(s.grid, options.reach, result.rounds);
         result.clean = cut_round(s.state, options.monitor);
         ++result.rounds;
+        if (result.clean && unfoldings < most_unfoldings && unfold(s.state, soup, s.grid.tolerance_steps)) {
+            ++unfoldings;
+            result.clean = false;
+        }
     }
     if (stopped()) result.clean = false;
     write_vertices(soup, s, result);

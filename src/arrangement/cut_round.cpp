@@ -369,8 +369,12 @@ void merge_ends_of_flat_triangles(CutState& state) {
 bool cut_round(CutState& state, const Monitor* monitor) {
     if (++state.rounds > patient_rounds) merge_ends_of_flat_triangles(state);
     const NearFeatures found = search(state.points.points(), state.triangles, state.is_new, state.reach, monitor);
+    return !cut_at(state, found);
+}
+
+bool cut_at(CutState& state, const NearFeatures& found) {
     const auto is_double = doubles_of(state, found);
-    if (found.on_edges.empty() && found.on_faces.empty() && found.points.empty() && is_double.empty()) return true;
+    if (found.on_edges.empty() && found.on_faces.empty() && found.points.empty() && is_double.empty()) return false;
     const auto vertex = add_points(state.points, found.points);
     std::vector<VertexOnEdge> on_edges;
     std::vector<VertexOnFace> on_faces;
@@ -386,7 +390,7 @@ bool cut_round(CutState& state, const Monitor* monitor) {
     // Points that came onto edges in the last step touch no triangle that was not touched already: segments run inside them.
     replace(state, links, jobs, lists, is_double);
     cut_edges(state, links);
-    return false;
+    return true;
 }
 
 }  // namespace geomend::arrangement

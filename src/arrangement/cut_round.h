@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "arrangement/near_features.h"
 #include "arrangement/spaced_points.h"
 #include "base/monitor.h"
 #include "geometry/triangle_pair.h"
@@ -30,5 +31,8 @@ struct CutState {
 /// Looks for what triangles have in common and cuts them there, once. True where nothing was found, so that nothing changed.
 /// Cost: near-linear; the number of rounds is 2 to 4 for most models.
 bool cut_round(CutState& state, const Monitor* monitor);
+
+/// Cuts triangles at what was found, once. False where that is nothing.
+bool cut_at(CutState& state, const NearFeatures& found);
 
 }  // namespace geomend::arrangement
