@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/text_cursor.h"
+#include "base/wording.h"
 #include "formats/drop.h"
 #include "formats/gmsh/reading.h"
 
@@ -66,19 +67,32 @@ void read_shape(Reading& r, Scanner& s, CellMesh::Entity& entity) {
 
 constexpr std::array<const char*, 4> count_names = {"number of points", "number of curves", "number of surfaces", "number of volumes"};
 
-// A boundary that names no entity is an undefined reference.
-void check_boundaries(Reading& r, Scanner& s) {
-    for (const CellMesh::Entity& entity : r.mesh.entities) {
-        for (const std::int64_t tag : entity.boundary) {
+// Gmsh saves only entities of physical groups, if there are groups, and leaves the bounds of these as they are.
+void drop_unknown_bounds(Reading& r, const Scanner& s) {
+    std::uint64_t count = 0;
+    std::string first;
+    for (CellMesh::Entity& entity : r.mesh.entities) {
+        std::erase_if(entity.boundary, [&](std::int64_t tag) {
             const bool found =
                 tag != std::numeric_limits<std::int64_t>::min() && r.entity_of.contains({entity.dimension - 1, std::abs(tag)});
-            if (found) continue;
-            s.fail("F007", "entity " + std::to_string(entity.tag) + " of dimension " + std::to_string(entity.dimension) +
-                               " is bounded by entity " + std::to_string(tag) + " of dimension " + std::to_string(entity.dimension - 1) +
-                               ", which is not defined");
-            return;
-        }
+            if (!found && count++ == 0) {
+                first = "entity " + std::to_string(entity.tag) + " of dimension " + std::to_string(entity.dimension) + " by entity " +
+                        std::to_string(tag) + " of dimension " + std::to_string(entity.dimension - 1);
+            }
+            return !found;
+        });
     }
+    if (count == 0) return;
+    drop(r.findings, r.losses,
+         {.loss_class = LossClass::identity,
+          .what = "bounds of entities",
+          .why = "the entities that they name are not in the file",
+          .count = count,
+          .where = s.location(s.position()),
+          .code = "F109",
+          .message = counted(count, "bound", "bounds") + " of entities " +
+                     (count == 1 ? "names an entity that is" : "name entities that are") +
+                     " not in the file, as where Gmsh saves only what is in physical groups: " + first});
 }
 
 }  // namespace
@@ -124,7 +138,7 @@ Result<void> read_entities(Reading& r, const Section& section) {
             read_shape(r, s, r.mesh.entities[index]);
         }
     }
-    check_boundaries(r, s);
+    if (!s.failed()) drop_unknown_bounds(r, s);
     s.expect_end();
     if (s.failed()) return s.take_failure();
     return {};

@@ -31,6 +31,25 @@ bool is_geometry(std::string_view keyword) {
     return std::ranges::any_of(words, [&](std::string_view word) { return same_word(keyword, word); });
 }
 
+/// Whether the current line, which stands in a header, begins another record of the object: entries of headers have a colon, but for
+/// some that old programs wrote.
+bool begins_a_record(TextCursor line) {
+    constexpr std::string_view words[] = {"HDR",
+                                          "GOCAD_ORIGINAL_COORDINATE_SYSTEM",
+                                          "GEOLOGICAL_FEATURE",
+                                          "GEOLOGICAL_TYPE",
+                                          "STRATIGRAPHIC_POSITION",
+                                          "PROPERTY_CLASS_HEADER",
+                                          "PROPERTIES",
+                                          "PROPERTY_CLASSES",
+                                          "NO_DATA_VALUES",
+                                          "HEADER"};
+    line.rewind_line();
+    const std::string_view text = line.line_text(), word = line.token();
+    if (word.empty() || (text.find(':') != std::string_view::npos && !text.ends_with('{'))) return false;
+    return std::ranges::any_of(words, [&](std::string_view known) { return same_word(word, known); });
+}
+
 /// The value of a header line if its key is `name`.
 std::optional<std::string_view> name_of(std::string_view entry) {
     const std::size_t colon = entry.find(':');
@@ -64,8 +83,19 @@ void ObjectHead::read_header(TextCursor& line) {
         if (closes) rest.remove_suffix(1);
         header_entry(rest);
         if (closes) return;
+        const char* next = line.next_line_begin();
+        const std::uint64_t number = line.line() + 1;
         if (!line.next_line()) break;
         rest = line.line_text();
+        if (!begins_a_record(line)) continue;
+        line.jump(next, number);
+        scanner_.log.add(
+            "F118", first, 1,
+            [&] {
+                return "this HEADER is not closed: '}' is missing before line " + std::to_string(number) + ", where it is taken to end";
+            },
+            "HEADER");
+        return;
     }
     scanner_.log.add("F012", first, 1, "this HEADER is not closed: expected '}' before the end of the object");
 }

@@ -105,7 +105,18 @@ std::vector<Attribute> PropertyLists::make_attributes(AttributeLocation location
         else log.add(what == "ESIZES" ? "F008" : "F105", line_, 0, text, what);
     };
     check_length(sizes_, 1, "ESIZES");
-    check_length(no_data_, 1, "NO_DATA_VALUES");
+    const bool one_for_all = no_data_.size() == 1 && names.size() > 1;
+    if (one_for_all) {
+        log.add(
+            "F105", line_, 0,
+            [&] {
+                return "NO_DATA_VALUES has one entry for " + std::to_string(names.size()) + " properties: " + no_data_[0] +
+                       " is taken as missing in each of them";
+            },
+            "NO_DATA_VALUES");
+    } else {
+        check_length(no_data_, 1, "NO_DATA_VALUES");
+    }
     check_length(ranges_, 2, "PROP_LEGAL_RANGES");
     check_length(units_, 1, "UNITS");
     check_length(kinds_, 1, "PROPERTY_KINDS");
@@ -126,11 +137,12 @@ std::vector<Attribute> PropertyLists::make_attributes(AttributeLocation location
         }
         components += a.components;
         double no_data = 0;
-        if (i < no_data_.size() && no_data_[i] != no_range) {
-            if (parse_real(no_data_[i], no_data) == NumberStatus::ok) a.no_data = no_data;
+        const std::size_t n = one_for_all ? 0 : i;
+        if (n < no_data_.size() && no_data_[n] != no_range) {
+            if (parse_real(no_data_[n], no_data) == NumberStatus::ok) a.no_data = no_data;
             else
                 log.add(
-                    "F005", line_, 0, [&] { return "NO_DATA_VALUES: expected a number, found '" + no_data_[i] + "'"; }, "NO_DATA");
+                    "F005", line_, 0, [&] { return "NO_DATA_VALUES: expected a number, found '" + no_data_[n] + "'"; }, "NO_DATA");
         }
         a.legal_min = range_end(entry(ranges_, 2 * i));
         a.legal_max = range_end(entry(ranges_, 2 * i + 1));

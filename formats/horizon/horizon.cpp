@@ -19,7 +19,6 @@ constexpr std::string_view irap_binary_extensions[] = {".gri", ".irapbin"};
 constexpr std::string_view zmap_extensions[] = {".zmap", ".zmp", ".dat"};
 constexpr std::string_view cps3_extensions[] = {".cps3", ".cps"};
 constexpr std::string_view cps3_lines_extensions[] = {".cps3lines", ".flt"};
-constexpr std::string_view points_extensions[] = {".irapp", ".xyz", ".poi", ".rmsattr"};
 constexpr std::string_view petrel_extensions[] = {".petrelpoints"};
 constexpr std::string_view polygons_extensions[] = {".pol", ".irapl"};
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "formats/horizon/irap_points.h"
 
+#include <algorithm>
+
 #include "formats/horizon/common.h"
 #include "formats/horizon/losses.h"
 #include "formats/horizon/point_table.h"
@@ -68,7 +70,12 @@ std::optional<Failure> read_columns(const Input& input, TextCursor& cursor, Poin
 
 }  // namespace
 
-int sniff_irap_points(std::string_view head, std::string_view) {
+bool has_points_extension(std::string_view base_name) {
+    const std::string name = lower_case(base_name);
+    return std::ranges::any_of(points_extensions, [&](std::string_view extension) { return name.ends_with(extension); });
+}
+
+int sniff_irap_points(std::string_view head, std::string_view base_name) {
     TextCursor cursor(head);
     int rows = 0;
     bool declared = false;
@@ -88,7 +95,8 @@ int sniff_irap_points(std::string_view head, std::string_view) {
         ++rows;
     }
     if (rows == 0) return 0;
-    return declared ? 60 : 30;
+    if (declared) return 60;
+    return has_points_extension(base_name) ? 30 : 0;  // any table of numbers might be points
 }
 
 Result<Dataset> read_irap_points(const Input& input, const ReadOptions& options) {

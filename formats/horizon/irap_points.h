@@ -9,6 +9,9 @@ namespace geomend::horizon {
 // "Float name", "Discrete name" or "String name"; UNDEF and -999 stand for missing. Further columns without such
 // lines become attributes "column 4", ... Rows of 999.0 999.0 999.0 begin a new part.
 
+inline constexpr std::string_view points_extensions[] = {".irapp", ".xyz", ".poi", ".rmsattr"};
+bool has_points_extension(std::string_view base_name);
+
 int sniff_irap_points(std::string_view head, std::string_view base_name);
 /// Cost: linear. Options: z.
 Result<Dataset> read_irap_points(const Input& input, const ReadOptions& options);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "formats/horizon/common.h"
+#include "formats/horizon/irap_points.h"
 #include "formats/horizon/losses.h"
 #include "formats/horizon/point_table.h"
 #include "formats/horizon/polylines.h"
@@ -112,7 +113,7 @@ void write_position(OutputFile& file, const Vec3& p) {
 
 }  // namespace
 
-int sniff_irap_polygons(std::string_view head, std::string_view) {
+int sniff_irap_polygons(std::string_view head, std::string_view base_name) {
     TextCursor cursor(head);
     bool any_separator = false;
     while (cursor.next_line()) {
@@ -125,7 +126,8 @@ int sniff_irap_polygons(std::string_view head, std::string_view) {
         if (!cursor.at_line_end()) return 0;
         any_separator = any_separator || is_separator(p);
     }
-    return any_separator ? 60 : 0;
+    // RMS ends points, too, with 999 999 999: the extension says what they are.
+    return any_separator && !has_points_extension(base_name) ? 60 : 0;
 }
 
 Result<Dataset> read_irap_polygons(const Input& input, const ReadOptions& options) {

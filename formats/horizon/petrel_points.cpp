@@ -36,8 +36,16 @@ bool take_unit(std::string_view line, CoordinateSystem& crs) {
     return true;
 }
 
+/// Where the type of a column ends: at the comma, or at the blank before a name in quotes. npos: there is no type.
+std::size_t end_of_type(std::string_view line) {
+    const std::size_t comma = line.find(','), quote = line.find('"');
+    if (quote == std::string_view::npos || comma < quote || !line.ends_with('"')) return comma;
+    const std::size_t blank = line.find_first_of(" \t");
+    return blank < quote ? blank : std::string_view::npos;
+}
+
 std::optional<PointColumn> declared_column(std::string_view line) {
-    const std::size_t comma = line.find(',');
+    const std::size_t comma = end_of_type(line);
     if (comma == std::string_view::npos) {
         if (same_word(line, "X")) return PointColumn{Kind::x, "x", {}};
         if (same_word(line, "Y")) return PointColumn{Kind::y, "y", {}};
@@ -47,7 +55,9 @@ std::optional<PointColumn> declared_column(std::string_view line) {
     PointColumn column;
     const std::string_view type = trimmed(line.substr(0, comma));
     column.type_word = type;
-    column.name = trimmed(line.substr(comma + 1));
+    std::string_view name = trimmed(line.substr(comma + 1));
+    if (name.size() >= 2 && name.starts_with('"') && name.ends_with('"')) name = trimmed(name.substr(1, name.size() - 2));
+    column.name = name;
     if (same_word(type, "INT") || same_word(type, "INTEGER")) column.kind = Kind::integer;
     else if (same_word(type, "FLOAT") || same_word(type, "DOUBLE")) column.kind = Kind::real;
     else if (same_word(type, "STRING") || same_word(type, "BOOL") || same_word(type, "DATE")) column.kind = Kind::text;

@@ -111,10 +111,12 @@ std::optional<Failure> ZmapHeights::read(const Monitor* monitor) {
         if (line.starts_with('!')) continue;
         while (!line.empty() && (line.back() == ' ' || line.back() == '\t' || line.back() == '\r')) line.remove_suffix(1);
         if (line.empty()) continue;
-        if (!by_width(line) && !by_blanks(line)) return malformed(line);
-        if (values.size() > count_) {
+        if (by_width(line) || by_blanks(line)) {
+            if (values.size() <= count_) continue;
             return unreadable("F008", {input_->name(), cursor_.line()}, "expected " + std::to_string(count_) + " heights, found more");
         }
+        // RMS writes a line that begins with + between header and heights.
+        if (!line.starts_with('+') || !values.empty()) return malformed(line);
     }
     if (values.size() < count_) {
         return unreadable(

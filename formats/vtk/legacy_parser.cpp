@@ -81,10 +81,11 @@ bool Parser::whole() {
     if (file_.kind == unstructured_grid && (!need(file_.cells.stated, "CELLS") || !need(file_.types_stated, "CELL_TYPES"))) return false;
     if (file_.kind == structured_points && !file_.spacing) note("F105", "there is no SPACING: 1 1 1 is taken", end);
     if (file_.kind == structured_points && !file_.origin) note("F105", "there is no ORIGIN: 0 0 0 is taken", end);
-    const bool open_section = !file_.sections.empty() && file_.sections.back().arrays.empty() && file_.sections.back().count != 0;
     const char last = s_.bytes().back();
     const bool open_line = !file_.binary && last != '\n' && last != ' ' && last != '\r' && last != '\t';
-    if (open_section) note("F101", "the file ends after POINT_DATA or CELL_DATA, without the data", end);
+    const bool open_section = !file_.sections.empty() && file_.sections.back().arrays.empty() && file_.sections.back().count != 0;
+    // Old writers announce POINT_DATA and CELL_DATA also where there is none.
+    if (open_section && !open_line) note("F119", "the file ends after POINT_DATA or CELL_DATA: no array follows", end);
     else if (open_line) note("F101", "the file ends without a line end: its last value may be cut", end);
     return true;
 }

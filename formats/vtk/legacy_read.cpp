@@ -343,6 +343,7 @@ bool Mapper::unstructured(CellMesh& mesh) {
               .where = s_.location(file_.types_offset),
               .code = "F119",
               .message = "empty cells are left out"});
+    drop_further_points(builder.corner_cells(), s_.location(file_.types_offset), findings_, file_.losses);
     const std::uint64_t point_count = file_.points.size();
     mesh.points = std::move(file_.points);
     note_points(mesh.info, "UnstructuredGrid");

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
+#include "base/wording.h"
+#include "formats/drop.h"
 #include "model/attribute_operations.h"
 
 namespace geomend::vtk {
@@ -21,6 +24,46 @@ std::size_t least_corners(CellType type) {
             return 2;
         default:
             return 1;
+    }
+}
+
+/// What cells of higher order are by their corners.
+struct CornerCell {
+    CellType type;
+    std::size_t corners;
+};
+
+std::optional<CornerCell> corner_cell(std::int64_t vtk_type) {
+    switch (vtk_type) {
+        case 35:  // cubic line
+        case 68:  // Lagrange
+        case 75:  // Bezier
+            return CornerCell{CellType::line, 2};
+        case 34:
+        case 69:
+        case 76:
+            return CornerCell{CellType::triangle, 3};
+        case 30:
+        case 70:
+        case 77:
+            return CornerCell{CellType::quad, 4};
+        case 71:
+        case 78:
+            return CornerCell{CellType::tetrahedron, 4};
+        case 33:
+        case 72:
+        case 79:
+            return CornerCell{CellType::hexahedron, 8};
+        case 31:
+        case 73:
+        case 80:
+            return CornerCell{CellType::wedge, 6};
+        case 37:
+        case 74:
+        case 81:
+            return CornerCell{CellType::pyramid, 5};
+        default:
+            return std::nullopt;
     }
 }
 
@@ -71,6 +114,10 @@ CellProblem MeshBuilder::add(std::int64_t vtk_type, std::span<const std::uint32_
             const std::array<std::uint32_t, 3> t{corners[i + odd], corners[i + 1 - odd], corners[i + 2]};
             mesh_.add_cell(CellType::triangle, t);
         }
+    } else if (const auto cell = corner_cell(vtk_type)) {
+        if (corners.size() < cell->corners) return CellProblem::wrong_size;
+        if (corners.size() > cell->corners) ++corner_cells_[vtk_type];
+        mesh_.add_cell(cell->type, corners.first(cell->corners));
     } else {
         if (!known_type(vtk_type)) return CellProblem::unknown_type;
         if (vtk_type == polyhedron) return CellProblem::bad_faces;
@@ -127,6 +174,19 @@ void MeshBuilder::fit(std::vector<Attribute>& attributes) const {
     if (source_.empty() && mesh_.types.size() == added_) return;
     for (Attribute& a : attributes) {
         if (a.location == AttributeLocation::cell) take_values(a, source_);
+    }
+}
+
+void drop_further_points(const CornerCells& cells, const Location& where, std::vector<Finding>& findings, std::vector<Loss>& losses) {
+    for (const auto& [type, count] : cells) {
+        const std::string name = unknown_cell_name(type), held = to_string(corner_cell(type)->type);
+        drop(findings, losses,
+             {.what = "the further points of every " + name,
+              .why = "it is held as a " + held + " of its corners",
+              .count = count,
+              .where = where,
+              .message =
+                  counted(count, name + " is", name + "s are") + " read by the corners, as " + held + ": curved edges become straight"});
     }
 }
 

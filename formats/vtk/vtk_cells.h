@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/finding.h"
 #include "model/annotations.h"
+#include "model/loss.h"
 #include "model/objects.h"
 
 // How cells of VTK become ours and back, for the legacy and the XML formats alike. Nothing here reads or writes
@@ -38,10 +41,17 @@ struct CellList {
     }
 };
 
+/// How many cells of each higher-order VTK type are held by their corners only.
+using CornerCells = std::map<std::int64_t, std::uint64_t>;
+
+/// Lists the further points of such cells as lost, one finding a type. \param where their types stand
+void drop_further_points(const CornerCells& cells, const Location& where, std::vector<Finding>& findings, std::vector<Loss>& losses);
+
 enum class CellProblem : std::uint8_t { none, unknown_type, wrong_size, bad_faces };
 
 /// Fills a mesh with cells as VTK numbers and orders them: pixels become quads, voxels hexahedra, strips
-/// triangles, empty cells nothing. The mesh's points are filled by the caller.
+/// triangles, empty cells nothing; cells of higher order that have no place here (Lagrange, Bezier, cubic) become those of
+/// their corners, which come first. The mesh's points are filled by the caller.
 class MeshBuilder {
 public:
     /// \param mesh empty; outlives the builder
@@ -63,6 +73,7 @@ public:
     /// Number of cells of the file so far, and how many of them were empty.
     std::size_t cells_added() const { return added_; }
     std::size_t empty_cells() const { return empty_; }
+    const CornerCells& corner_cells() const { return corner_cells_; }
     /// True when cell i of the mesh is cell i of the file.
     bool one_to_one() const { return source_.empty(); }
     /// The file's cell behind each cell of the mesh; empty when one_to_one().
@@ -73,6 +84,7 @@ private:
     CellMesh& mesh_;
     std::size_t added_ = 0;
     std::size_t empty_ = 0;
+    CornerCells corner_cells_;
     std::vector<std::uint32_t> source_;
 };
 

@@ -187,6 +187,7 @@ private:
         if (auto done = read_attributes(points.value(), cells.value()); !done) return done;
         builder.fit(out_.attributes);
         out_.empty_cells = builder.empty_cells();
+        out_.corner_cells = builder.corner_cells();
         return {};
     }
 

@@ -32,6 +32,7 @@ struct Piece {
     std::array<std::vector<double>, 3> coordinates;  ///< rectilinear
     std::vector<Attribute> attributes;               ///< location point or cell, per cell as in mesh or poly
     std::size_t empty_cells = 0;
+    CornerCells corner_cells;
 };
 
 /// What reading gathers besides geometry.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text_cursor.h"
+#include "base/wording.h"
 #include "formats/drop.h"
 #include "formats/vtk/vtk_merge.h"
 #include "formats/vtk/vtk_structure.h"
@@ -91,7 +92,33 @@ private:
                                   std::string("expected a VTKFile of type ") + element_name(kind_));
             if (auto done = read_pieces(*document, kind_, options_, pieces_, notes_); !done) return done;
         }
+        report_announced_arrays();
         return {};
+    }
+
+    /// Arrays that the file of pieces announces and a piece has not.
+    void report_announced_arrays() {
+        for (const auto& [section, location] :
+             {std::pair{"PPointData", AttributeLocation::point}, std::pair{"PCellData", AttributeLocation::cell}}) {
+            const XmlElement* data = doc_.child(*dataset_, section);
+            if (data == nullptr) continue;
+            for (const XmlElement* array = doc_.child(*data, "PDataArray"); array != nullptr;
+                 array = doc_.child(*data, "PDataArray", array)) {
+                const std::string name = doc_.attribute(*array, "Name");
+                if (!name.empty()) report_announced(name, location, doc_.where(*array));
+            }
+        }
+    }
+
+    void report_announced(const std::string& name, AttributeLocation location, const Location& where) {
+        const auto has_it = [&](const Piece& piece) {
+            return std::ranges::any_of(piece.attributes, [&](const Attribute& a) { return a.name == name && a.location == location; });
+        };
+        const auto without = static_cast<std::uint64_t>(pieces_.size() - static_cast<std::size_t>(std::ranges::count_if(pieces_, has_it)));
+        if (without == 0 || name == "vtkGhostType") return;
+        notes_.findings.push_back(
+            make_finding("F113", "array '" + name + "' is announced, but " + counted(without, "piece does", "pieces do") + " not have it",
+                         where, without));
     }
 
     Result<Object> make_object() {
@@ -107,6 +134,11 @@ private:
                   .code = "F119",
                   .message = std::to_string(empty) + " empty cells are left out"});
         }
+        CornerCells corner_cells;
+        for (const Piece& p : pieces_) {
+            for (const auto& [type, count] : p.corner_cells) corner_cells[type] += count;
+        }
+        drop_further_points(corner_cells, {doc_.file}, notes_.findings, notes_.losses);
         if (kind_ == DatasetKind::unstructured) {
             CellMesh mesh = join_meshes(pieces_, doc_.file, notes_);
             set_kind(mesh.info);

@@ -70,9 +70,23 @@ TEST(MshHostile, ErrorsTellLineAndColumn) {
     EXPECT_EQ(failure_of(replaced(two_tets_22(), "5 4 2 2 2 1", "4 4 2 2 2 1")).code, "F009");
     EXPECT_EQ(failure_of(replaced(two_tets_22(), "2.2 0 8", "3.5 0 8")).code, "F013");
     EXPECT_EQ(failure_of(replaced(two_tets_22(), "$EndNodes\n", "")).code, "F004");
-    EXPECT_EQ(failure_of(replaced(two_tets_41(), "1 2 1 -4", "1 2 1 -5")).code, "F007");
     EXPECT_EQ(failure_of("").code, "F002");
     EXPECT_EQ(failure_of("hello\n").code, "F003");
+}
+
+// Gmsh saves only entities of physical groups and leaves their bounds as they are.
+TEST(MshHostile, BoundsThatAreNotInTheFileAreLeftOutAndReported) {
+    const auto data = read_text(replaced(two_tets_41(), "1 2 1 -4", "1 2 1 -5"));
+    ASSERT_TRUE(data.ok());
+    ASSERT_EQ(data->findings.size(), 1u);
+    EXPECT_EQ(data->findings[0].code, "F109");
+    EXPECT_NE(data->findings[0].message.find("by entity -5"), std::string::npos) << data->findings[0].message;
+    ASSERT_EQ(data->losses.size(), 1u);
+    EXPECT_EQ(data->losses[0].loss_class, LossClass::identity);
+    std::size_t bounds = 0, before = 0;
+    for (const auto& entity : mesh_of(*data).entities) bounds += entity.boundary.size();
+    for (const auto& entity : mesh_of(*read_text(std::string(two_tets_41()))).entities) before += entity.boundary.size();
+    EXPECT_EQ(bounds + 1, before);
 }
 
 TEST(MshHostile, DataForWhatIsNotThereAreRefused) {

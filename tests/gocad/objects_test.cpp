@@ -232,6 +232,26 @@ TEST(GocadTSurf, PaddingAndSurplusAreTold) {
     EXPECT_TRUE(has_finding(dataset_of("GOCAD VSet 1\nPROPERTIES a\nPVRTX 1 0 0 0 5 6\nEND\n"), "F107"));
 }
 
+TEST(GocadTSurf, OneNoDataValueIsThatOfEachProperty) {
+    const Dataset d = dataset_of("GOCAD VSet 1\nPROPERTIES a b\nNO_DATA_VALUES -99999\nPVRTX 1 0 0 0 1.5 -99999\nEND\n");
+    EXPECT_TRUE(has_finding(d, "F105"));
+    for (const Attribute& a : points_at(d, 0).info.attributes) EXPECT_EQ(a.no_data, -99999) << a.name;
+}
+
+TEST(GocadTSurf, AHeaderThatIsNotClosedEndsWhereTheNextRecordBegins) {
+    const std::string coordinates = "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nZPOSITIVE Depth\nEND_ORIGINAL_COORDINATE_SYSTEM\n";
+    for (const std::string& next : {coordinates, "GEOLOGICAL_TYPE fault\n" + coordinates}) {
+        const Dataset d =
+            dataset_of("GOCAD VSet 1\nHEADER {\nname:fault 7\n" + next + "PROPERTY_CLASS_HEADER Z {\nis_z:on\n}\nVRTX 1 0 0 1500\nEND\n");
+        EXPECT_TRUE(has_finding(d, "F118"));
+        EXPECT_EQ(points_at(d, 0).info.name, "fault 7");
+        EXPECT_EQ(points_at(d, 0).info.crs.z_positive, ZPositive::depth);
+        EXPECT_EQ(points_at(d, 0).points[0][2], -1500);
+    }
+    const Dataset whole = dataset_of("GOCAD VSet 1\nHEADER {\nname:x\nproperties: a\n*solid*color: red\n}\nVRTX 1 0 0 0\nEND\n");
+    EXPECT_FALSE(has_finding(whole, "F118"));
+}
+
 TEST(GocadTSurf, NumbersOfAllSpellings) {
     const Dataset d = dataset_of("GOCAD VSet 1\nVRTX 1 5.28845e-005 +2 60e3\nVRTX\t2\t1.5D+02 -0 .5\nEND\n");
     EXPECT_EQ(points_at(d, 0).points[0], (Vec3{5.28845e-5, 2, 60000}));

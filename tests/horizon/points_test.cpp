@@ -98,6 +98,19 @@ TEST(IrapPoints, AMissingLastLineEndIsTold) {
     EXPECT_FALSE(has_finding(good("irap-points", "1 2 3\n4 5 6\n"), "F101"));
 }
 
+TEST(PetrelPoints, TypesMayStandBeforeNamesInQuotes) {
+    const Dataset d = good("petrel-points",
+                           "VERSION 1\nBEGIN HEADER\nX\nY\nZ\nSTRING \"Well\"\nSTRING \"Layer, name\"\nFLOAT \"Net to gross\"\nEND HEADER\n"
+                           "1 2 -3 \"A 1\" \"Upper sand\" 0.5\n");
+    const auto& attributes = std::get<PointSet>(d.objects.at(0)).info.attributes;
+    ASSERT_EQ(attributes.size(), 3u);
+    EXPECT_EQ(attributes[0].name, "Well");
+    EXPECT_EQ(attributes[1].name, "Layer, name");
+    EXPECT_EQ(std::get<std::vector<std::string>>(attributes[1].values), std::vector<std::string>{"Upper sand"});
+    EXPECT_EQ(attributes[2].name, "Net to gross");
+    EXPECT_EQ(value_as_double(attributes[2], 0), 0.5);
+}
+
 constexpr std::string_view petrel =
     "# Petrel Points with attributes\n"
     "# Unit in X and Y direction: m\n"

@@ -23,9 +23,19 @@ TEST(Sniffing, ContentDecidesWhateverTheExtension) {
         EXPECT_EQ(found("FSASCI 0 1 COMPUTED 0 1E30\n", name), "cps3") << name;
         EXPECT_EQ(found("FFASCI 0 1 \"LINES\" 0 1e+10\n", name), "cps3-lines") << name;
         EXPECT_EQ(found("# Petrel Points with attributes\n# Unit in depth: m\n", name), "petrel-points") << name;
-        EXPECT_EQ(found("1 2 3\n4 5 6\n999.0 999.0 999.0\n", name), "irap-polygons") << name;
-        EXPECT_EQ(found("1 2 3\n4 5 6\n", name), "irap-points") << name;
         EXPECT_EQ(found("Float a\n1 2 3 4\n", name), "irap-points") << name;
+    }
+}
+
+// Rows of three numbers may be points, lines or anything: the extension says it, or --from.
+TEST(Sniffing, TablesOfNumbersAreWhatTheirExtensionSays) {
+    for (const char* name : {"a.xyz", "a.poi", "A.POI", "a.irapp"}) {
+        EXPECT_EQ(found("1 2 3\n4 5 6\n", name), "irap-points") << name;
+        EXPECT_EQ(found("1 2 3\n4 5 6\n999.0 999.0 999.0\n", name), "irap-points") << name;
+    }
+    for (const char* name : {"a.pol", "a.irapl", "a.txt", "a"}) {
+        EXPECT_EQ(found("1 2 3\n4 5 6\n", name), "none") << name;
+        EXPECT_EQ(found("1 2 3\n4 5 6\n999.0 999.0 999.0\n", name), "irap-polygons") << name;
     }
 }
 
@@ -49,7 +59,7 @@ TEST(Sniffing, OtherFamiliesAreLeftAlone) {
 }
 
 TEST(Sniffing, AHeadThatIsCutInALineIsNoObstacle) {
-    EXPECT_GT(format("irap-points").sniff("1 2 3\n4 5 6\n7 8", "a"), 0);
+    EXPECT_GT(format("irap-points").sniff("1 2 3\n4 5 6\n7 8", "a.xyz"), 0);
     EXPECT_GT(format("irap-polygons").sniff("1 2 3\n999 999 999\n7 8", "a"), 0);
 }
 

@@ -52,6 +52,14 @@ TEST(Zmap, ImpliedDecimalsApplyWhenNoHeightHasAPoint) {
     EXPECT_FALSE(has_finding(mixed, "F113"));
 }
 
+TEST(Zmap, ALineOfRmsBetweenHeaderAndHeightsIsPassedOver) {
+    const std::string whole(header);
+    expect_grid(good("zmap", whole.substr(0, whole.size() - 2) + "+ Grid data starts after this line\n@\n" + std::string(apart)));
+    expect_grid(good("zmap", whole + "+\n" + std::string(apart)));
+    expect_grid(good("zmap", whole + "+11. 12.\n13.\n21. -99999.0\n23.\n"));
+    EXPECT_FALSE(read("zmap", whole + "11. 12.\n+ remark\n13.\n21. -99999.0\n23.\n").ok());
+}
+
 TEST(Zmap, ANullTextStandsForMissing) {
     std::string content = std::string(header) + std::string(apart);
     content.replace(content.find("-99999.0, "), 10, " , VOID");

@@ -157,11 +157,31 @@ TEST(LegacyRead, BytesAfterTheLastRecordAreAFinding) {
 }
 
 TEST(LegacyRead, AFileWithoutItsLastLineEndMayBeCut) {
-    for (const char* rest : {"0 0 0.25", "0 0 0\nPOINT_DATA 1\n"}) {
+    for (const char* rest : {"0 0 0.25", "0 0 0\nPOINT_DATA 1"}) {
         const Dataset data = must_read(head + "DATASET POLYDATA\nPOINTS 1 float\n" + rest);
         ASSERT_EQ(data.findings.size(), 1u);
         EXPECT_EQ(data.findings[0].code, "F101");
     }
+}
+
+// As old writers end their files, whose lines are whole.
+TEST(LegacyRead, AnEmptySectionAtTheEndIsReportedAndNoSignOfACut) {
+    const Dataset data = must_read(head + "DATASET POLYDATA\nPOINTS 1 float\n0 0 0\nCELL_DATA 1\nPOINT_DATA 1\n");
+    ASSERT_EQ(data.findings.size(), 1u);
+    EXPECT_EQ(data.findings[0].code, "F119");
+}
+
+TEST(LegacyRead, CellsOfHigherOrderAreHeldByTheirCorners) {
+    const Dataset data = must_read(head +
+                                   "DATASET UNSTRUCTURED_GRID\nPOINTS 9 float\n0 0 0 2 0 0 2 2 0 0 2 0 1 0 0 2 1 0 1 2 0 0 1 0 1 1 0\n"
+                                   "CELLS 1 10\n9 0 1 2 3 4 5 6 7 8\nCELL_TYPES 1\n70\n");
+    const auto& mesh = only<CellMesh>(data);
+    ASSERT_EQ(mesh.types, std::vector{CellType::quad});
+    EXPECT_EQ(mesh.nodes, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    ASSERT_EQ(data.losses.size(), 1u);
+    EXPECT_EQ(data.losses[0].loss_class, LossClass::substance);
+    ASSERT_EQ(data.findings.size(), 1u);
+    EXPECT_EQ(data.findings[0].code, "F150");
 }
 
 TEST(LegacyRead, NonFiniteValuesAreOneFindingPerArray) {
@@ -231,7 +251,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"no_types", grid + "CELLS 1 4\n3 0 1 2\n", "F004", 9},
         Wrong{"wrong_number_of_types", grid + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 2\n5 5\n", "F008", 9},
         Wrong{"wrong_size_for_type", grid + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n10\n", "F008", 8},
-        Wrong{"unknown_cell", grid + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n69\n", "F013", 10},
+        Wrong{"unknown_cell", grid + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n60\n", "F013", 10},
         Wrong{"broken_face_stream", grid + "CELLS 1 6\n5 2 3 0 1 2\nCELL_TYPES 1\n42\n", "F008", 8},
         Wrong{"falling_offsets", grid + "CELLS 3 3\nOFFSETS vtktypeint64\n0 4 3\nCONNECTIVITY vtktypeint64\n0 1 2\nCELL_TYPES 2\n5 5\n",
               "F012", 9},
