@@ -51,6 +51,9 @@ const Format* format_by_name(std::string_view name) {
     for (const Format& format : all_formats()) {
         if (same_word(format.family, name)) return &format;
     }
+    for (const Format& format : all_formats()) {
+        if (has_extension(format, "." + lower_case(name))) return &format;
+    }
     return nullptr;
 }
 
@@ -82,7 +85,7 @@ Result<const Format*> format_for_writing(const std::string& path) {
     for (const Format& format : all_formats()) {
         if (format.write != nullptr && has_extension(format, extension)) return &format;
     }
-    return failure(FailureKind::usage, "F003", {path},
+    return failure(FailureKind::usage, "F018", {path},
                    "no format that can be written has the extension '" + extension + "': name it with --to (see 'geomend formats')");
 }
 

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/codes.h"
+#include "base/nearest_word.h"
+#include "base/text_cursor.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "repair/code_steps.h"
@@ -38,9 +40,30 @@ std::string steps_of(const CodeInfo& row) {
     return text;
 }
 
-std::string table_json() {
-    Json all = Json::array();
+using Rows = std::vector<const CodeInfo*>;
+
+// The rows of codes and of families (their first letters), without regard to case; all where none is named.
+Result<Rows> rows_of(const std::vector<std::string>& names) {
+    Rows rows;
+    std::vector<std::string_view> known;
+    for (const CodeInfo& row : code_catalogue()) known.push_back(row.code);
+    for (const std::string& name : names) {
+        const auto is_meant = [&](const CodeInfo& row) { return same_word(row.code, name) || same_word(row.code.substr(0, 1), name); };
+        if (std::ranges::none_of(code_catalogue(), is_meant))
+            return failure(FailureKind::usage, "F018", {},
+                           "no such code '" + name + "'; the nearest is " + std::string(nearest_word(name, known)));
+    }
     for (const CodeInfo& row : code_catalogue()) {
+        const auto names_it = [&](const std::string& n) { return same_word(row.code, n) || same_word(row.code.substr(0, 1), n); };
+        if (names.empty() || std::ranges::any_of(names, names_it)) rows.push_back(&row);
+    }
+    return rows;
+}
+
+std::string table_json(const Rows& rows) {
+    Json all = Json::array();
+    for (const CodeInfo* at : rows) {
+        const CodeInfo& row = *at;
         Json j{{"code", row.code}, {"severity", to_string(row.severity)}, {"meaning", row.meaning}};
         if (row.other) j["other_severity"] = {{"severity", to_string(row.other->severity)}, {"when", row.other->when}};
         if (std::string condition = condition_of(row.code); !condition.empty()) j["condition"] = std::move(condition);
@@ -53,9 +76,10 @@ std::string table_json() {
     return json_text(all);
 }
 
-std::string table_text() {
+std::string table_text(const Rows& rows) {
     std::string text;
-    for (const CodeInfo& row : code_catalogue()) {
+    for (const CodeInfo* at : rows) {
+        const CodeInfo& row = *at;
         text += std::string(row.code) + "  " + severity_of(row) + ": " + std::string(row.meaning) + '\n';
         if (const std::string condition = condition_of(row.code); !condition.empty()) text += "      when: " + condition + '\n';
         if (const auto advice = advice_for(row.code); !advice.empty()) text += "      to mend it: " + std::string(advice) + '\n';
@@ -109,9 +133,15 @@ void add_checks(CLI::App& program, ExitStatus& status) {
     auto* command = program.add_subcommand("checks", "Table of checks: code, severity, meaning, condition, what mends it");
     auto json = std::make_shared<bool>(false);
     auto manual = std::make_shared<bool>(false);
+    auto names = std::make_shared<std::vector<std::string>>();
+    command->add_option("CODE", *names, "Codes, or first letters of codes: only these");
     command->add_flag("--json", *json, "Machine-readable table");
     command->add_flag("--scdoc", *manual, "The table as source of a manual page")->excludes("--json");
-    command->callback([json, manual, &status] { status = print(*json ? table_json() : *manual ? table_scdoc() : table_text()); });
+    command->callback([json, manual, names, &status] {
+        const auto rows = rows_of(*names);
+        if (!rows) status = report(rows.why());
+        else status = print(*json ? table_json(*rows) : *manual ? table_scdoc() : table_text(*rows));
+    });
 }
 
 }  // namespace geomend::cli

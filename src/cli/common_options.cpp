@@ -50,10 +50,10 @@ void add_common_options(CLI::App& command, CommonOptions& o, bool writes) {
     command.add_option("--from", o.from, "Input format (else by content, then by extension)")->type_name("FORMAT");
     if (writes) command.add_option("--to", o.to, "Output format (else by extension)")->type_name("FORMAT");
     command.add_flag("--json", o.json, "Machine-readable result on standard output");
-    command.add_flag("--quiet", o.quiet, "Nothing on standard error but errors");
-    command.add_flag("--verbose", o.verbose, "Also what is merely worth knowing");
+    command.add_flag("-q,--quiet", o.quiet, "Nothing on standard error but errors");
+    command.add_flag("-v,--verbose", o.verbose, "Also what is merely worth knowing");
     command.add_flag("--accept-unterminated", o.accept_unterminated, "Take a last object that has no END");
-    command.add_option("--threads", o.threads, "Number of threads for the whole run (default: all processors)")
+    command.add_option("-j,--threads", o.threads, "Number of threads for the whole run (default: all processors)")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
     command.add_option("--progress", o.progress, "Progress on standard error (default auto: on a terminal)")
@@ -104,6 +104,11 @@ void stop_on_signals() {
     std::signal(SIGCHLD, SIG_DFL);  // where it is ignored nobody learns how a worker ended
 }
 
+bool wants_color(int descriptor) {
+    const char* none = std::getenv("NO_COLOR");
+    return (none == nullptr || *none == '\0') && ::isatty(descriptor) == 1;
+}
+
 ExitStatus report(const Failure& f) {
     end_progress();
     std::string where = to_string(f.error.where);
@@ -129,7 +134,8 @@ void report(const std::vector<Finding>& findings, bool verbose) {
 ExitStatus print(const std::string& text) {
     end_progress();
     const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-    if (whole) return ExitStatus::done;
+    // Who reads no further, as `head` does, has what was wanted.
+    if (whole || errno == EPIPE) return ExitStatus::done;
     return report(failure(FailureKind::unwritable, "F020", {"standard output"}, "cannot write"));
 }
 

@@ -38,6 +38,9 @@ void end_progress();
 /// Installs the handlers of SIGINT and SIGTERM; a second signal ends the process at once.
 void stop_on_signals();
 
+/// Whether text for this descriptor is coloured: on terminals, unless the environment has NO_COLOR.
+bool wants_color(int descriptor);
+
 /// Prints a failure (with what else was found) on standard error and gives its exit status.
 ExitStatus report(const Failure& failure);
 /// Prints findings on standard error: warnings and errors, with `verbose` also information.

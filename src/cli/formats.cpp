@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "formats/registry.h"
 
+#include <algorithm>
 #include <memory>
 
+#include "base/nearest_word.h"
+#include "base/text_cursor.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "pipeline/json_parts.h"
@@ -60,9 +63,32 @@ Json values_json(const OptionRow& row) {
     return words;
 }
 
-std::string table_json() {
-    Json all = Json::array();
+using Rows = std::vector<const Format*>;
+
+// The formats of names, families and extensions; all where none is named.
+Result<Rows> rows_of(const std::vector<std::string>& names) {
+    Rows rows;
+    std::vector<std::string_view> known;
+    for (const Format& f : all_formats()) known.push_back(f.name);
+    const auto is_meant = [](const Format& f, std::string_view name) {
+        const auto is_extension = [&](std::string_view e) { return same_word(e, name) || same_word(e.substr(1), name); };
+        return same_word(f.name, name) || same_word(f.family, name) || std::ranges::any_of(f.extensions, is_extension);
+    };
+    for (const std::string& name : names) {
+        if (std::ranges::none_of(all_formats(), [&](const Format& f) { return is_meant(f, name); }))
+            return failure(FailureKind::usage, "F018", {},
+                           "no such format '" + name + "'; the nearest is " + std::string(nearest_word(name, known)));
+    }
     for (const Format& f : all_formats()) {
+        if (names.empty() || std::ranges::any_of(names, [&](const std::string& n) { return is_meant(f, n); })) rows.push_back(&f);
+    }
+    return rows;
+}
+
+std::string table_json(const Rows& rows) {
+    Json all = Json::array();
+    for (const Format* row : rows) {
+        const Format& f = *row;
         Json j{{"name", f.name},
                {"family", f.family},
                {"title", f.title},
@@ -93,9 +119,10 @@ void append_list(std::string& text, const Format& f, Keeping wanted, const char*
     if (!list.empty()) text += std::string("    ") + label + ": " + list + '\n';
 }
 
-std::string table_text() {
+std::string table_text(const Rows& rows) {
     std::string text;
-    for (const Format& f : all_formats()) {
+    for (const Format* row : rows) {
+        const Format& f = *row;
         std::string extensions;
         for (const auto e : f.extensions) extensions += (extensions.empty() ? "" : " ") + std::string(e);
         text += std::string(f.name) + " (" + extensions + "): " + std::string(f.title) + "; ";
@@ -116,8 +143,13 @@ std::string table_text() {
 void add_formats(CLI::App& program, ExitStatus& status) {
     auto* command = program.add_subcommand("formats", "Table of formats and of what each keeps");
     auto json = std::make_shared<bool>(false);
+    auto names = std::make_shared<std::vector<std::string>>();
+    command->add_option("NAME", *names, "Names, families or extensions of formats: only these");
     command->add_flag("--json", *json, "Machine-readable table");
-    command->callback([json, &status] { status = print(*json ? table_json() : table_text()); });
+    command->callback([json, names, &status] {
+        const auto rows = rows_of(*names);
+        status = rows ? print(*json ? table_json(*rows) : table_text(*rows)) : report(rows.why());
+    });
 }
 
 }  // namespace geomend::cli

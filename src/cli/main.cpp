@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 
+#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
 
@@ -11,9 +12,14 @@ namespace {
 
 using geomend::cli::ExitStatus;
 
+ExitStatus usage(const std::string& message) {
+    std::fprintf(stderr, "geomend: %s\nRun with --help for more information.\n", message.c_str());
+    return ExitStatus::usage;
+}
+
 ExitStatus run(int argc, char** argv) {
     CLI::App program("Converts, checks and repairs geological models: Gocad, VTK, Gmsh, corner-point grids, horizon grids", "geomend");
-    program.set_version_flag("--version", "geomend " GEOMEND_VERSION);
+    program.set_version_flag("-V,--version", "geomend " GEOMEND_VERSION);
     program.require_subcommand(1);
     program.footer(
         "Exit status: 0 done, 1 findings, 2 wrong command line, 3 an input cannot be read, 4 the output cannot be written or hold\n"
@@ -25,8 +31,17 @@ ExitStatus run(int argc, char** argv) {
     geomend::cli::add_repair(program, status);
     geomend::cli::add_formats(program, status);
     geomend::cli::add_checks(program, status);
+    geomend::cli::add_completion(program, status);
+    auto arguments = geomend::cli::with_command_first(program, std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc));
+    if (arguments.empty()) {
+        std::fputs(program.help().c_str(), stderr);
+        return ExitStatus::usage;
+    }
+    if (const auto wrong = geomend::cli::wrong_command(program, arguments)) return usage(*wrong);
     try {
-        program.parse(argc, argv);
+        program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    } catch (const CLI::ExtrasError&) {
+        return usage(geomend::cli::wrong_options(program));
     } catch (const CLI::ParseError& e) {
         // Help and version come this way, too, with success.
         return program.exit(e) == 0 ? ExitStatus::done : ExitStatus::usage;

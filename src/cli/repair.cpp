@@ -163,7 +163,7 @@ ExitStatus run(const RepairOptions& o) {
     if (o.json) return worse(status, print(repair_json(all)));
     if (!o.quiet) {
         // The model itself may go to standard output.
-        const std::string text = report_text(all, ::isatty(o.output == "-" ? STDERR_FILENO : STDOUT_FILENO) == 1);
+        const std::string text = report_text(all, wants_color(o.output == "-" ? STDERR_FILENO : STDOUT_FILENO));
         if (o.output == "-") std::fputs(text.c_str(), stderr);
         else status = worse(status, print(text));
     }

@@ -145,7 +145,7 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     if (o.json) return worse(status, print(report_json(*all)));
     if (o.quiet) return status;
     all->all_notes = o.verbose;
-    return worse(status, print(report_text(*all, ::isatty(STDOUT_FILENO) == 1)));
+    return worse(status, print(report_text(*all, wants_color(STDOUT_FILENO))));
 }
 
 }  // namespace

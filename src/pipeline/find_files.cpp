@@ -134,8 +134,10 @@ private:
         }
     }
 
+    // Pipes and devices that a pattern happens to match would wait for ever.
     void take(const fs::path& path) {
         if (is_folder(path)) walk(path);
+        else if (std::error_code error; fs::exists(path, error) && !is_plain_file(path)) found.not_models.push_back(path.string());
         else add(path, false);
     }
 

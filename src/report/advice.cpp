@@ -89,7 +89,7 @@ constexpr std::array advice = {
     Advice{"F015", "compress or copy it again"},
     Advice{"F016", "use --option crs=ignore if they are known to agree"},
     Advice{"F017", "check that it is the right file"},
-    Advice{"F018", "see the manual page of the format"},
+    Advice{"F018", "see --help of the command, or the manual page of the format"},
     Advice{"F020", "check the folder, its permissions and the free space"},
     Advice{"F021", "choose another format, or accept the loss with --lossy"},
     Advice{"F023", "raise the limit"},
