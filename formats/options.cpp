@@ -39,10 +39,24 @@ std::size_t steps_between(std::string_view a, std::string_view b) {
     return d[a.size()][b.size()];
 }
 
+// The known word that is spelt most like this one, where at most every third letter differs; else nothing: a word of two
+// letters is one step away from many that mean something else.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known) {
     const std::string lower = lower_case(word.substr(0, 100));
     const auto best = std::ranges::min_element(known, {}, [&](std::string_view one) { return steps_between(lower, one); });
-    return best == known.end() ? std::string_view() : *best;
+    if (best == known.end() || 3 * steps_between(lower, *best) > std::max(lower.size(), best->size())) return {};
+    return *best;
+}
+
+// "a, b or c", each once.
+std::string listed(const std::vector<std::string_view>& words) {
+    std::vector<std::string_view> once;
+    for (const std::string_view word : words) {
+        if (std::ranges::find(once, word) == once.end()) once.push_back(word);
+    }
+    std::string text;
+    for (std::size_t i = 0; i < once.size(); ++i) text += (i == 0 ? "" : i + 1 == once.size() ? " or " : ", ") + std::string(once[i]);
+    return text;
 }
 
 // The value as the row writes it, or nothing where the row does not allow it.
@@ -76,14 +90,10 @@ std::string expected(const std::vector<const OptionRow*>& rows, std::string_view
     std::vector<std::string_view> words;
     for (const OptionRow* row : rows) {
         if (row->kind != OptionValue::words) return "expected " + std::string(row->values);
-        for (const std::string_view word : split(row->values, '|')) {
-            if (std::ranges::find(words, word) == words.end()) words.push_back(word);
-        }
+        std::ranges::copy(split(row->values, '|'), std::back_inserter(words));
     }
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + std::string(words[i]);
-    if (words.size() > 1) text += " (nearest: " + std::string(nearest(value, words)) + ")";
-    return "expected " + text;
+    const std::string_view near = nearest(value, words);
+    return "expected " + listed(words) + (near.empty() ? "" : " (nearest: " + std::string(near) + ")");
 }
 
 bool is_used(const OptionRow& row, bool in_reading) { return row.use == OptionUse::both || (row.use == OptionUse::reading) == in_reading; }
@@ -124,6 +134,11 @@ std::string home_of(std::string_view key) {
     return text;
 }
 
+std::string no_such_option(std::vector<std::string_view> known) {
+    std::ranges::sort(known);
+    return "no such option" + (known.empty() ? "" : "; expected " + listed(known));
+}
+
 Failure wrong(const std::string& key, const std::string& value, const std::string& why) {
     return failure(FailureKind::usage, "F018", {}, "--option " + key + "=" + value + ": " + why);
 }
@@ -141,7 +156,7 @@ Result<FormatOptions> checked_options(const FormatOptions& options, const Option
             std::vector<std::string_view> keys;
             for (const OptionRow* row : rows) keys.push_back(row->key);
             const std::string_view near = nearest(key, keys);
-            return wrong(key, value, "no such option" + (near.empty() ? "" : "; the nearest is " + std::string(near)));
+            return wrong(key, value, near.empty() ? no_such_option(keys) : "no such option; the nearest is " + std::string(near));
         }
         std::optional<std::string> good;
         for (const OptionRow* row : meant) {

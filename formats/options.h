@@ -14,8 +14,8 @@ struct OptionsInPlay {
     std::span<const OptionRow> command;  ///< what the command itself looks at
 };
 
-/// Options with words as their tables write them. Failure (usage, F018) where a key or value is in no table in play: it names the
-/// nearest one, or where the option belongs.
+/// Options with words as their tables write them. Failure (usage, F018) where a key or value is in no table in play: it names the one
+/// that is spelt nearly so, or where the option belongs, or all that are known.
 Result<FormatOptions> checked_options(const FormatOptions& options, const OptionsInPlay& in_play);
 
 }  // namespace geomend

@@ -34,13 +34,22 @@ std::string why_not(const FormatOptions& options, const OptionsInPlay& all) {
 TEST(CheckedOptions, AMisspeltKeyNamesTheNearestOne) {
     EXPECT_EQ(why_not({{"encodig", "ascii"}}, in_play("gocad-ts", "vtm")),
               "--option encodig=ascii: no such option; the nearest is encoding");
-    EXPECT_EQ(why_not({{"az", "brep"}}, {{}, nullptr, validate_option_rows()}), "--option az=brep: no such option; the nearest is as");
+}
+
+TEST(CheckedOptions, AKeyLikeNoneListsThoseThatAreKnown) {
+    const std::string why = why_not({{"az", "brep"}}, in_play("gocad-ts", "vtm"));
+    EXPECT_EQ(why.find("--option az=brep: no such option; expected "), 0u) << why;
+    for (const OptionRow& row : format_by_name("vtm")->options)
+        EXPECT_EQ(row.use != OptionUse::reading, why.find(" " + std::string(row.key)) != std::string::npos) << why;
+    EXPECT_EQ(why.find("nearest"), std::string::npos) << "one of two letters is not near: " << why;
+    EXPECT_EQ(why_not({{"crz", "ignore"}}, in_play("gocad-ts", "vtm")), "--option crz=ignore: no such option; the nearest is crs");
 }
 
 TEST(CheckedOptions, AMisspeltValueNamesTheNearestOne) {
     EXPECT_EQ(why_not({{"encoding", "asci"}}, in_play("gocad-ts", "vtm")),
               "--option encoding=asci: expected appended or ascii (nearest: ascii)");
-    EXPECT_EQ(why_not({{"z", "dowm"}}, in_play("zmap", "cps3")), "--option z=dowm: expected elevation or depth (nearest: depth)");
+    EXPECT_EQ(why_not({{"z", "dowm"}}, in_play("zmap", "cps3")), "--option z=dowm: expected elevation or depth");
+    EXPECT_EQ(why_not({{"z", "dept"}}, in_play("zmap", "cps3")), "--option z=dept: expected elevation or depth (nearest: depth)");
 }
 
 TEST(CheckedOptions, AnOptionOfAnotherFormatSaysWhereItBelongs) {
