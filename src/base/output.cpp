@@ -2,6 +2,7 @@
 #include "base/output.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -74,6 +75,12 @@ int give_name(int fd, const fs::path& name) {
     return link();
 }
 
+// Below this number a descriptor may stay open: far from as many as a process may have.
+int few_descriptors() {
+    rlimit most{};
+    return ::getrlimit(RLIMIT_NOFILE, &most) == 0 && most.rlim_cur < 1024 ? static_cast<int>(most.rlim_cur / 4) : 256;
+}
+
 Failure unwritable(const fs::path& target, int error) {
     if (error == ECANCELED) return failure(FailureKind::cancelled, "F022", {}, "stopped; no file was changed");
     return failure(FailureKind::unwritable, "F020", {target == "-" ? "standard output" : target.string()},
@@ -143,10 +150,11 @@ void OutputFile::end() {
     }
     buffer_ = {};
     packer_.reset();
-    if (target_.is_file()) close_file();
+    // Results of very many files have no descriptor each; of few, none has a name before the commit, so that nothing of them is
+    // left whatever ends this process.
+    if (target_.is_file() && fd_ >= few_descriptors()) close_file();
 }
 
-// No more than an error is kept of a file that is closed: results of very many files have no descriptor each.
 void OutputFile::close_file() {
     if (fd_ >= 0 && error_ == 0) error_ = give_name(fd_, temporary_);
     if (fd_ >= 0 && ::close(fd_) != 0 && error_ == 0) error_ = errno;
@@ -279,6 +287,7 @@ Result<void> OutputSet::prepare(const Monitor* monitor) {
             ::fsync(file->fd_);
         }
         file->end();
+        if (file->target_.is_file()) file->close_file();
         file->settle(files_.size() <= few);
         if (file->error_ != 0) return unwritable(file->name_, file->error_);
     }

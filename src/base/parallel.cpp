@@ -12,6 +12,8 @@ struct ThreadBudget::Control {
 };
 
 ThreadBudget::ThreadBudget(std::size_t threads) {
+    // TBB sets itself up with its first work; where memory fails it then, it waits for itself at the end. So do it first of all.
+    parallel_for_each_index(1, [](std::size_t) {});
     if (threads > 0) control_ = std::make_unique<Control>(threads);
 }
 

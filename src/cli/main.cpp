@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -49,9 +52,26 @@ ExitStatus run(int argc, char** argv) {
     return status;
 }
 
+// Where memory runs out in a destructor (those of VTK and of the JSON library take some), the process ends at once: then with the
+// status and the words of any run that is out of memory.
+[[noreturn]] void end_at_once() {
+    try {
+        if (const auto why = std::current_exception()) std::rethrow_exception(why);
+    } catch (const std::bad_alloc&) {
+        std::fputs("geomend: out of memory\n", stderr);
+        ::_exit(static_cast<int>(ExitStatus::limit));
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "geomend: internal fault: %s\n", e.what());
+    } catch (...) {
+        std::fputs("geomend: internal fault\n", stderr);
+    }
+    std::abort();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::set_terminate(end_at_once);
     geomend::cli::stop_on_signals();
     try {
         return static_cast<int>(run(argc, argv));
