@@ -25,6 +25,7 @@ struct CheckOptions {
     std::vector<std::string> only, skip;           ///< codes; `only` empty: all
     std::string target;                            ///< of a simulator or mesher that the model is for (readiness.h); empty: none
     std::optional<grid::ModelRequest> grid_model;  ///< also the boundary representations of corner-point grids are judged
+    bool closing_tolerance = true;                 ///< a larger tolerance at which models close is looked for where there are errors
     const Monitor* monitor = nullptr;
 };
 

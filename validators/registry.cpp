@@ -366,7 +366,7 @@ CheckOptions for_errors_at(double tolerance, CheckOptions options, const Monitor
 
 Result<Checked> check_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged) {
     std::vector<BorderPoints> borders;
-    auto result = judge_models(dataset, options, judged, &borders);
+    auto result = judge_models(dataset, options, judged, options.closing_tolerance ? &borders : nullptr);
     if (!result || borders.empty()) return result;
     const auto count = [](const Checked& checked) { return static_cast<std::uint64_t>(std::ranges::count_if(checked.findings, is_error)); };
     const std::uint64_t errors = count(*result);

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "pipeline/command_options.h"
 #include "pipeline/shape.h"
 #include "repair/grid_steps.h"
-#include "repair/surface_driver.h"
+#include "repair/plans.h"
+#include "topology/lengths.h"
+#include "topology/region_surfaces.h"
 
 namespace geomend {
 
@@ -84,26 +87,61 @@ ReportedStep reported(repair::SurfaceStepDone& done) {
     return step;
 }
 
-Result<void> mend_surfaces(Dataset& dataset, const std::vector<Finding>& before, const RepairRequest& request, RepairReport& report) {
-    const repair::Recipe& recipe = request.recipe;
-    const bool box = recipe.box.has_value() || recipe.automatic_box;
-    const auto names = recipe.steps.empty() ? repair::plan_for(before, recipe.max_gap.has_value(), box) : recipe.steps;
-    for (const std::string& name : names) {
+// What was found before a repair: at the tolerance that was asked for, and at the one by rule where that is smaller.
+struct FoundBefore {
+    ReportedFile asked;
+    std::optional<ReportedFile> strict;
+
+    const std::vector<Finding>& judged() const { return strict ? strict->findings : asked.findings; }
+};
+
+// The options by which a larger tolerance that was asked for is left out; nothing where none was, or it is no larger.
+std::optional<validators::CheckOptions> strict_options(const Dataset& dataset, const validators::CheckOptions& checks) {
+    if (checks.tolerance < 0 || checks.tolerance <= topology::local_lengths(dataset, {}).largest.tolerance) return std::nullopt;
+    validators::CheckOptions strict = checks;
+    strict.tolerance = -1;
+    strict.closing_tolerance = false;
+    return strict;
+}
+
+std::vector<repair::SurfacePlan> plans_of(const FoundBefore& before, const repair::Recipe& recipe) {
+    if (!recipe.steps.empty()) return {{recipe.steps, -1, {}}};
+    repair::PlanFacts facts;
+    facts.findings = before.asked.findings;
+    facts.strict = before.judged();
+    facts.close_gaps = recipe.max_gap.has_value();
+    facts.box = recipe.box.has_value() || recipe.automatic_box;
+    if (before.asked.closing && !recipe.tolerance) {
+        facts.closing = before.asked.closing->tolerance;
+        facts.closes_whole = before.asked.closing->left == 0;
+    }
+    auto plans = repair::plans_for(facts);
+    if (plans.empty()) plans.emplace_back();
+    return plans;
+}
+
+Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const RepairRequest& request, RepairReport& report) {
+    repair::Recipe recipe = request.recipe;
+    for (const std::string& name : recipe.steps) {
         if (repair::surface_step(name) == nullptr)
             return failure(FailureKind::usage, "F018", {}, "--step " + name + ": no such step of surfaces");
     }
-    auto repaired = repair::repair_surfaces(dataset, before, names, driver_options(request));
-    if (!repaired) return std::move(repaired).why();
+    if (request.checks.tolerance >= 0) recipe.tolerance = request.checks.tolerance;
+    const auto plans = plans_of(before, recipe);
+    const bool search = recipe.steps.empty() && !recipe.tolerance && !before.judged().empty();
+    auto planned = repair::repair_by_plans(dataset, before.judged(), plans, driver_options(request), search);
+    if (!planned) return std::move(planned).why();
+    repair::SurfaceRepair* repaired = &planned->repair;
     for (auto& done : repaired->steps) report.file.steps.push_back(reported(done));
-    report.recipe.steps = names;
+    if (!planned->plan.why.empty() && !report.file.steps.empty()) report.file.steps.front().what.message += "; " + planned->plan.why;
+    if (planned->would_close) report.file.closing = {*planned->would_close, count_by_severity(before.judged()).error, 0};
+    report.recipe.steps = planned->plan.steps;
     report.recipe.tolerance = repaired->lengths.tolerance;
     report.recipe.near = repaired->lengths.near;
+    report.closed = repaired->closed;
+    report.open = repaired->should_close && !repaired->closed;
     replace_surfaces(dataset, std::move(*repaired));
     return {};
-}
-
-bool has_regions(const Dataset& dataset) {
-    return std::ranges::any_of(dataset.models, [](const StatedModel& m) { return !m.regions.empty(); });
 }
 
 // A result without any region states none that could be found open: what did not close before does not close now either.
@@ -111,30 +149,66 @@ void keep_unclosed(const ReportedFile& before, ReportedFile& after) {
     for (const Finding& f : before.findings) {
         const bool unclosed = f.severity == Severity::error && (f.code == "B05" || f.code == "B06" || f.code == "B12");
         const bool known = std::ranges::find(after.findings, f.code, &Finding::code) != after.findings.end();
-        if (!unclosed || known) continue;
-        after.findings.push_back(f);
-        after.valid = false;
+        if (unclosed && !known) after.findings.push_back(f);
+    }
+    const bool told = std::ranges::any_of(after.findings, [](const Finding& f) { return f.severity == Severity::error; });
+    if (!told) after.findings.push_back(make_finding("B06", "the surfaces close around no volume: the result has no region"));
+    after.valid = false;
+}
+
+// What is found in a result: at the tolerance that was asked for, and where it seems sound then, at the one by rule, too. What was
+// not welded is not one for those who read the result.
+Result<ReportedFile> validate_result(const std::string& path, const Dataset& dataset, const validators::CheckOptions& checks) {
+    auto after = validate(path, dataset, checks);
+    if (!after || count_by_severity(after->findings).error > 0) return after;
+    const auto strict = strict_options(dataset, checks);
+    if (!strict) return after;
+    auto again = validate(path, dataset, *strict);
+    if (!again || count_by_severity(again->findings).error > 0) return again;
+    return after;
+}
+
+Result<FoundBefore> found_before(const std::string& path, const Dataset& dataset, bool grids, const validators::CheckOptions& checks) {
+    auto asked = validate(path, dataset, checks);
+    if (!asked) return std::move(asked).why();
+    FoundBefore before{std::move(*asked), {}};
+    const auto strict = grids ? std::nullopt : strict_options(dataset, checks);
+    if (!strict) return before;
+    auto again = validate(path, dataset, *strict);
+    if (!again) return std::move(again).why();
+    before.strict = std::move(*again);
+    return before;
+}
+
+// Regions that cells part, with no surface between them, are parted by one from now on: the cells go.
+void add_region_surfaces(Dataset& dataset) {
+    for (Object& object : dataset.objects) {
+        auto* mesh = std::get_if<CellMesh>(&object);
+        if (mesh != nullptr && !mesh->entities.empty()) topology::add_region_surfaces(*mesh);
     }
 }
 
 Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& request, RepairReport& report) {
     const std::string& path = request.files.inputs.front();
     flatten_meshes(dataset);
-    auto before = validate(path, dataset, request.checks);
-    if (!before) return std::move(before).why();
-    report.valid_before = count_by_severity(before->findings).error == 0;
-    report.recipe = request.recipe;
     const bool stated = !dataset.models.empty();
     const bool grids = std::ranges::any_of(dataset.objects, is_grid);
-    auto mended = grids ? mend_grids(dataset, request, report) : mend_surfaces(dataset, before->findings, request, report);
+    auto before = found_before(path, dataset, grids, request.checks);
+    if (!before) return std::move(before).why();
+    report.valid_before = count_by_severity(before->judged()).error == 0;
+    report.recipe = request.recipe;
+    if (!grids) add_region_surfaces(dataset);
+    report.closed = grids;
+    auto mended = grids ? mend_grids(dataset, request, report) : mend_surfaces(dataset, *before, request, report);
     if (!mended) return mended;
-    const bool closed = grids || has_regions(dataset);
     // Regions that were found, and stated by none of the inputs, are no loss where the target holds none.
     if (!stated && target.wants == WriterWants::objects) dataset.models.clear();
-    auto after = validate(path, dataset, request.checks);
+    auto after = validate_result(path, dataset, request.checks);
     if (!after) return std::move(after).why();
-    if (!closed) keep_unclosed(*before, *after);
+    if (report.open) keep_unclosed(before->asked, *after);
+    else if (!report.closed && !report.valid_before && after->valid == true) after->valid.reset();
     after->steps = std::move(report.file.steps);
+    if (!after->closing) after->closing = report.file.closing;
     report.file = std::move(*after);
     if (request.inspect) {
         if (auto inspected = request.inspect(dataset, dataset.breps, report.file); !inspected) return inspected;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "arrangement/arrange.h"
 #include "base/wording.h"
+#include "repair/overlaps.h"
 #include "repair/soup_edges.h"
 #include "repair/surface_steps.h"
 
@@ -27,6 +28,25 @@ void note_uncut_borders(SurfaceModel& model) {
     }
 }
 
+/// What lay in other surfaces and was left out: as a sentence, and the surfaces in it as entities.
+void tell_overlaps(const SurfaceModel& model, const std::vector<LeftOverlap>& left_out, StepOutcome& outcome) {
+    constexpr std::size_t most_named = 5;
+    for (std::size_t i = 0; i < left_out.size(); ++i) {
+        const LeftOverlap& o = left_out[i];
+        outcome.changed += o.triangles;
+        if (i > most_named) continue;
+        if (i == most_named) {
+            outcome.what.message += "; and " + std::to_string(left_out.size() - i) + " pairs more";
+            continue;
+        }
+        const auto& patches = model.model.patches;
+        outcome.what.message += "; " + (o.whole ? "all of " : counted(o.triangles, "triangle", "triangles") + " of ") +
+                                quoted(patches[o.left_out].name) + " in " + quoted(patches[o.kept].name) + " left out";
+        outcome.what.entities.push_back({"surface", patches[o.left_out].name});
+        outcome.what.entities.push_back({"surface", patches[o.kept].name});
+    }
+}
+
 /// \param reach share of the tolerance within which a vertex becomes a part of an edge or a face
 Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach) {
     note_uncut_borders(model);
@@ -40,6 +60,7 @@ Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions&
     outcome.max_displacement = d.largest;
     outcome.mean_displacement = d.mean;
     take_soup(model, std::move(cut->soup), cut->origin);
+    tell_overlaps(model, leave_out_overlaps(model), outcome);
     return outcome;
 }
 

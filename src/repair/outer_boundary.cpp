@@ -48,26 +48,16 @@ Vec3 middle_of(const TriangleSoup& soup, std::uint32_t t) {
     return times(1.0 / 3, plus(soup.vertices[a], plus(soup.vertices[b], soup.vertices[c])));
 }
 
-/// Whether a point is in a region; nothing where it lies on a surface.
-std::optional<bool> is_inside(const topology::UpwardRay& ray, const BrepData& hull, const Vec3& point) {
-    const auto separates = [&](std::uint32_t s) { return hull.surfaces[s].regions[0].valid() != hull.surfaces[s].regions[1].valid(); };
-    const auto hits = ray.above(point, separates);
-    if (!hits) return std::nullopt;
-    return hits->size() % 2 == 1;
-}
-
 /// Pieces of the other patches that are outside, but of no patch more than half.
-std::vector<std::uint32_t> triangles_outside(const SurfaceModel& model, const SoupEdges& edges, const std::vector<std::uint8_t>& chosen,
-                                             const BrepData& hull) {
+std::vector<std::uint32_t> triangles_outside(const SurfaceModel& model, const SoupEdges& edges, const OuterBoundary& boundary) {
     const TriangleSoup& soup = model.model.soup;
     const PatchPieces pieces = pieces_between_lines(soup, edges);
-    const topology::UpwardRay ray(hull);
     std::vector<std::uint8_t> known(pieces.count(), 0), inside(pieces.count(), 1);
     std::vector<double> area_in(model.model.patches.size(), 0), area_out(model.model.patches.size(), 0);
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         const std::uint32_t piece = pieces.of[t];
-        if (piece == no_index || chosen[t] != 0 || known[piece] != 0) continue;
-        if (const auto in = is_inside(ray, hull, middle_of(soup, t))) {
+        if (piece == no_index || boundary.has(t) || known[piece] != 0) continue;
+        if (const auto in = boundary.surrounds(middle_of(soup, t))) {
             inside[piece] = *in ? 1 : 0;
             known[piece] = 1;
         }
@@ -85,18 +75,41 @@ std::vector<std::uint32_t> triangles_outside(const SurfaceModel& model, const So
 
 }  // namespace
 
-Result<std::vector<std::uint32_t>> outside_of_boundary(const SurfaceModel& model, std::span<const std::uint8_t> keep) {
-    std::vector<std::uint32_t> outside;
+struct OuterBoundary::Hull {
+    explicit Hull(Brep&& made) : brep(std::move(made)), ray(*brep) {}
+    Brep brep;
+    topology::UpwardRay ray;
+};
+
+Result<std::optional<OuterBoundary>> OuterBoundary::of(const SurfaceModel& model, std::span<const std::uint8_t> keep) {
     const TriangleSoup& soup = model.model.soup;
-    const SoupEdges edges = edges_of(soup, keep);
-    const auto closed = closed_patches(soup, edges, model.model.patches.size());
-    std::vector<std::uint8_t> chosen(soup.triangles.size(), 0);
-    for (std::uint32_t t = 0; t < chosen.size(); ++t) chosen[t] = keep[t] != 0 && closed[soup.patches[t]] != 0 ? 1 : 0;
-    if (std::ranges::none_of(chosen, [](auto c) { return c != 0; })) return outside;
-    auto hull = assembled(model, chosen);
+    const auto closed = closed_patches(soup, edges_of(soup, keep), model.model.patches.size());
+    OuterBoundary boundary;
+    boundary.chosen_.assign(soup.triangles.size(), 0);
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        boundary.chosen_[t] = (keep.empty() || keep[t] != 0) && closed[soup.patches[t]] != 0 ? 1 : 0;
+    }
+    if (std::ranges::none_of(boundary.chosen_, [](auto c) { return c != 0; })) return std::optional<OuterBoundary>();
+    auto hull = assembled(model, boundary.chosen_);
     if (!hull) return std::move(hull).why();
-    if (std::ranges::none_of(hull->brep->regions, [](const auto& r) { return r.volume > 0; })) return outside;
-    return triangles_outside(model, edges, chosen, *hull->brep);
+    if (std::ranges::none_of(hull->brep->regions, [](const auto& r) { return r.volume > 0; })) return std::optional<OuterBoundary>();
+    boundary.hull_ = std::make_shared<const Hull>(std::move(hull->brep));
+    return std::optional(std::move(boundary));
+}
+
+std::optional<bool> OuterBoundary::surrounds(const Vec3& point) const {
+    const BrepData& brep = *hull_->brep;
+    const auto separates = [&](std::uint32_t s) { return brep.surfaces[s].regions[0].valid() != brep.surfaces[s].regions[1].valid(); };
+    const auto hits = hull_->ray.above(point, separates);
+    if (!hits) return std::nullopt;
+    return hits->size() % 2 == 1;
+}
+
+Result<std::vector<std::uint32_t>> outside_of_boundary(const SurfaceModel& model, std::span<const std::uint8_t> keep) {
+    auto boundary = OuterBoundary::of(model, keep);
+    if (!boundary) return std::move(boundary).why();
+    if (!*boundary) return std::vector<std::uint32_t>();
+    return triangles_outside(model, edges_of(model.model.soup, keep), **boundary);
 }
 
 }  // namespace geomend::repair

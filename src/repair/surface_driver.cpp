@@ -2,10 +2,15 @@
 #include "repair/surface_driver.h"
 
 #include <algorithm>
+#include <array>
 #include <ctime>
 #include <iterator>
+#include <optional>
+#include <string_view>
 
 #include "base/wording.h"
+#include "repair/outer_boundary.h"
+#include "repair/surviving_regions.h"
 
 namespace geomend::repair {
 
@@ -25,10 +30,7 @@ struct State {
     ErrorCounts errors;
 };
 
-/// What is found in a model, by the lengths that it is mended by.
-Result<ErrorCounts> judge(const SurfaceModel& model, const SurfaceResult& result, validators::CheckOptions checks) {
-    checks.tolerance = model.lengths.tolerance;
-    checks.near = model.lengths.near;
+Result<ErrorCounts> judge(const SurfaceResult& result, const validators::CheckOptions& checks) {
     auto checked = validators::check_models(result.dataset, checks);
     if (!checked) return std::move(checked).why();
     return errors_of(checked->findings);
@@ -39,14 +41,35 @@ std::string too_far(const StepOutcome& outcome, double limit) {
     return "it moves a vertex by " + rounded(outcome.max_displacement) + ", more than " + rounded(limit);
 }
 
-/// Why a model lost what no step may take: a surface of which nothing is left. Empty: it lost none.
+/// Why a model lost what no step may take: a surface of which nothing is left, but in others. Empty: it lost none.
 std::string lost_surface(const SurfaceModel& before, const SurfaceModel& after) {
     std::vector<std::uint8_t> left(after.model.patches.size(), 0);
     for (const std::uint32_t p : after.model.soup.patches) left[p] = 1;
     for (const std::uint32_t p : before.model.soup.patches) {
-        if (left[p] == 0) return "nothing is left of surface '" + before.model.patches[p].name + "' after it";
+        if (left[p] == 0 && (p >= after.lies_in.size() || after.lies_in[p] == no_index))
+            return "nothing is left of surface '" + before.model.patches[p].name + "' after it";
     }
     return {};
+}
+
+/// Which region of a model is not there in the one that was made of it: none that is thicker than some tolerances may go but where
+/// it lies outside of the closed boundary. Empty: all are there.
+Result<std::string> region_lost_between(const State& before, const SurfaceModel& after, const SurfaceResult& result) {
+    std::optional<OuterBoundary> boundary;
+    bool known = false;
+    std::optional<Failure> failed;
+    const double thin = 4 * after.lengths.tolerance;
+    auto why = repair::lost_region(*before.result.brep, *result.brep, thin, [&](const Vec3& point) {
+        if (!known) {
+            auto found = OuterBoundary::of(after);
+            if (found) boundary = std::move(*found);
+            else failed = std::move(found).why();
+            known = true;
+        }
+        return boundary && boundary->surrounds(point) == false;
+    });
+    if (failed) return std::move(*failed);
+    return why;
 }
 
 /// Runs a step without judging what comes of it.
@@ -82,9 +105,14 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
     if (why.empty()) {
         auto result = result_of(next);
         if (!result) return std::move(result).why();
-        auto errors = judge(next, *result, options.checks);
+        auto errors = judge(*result, options.checks);
         if (!errors) return std::move(errors).why();
         if (!options.keep_worse) why = why_worse(state.errors, *errors);
+        if (!options.keep_worse && why.empty()) {
+            auto lost = region_lost_between(state, next, *result);
+            if (!lost) return std::move(lost).why();
+            why = std::move(*lost);
+        }
         if (why.empty()) {
             state = State{std::move(next), std::move(*result), std::move(*errors)};
             return all;
@@ -134,6 +162,29 @@ Result<void> take_chain(const std::vector<const SurfaceStepRow*>& chain, const S
     return {};
 }
 
+bool has_region(const BrepData& brep) {
+    return std::ranges::any_of(brep.regions, [](const auto& r) { return r.volume_known && r.volume > 0; });
+}
+
+/// Whether a model is meant to bound volumes: it does already, or says so, or was found open.
+bool should_close(const State& state, std::span<const Finding> before) {
+    constexpr std::array<std::string_view, 5> of_openings{"B05", "B06", "B12", "B29", "M07"};
+    return has_region(*state.result.brep) || !state.model.regions.empty() ||
+           std::ranges::any_of(state.model.model.patches, [](const auto& p) { return p.role == FeatureRole::boundary; }) ||
+           std::ranges::any_of(before, [&](const Finding& f) {
+               return std::ranges::find(of_openings, std::string_view(f.code)) != of_openings.end() && f.severity != Severity::info;
+           });
+}
+
+/// The lengths by which a model is judged between steps: those that it is mended by, but no larger tolerance than by rule.
+SurfaceDriverOptions with_judges_lengths(const Dataset& dataset, const topology::Lengths& mended_by, SurfaceDriverOptions options) {
+    const auto by_rule = topology::local_lengths(dataset, {}).largest;
+    options.checks.tolerance = std::min(mended_by.tolerance, by_rule.tolerance);
+    options.checks.near = options.checks.near >= 0 ? mended_by.near : std::min(mended_by.near, by_rule.near);
+    options.checks.closing_tolerance = false;
+    return options;
+}
+
 }  // namespace
 
 ErrorCounts errors_of(std::span<const Finding> findings) {
@@ -167,12 +218,14 @@ std::vector<std::string> plan_for(std::span<const Finding> findings, bool close_
 }
 
 Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Finding> before, std::span<const std::string> names,
-                                      const SurfaceDriverOptions& options) {
-    auto model = surface_model_of(dataset, {options.checks.tolerance, options.checks.near});
+                                      const SurfaceDriverOptions& given) {
+    auto model = surface_model_of(dataset, {given.checks.tolerance, given.checks.near});
     if (!model) return std::move(model).why();
     auto result = result_of(*model);
     if (!result) return std::move(result).why();
+    const SurfaceDriverOptions options = with_judges_lengths(dataset, model->lengths, given);
     State state{std::move(*model), std::move(*result), errors_of(before)};
+    const bool closing = should_close(state, before) || options.steps.box || options.steps.automatic_box;
     std::vector<SurfaceStepDone> steps;
     for (const auto& chain : chains_of(names)) {
         if (options.steps.monitor != nullptr && options.steps.monitor->stopped())
@@ -180,7 +233,14 @@ Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Fi
         if (auto taken = take_chain(chain, options, state, steps); !taken) return std::move(taken).why();
     }
     for (Loss& loss : state.model.losses) add_loss(state.result.dataset.losses, std::move(loss));
-    return SurfaceRepair{std::move(state.result), std::move(steps), state.model.lengths, std::move(state.model.objects)};
+    const bool closed = has_region(*state.result.brep);
+    return SurfaceRepair{std::move(state.result),
+                         std::move(steps),
+                         state.model.lengths,
+                         std::move(state.model.objects),
+                         std::move(state.errors),
+                         closing,
+                         closed};
 }
 
 }  // namespace geomend::repair

@@ -45,13 +45,17 @@ struct SurfaceRepair {
     std::vector<SurfaceStepDone> steps;
     topology::Lengths lengths;           ///< by which the model was mended and judged
     std::vector<std::uint32_t> objects;  ///< of the Dataset that the result takes the place of, ascending
+    ErrorCounts errors;                  ///< that are left, by the tolerance that the model was judged at
+    bool should_close = false;           ///< it had regions, or surfaces that are stated to bound it, or was found open
+    bool closed = false;                 ///< it has a region
 };
 
 /// Takes the steps on all surfaces of a Dataset, as one model, and judges it after each: a step after which the model is worse
-/// is undone whole. Steps that lead to a cut, the cut and the removal of tails are judged together, since what was lengthened
-/// crosses until it is cut; where they are undone, cut and tails are tried without them.
-/// \param before what was found in the Dataset  \pre names are of surface_steps()
-/// Failure (cancelled) when stopped.
+/// is undone whole: one with more errors, that has lost a region or a surface, or in which a vertex moved too far. It is judged by
+/// the tolerance by rule where a larger one is given, since what was not welded is not one for others. Steps that lead to a cut, the cut
+/// and the removal of tails are judged together, since what was lengthened crosses until it is cut; where they are undone, cut and tails
+/// are tried without them. \param before what was found in the Dataset, by that tolerance  \pre names are of surface_steps() Failure
+/// (cancelled) when stopped.
 Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Finding> before, std::span<const std::string> names,
                                       const SurfaceDriverOptions& options);
 

@@ -41,6 +41,9 @@ struct SurfaceModel {
     };
     std::vector<BorderSegment> uncut_borders;
 
+    /// Per patch of which nothing is left, being in others, one of these; else no_index. Empty: there is none.
+    std::vector<std::uint32_t> lies_in;
+
     topology::Lengths lengths;           ///< by which it is mended, from the input or as given
     std::vector<std::uint32_t> objects;  ///< of the Dataset that are in it, ascending
     std::vector<Loss> losses;            ///< what was read but cannot be mended here: cells of regions

@@ -2,6 +2,8 @@
 #include "repair/surface_result.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "exchange/model_from_brep.h"
 #include "repair/region_names.h"
@@ -58,15 +60,56 @@ std::vector<std::vector<TriangleSide>> region_sides(const topology::JudgedModel&
     return sides;
 }
 
-}  // namespace
+/// The soup and its patches, but for those of which nothing is left.
+topology::SoupModel without_empty_patches(topology::SoupModel model) {
+    std::vector<std::uint32_t> number(model.patches.size(), no_index);
+    for (const std::uint32_t p : model.soup.patches) number[p] = 0;
+    if (std::ranges::find(number, no_index) == number.end()) return model;
+    std::set<std::string> left;
+    std::uint32_t count = 0;
+    for (std::uint32_t p = 0; p < number.size(); ++p) {
+        if (number[p] == no_index) continue;
+        number[p] = count++;
+        left.insert(model.patches[p].interface_name);
+        if (number[p] != p) model.patches[number[p]] = std::move(model.patches[p]);
+    }
+    model.patches.resize(count);
+    for (std::uint32_t& p : model.soup.patches) p = number[p];
+    std::erase_if(model.interfaces, [&](const auto& i) { return !left.contains(i.name); });
+    for (auto& feature : model.features) {
+        std::erase_if(feature.faces, [&](std::uint32_t f) { return number[f] == no_index; });
+        for (std::uint32_t& f : feature.faces) f = number[f];
+    }
+    std::erase_if(model.features, [](const auto& feature) { return feature.faces.empty(); });
+    return model;
+}
 
-Result<SurfaceResult> result_of(const SurfaceModel& model) {
-    auto complex = topology::complex_of_soup(model.model);
+Result<topology::JudgedModel> assembled(const SurfaceModel& model) {
+    auto complex = topology::complex_of_soup(without_empty_patches(model.model));
     if (!complex) return std::move(complex).why();
     complex->take_apart = true;
     complex->lines.shared_nodes = true;
     for (auto& face : complex->faces) face.shared_nodes = true;
-    auto judged = topology::assemble(std::move(*complex), topology::RegionSearch::where_none_are_stated);
+    return topology::assemble(std::move(*complex), topology::RegionSearch::where_none_are_stated);
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> parting_triangles(const SurfaceModel& model) {
+    auto judged = assembled(model);
+    if (!judged) return std::move(judged).why();
+    std::vector<std::uint8_t> parting(model.model.soup.triangles.size(), 0);
+    const auto triangles = soup_triangles(model, *judged);
+    for (std::size_t s = 0; s < triangles.size(); ++s) {
+        const auto& regions = judged->brep->surfaces[s].regions;
+        if (regions[0] == regions[1]) continue;
+        for (const std::uint32_t t : triangles[s]) parting[t] = 1;
+    }
+    return parting;
+}
+
+Result<SurfaceResult> result_of(const SurfaceModel& model) {
+    auto judged = assembled(model);
     if (!judged) return std::move(judged).why();
     const auto triangles = soup_triangles(model, *judged);
     BrepData data = *judged->brep;

@@ -28,4 +28,8 @@ struct SurfaceResult {
 /// Failure (internal) where the result is inconsistent. Cost: near-linear.
 Result<SurfaceResult> result_of(const SurfaceModel& model);
 
+/// Per triangle of the soup whether it parts two regions, or a region from the outside: what must stay for both to stay.
+/// Failure (internal) where the model cannot be assembled. Cost: near-linear.
+Result<std::vector<std::uint8_t>> parting_triangles(const SurfaceModel& model);
+
 }  // namespace geomend::repair

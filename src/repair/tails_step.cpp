@@ -9,6 +9,7 @@
 #include "repair/soup_edges.h"
 #include "repair/soup_edit.h"
 #include "repair/soup_measures.h"
+#include "repair/surface_result.h"
 #include "repair/surface_steps.h"
 
 namespace geomend::repair {
@@ -58,7 +59,8 @@ struct Piece {
     std::vector<std::uint32_t> triangles;
     double area = 0;
     bool has_line = false;
-    bool ends = false;  ///< freely, or where a tail of its patch was taken away
+    bool is_open = false;  ///< ends freely
+    bool follows = false;  ///< on a tail of its patch that was taken away
 };
 
 std::vector<Piece> gather(const TriangleSoup& soup, const SoupEdges& edges, const PatchPieces& pieces,
@@ -77,9 +79,10 @@ std::vector<Piece> gather(const TriangleSoup& soup, const SoupEdges& edges, cons
             const std::uint32_t piece = pieces.of[use.triangle];
             if (removed[use.triangle] != 0 || is_inner(soup, uses)) continue;
             all[piece].has_line |= uses.size() > 1;
-            all[piece].ends |= left == 1 || std::ranges::any_of(uses, [&](const auto& other) {
-                                   return removed[other.triangle] != 0 && soup.patches[other.triangle] == soup.patches[use.triangle];
-                               });
+            all[piece].is_open |= left == 1;
+            all[piece].follows |= std::ranges::any_of(uses, [&](const auto& other) {
+                return removed[other.triangle] != 0 && soup.patches[other.triangle] == soup.patches[use.triangle];
+            });
         }
     }
     return all;
@@ -96,8 +99,8 @@ struct Removed {
 };
 
 /// Takes pieces away that end freely and lie within the limit of where their patch ended before it was cut; then those behind
-/// them, until there are none. The largest piece of a patch stays.
-Removed drop_narrow(const SurfaceModel& model, double limit, std::vector<std::uint8_t>& keep) {
+/// them, until there are none. The largest piece of a patch stays, and what parts regions does.
+Result<Removed> drop_narrow(const SurfaceModel& model, double limit, std::vector<std::uint8_t>& keep) {
     const TriangleSoup& soup = model.model.soup;
     const SoupEdges edges = edges_of(soup);
     const PatchPieces pieces = pieces_between_lines(soup, edges);
@@ -105,6 +108,7 @@ Removed drop_narrow(const SurfaceModel& model, double limit, std::vector<std::ui
     std::vector<std::uint8_t> removed(soup.triangles.size(), 0), near(pieces.count(), 2);
     std::vector<double> largest(model.model.patches.size(), 0);
     Removed sum;
+    std::vector<std::uint8_t> parting;  // known once it matters
     for (bool again = true; again;) {
         again = false;
         const auto all = gather(soup, edges, pieces, removed);
@@ -112,9 +116,15 @@ Removed drop_narrow(const SurfaceModel& model, double limit, std::vector<std::ui
         for (std::size_t p = 0; p < all.size(); ++p) {
             const Piece& piece = all[p];
             if (piece.triangles.empty() || removed[piece.triangles[0]] != 0) continue;
-            if (!piece.has_line || !piece.ends || piece.area == largest[pieces.patch[p]]) continue;
+            if (!piece.has_line || !(piece.is_open || piece.follows) || piece.area == largest[pieces.patch[p]]) continue;
             if (near[p] == 2) near[p] = is_near_border(soup, piece, pieces.patch[p], borders, limit) ? 1 : 0;
             if (near[p] == 0) continue;
+            if (!piece.is_open && parting.empty()) {
+                auto found = parting_triangles(model);
+                if (!found) return std::move(found).why();
+                parting = std::move(*found);
+            }
+            if (!piece.is_open && parting[piece.triangles[0]] != 0) continue;
             for (const std::uint32_t t : piece.triangles) removed[t] = 1;
             ++sum.pieces;
             sum.triangles += piece.triangles.size();
@@ -130,18 +140,19 @@ Removed drop_narrow(const SurfaceModel& model, double limit, std::vector<std::ui
 Result<StepOutcome> remove_tails(SurfaceModel& model, const SurfaceStepOptions& options) {
     const double limit = gap_limit(model, options);
     std::vector<std::uint8_t> keep(model.model.soup.triangles.size(), 1);
-    const Removed narrow = drop_narrow(model, limit, keep);
+    const auto narrow = drop_narrow(model, limit, keep);
+    if (!narrow) return narrow.why();
     auto outside = outside_of_boundary(model, keep);
     if (!outside) return std::move(outside).why();
     for (const std::uint32_t t : *outside) keep[t] = 0;
     StepOutcome outcome;
-    outcome.changed = narrow.triangles + outside->size();
+    outcome.changed = narrow->triangles + outside->size();
     if (outcome.changed == 0) {
         outcome.what.message = "nothing sticks out by less than " + rounded(limit);
         return outcome;
     }
-    outcome.what.message = counted(narrow.pieces, "piece", "pieces") + " narrower than " + rounded(limit) + " (" +
-                           counted(narrow.triangles, "triangle", "triangles") + ") and " +
+    outcome.what.message = counted(narrow->pieces, "piece", "pieces") + " narrower than " + rounded(limit) + " (" +
+                           counted(narrow->triangles, "triangle", "triangles") + ") and " +
                            counted(outside->size(), "triangle", "triangles") + " outside of the closed boundary were removed";
     keep_triangles(model, keep);
     return outcome;
