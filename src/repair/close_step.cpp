@@ -32,6 +32,7 @@ std::vector<Offset> offsets_of(const TriangleSoup& soup, const FreeBorders& bord
         if (contact.decision != GapDecision::closed) continue;
         const auto& piece = borders.pieces[contact.piece];
         for (std::size_t i = 0; i < piece.size(); ++i) {
+            if (contact.in_part && hits[piece[i]].patch != contact.on) continue;
             const BorderEdge& e = borders.edges[piece[i]];
             const Vec3 middle = times(0.5, plus(soup.vertices[e.from], soup.vertices[e.to]));
             GapHit hit = search.ahead(middle, e.outward, contact.patch, contact.on);  // that of the whole piece comes first
@@ -57,7 +58,8 @@ Vec3 joined(const Offset& before, const Offset& after, const Vec3& vertex, doubl
     const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), det = uu * vv - uv * uv;
     const Vec3 one = minus(before.to, vertex), other = minus(after.from, vertex);
     const Vec3 between = dot(one, one) > dot(other, other) ? before.to : after.from;  // what is too long is cut off
-    if (det < 0.117 * uu * vv) return between;                                        // less than 20 degrees
+    // Lines that go on nearly straight meet anywhere: less than 20 degrees; those of a sharp tip, of 3 degrees or more, at its point.
+    if (det < (uv > 0 ? 0.117 : 0.0027) * uu * vv) return between;
     const double s = (vv * dot(u, w) - uv * dot(v, w)) / det, t = (uv * dot(u, w) - uu * dot(v, w)) / det;
     const Vec3 meet = times(0.5, plus(plus(before.from, times(s, u)), plus(after.from, times(t, v))));
     const Vec3 away = minus(meet, vertex);

@@ -22,7 +22,8 @@ double length_of(const TriangleSoup& soup, const BorderEdge& e) {
 struct Votes {
     double length = 0, ahead = 0, behind = 0, attached = 0;
     double gaps = 0, largest = 0;
-    std::map<std::uint32_t, double> by_patch;
+    std::map<std::uint32_t, double> by_patch;      ///< what lies ahead
+    std::map<std::uint32_t, double> beside_patch;  ///< what is touched or stuck through
 };
 
 /// \param hits of the edges ahead
@@ -37,14 +38,16 @@ Votes count_votes(const TriangleSoup& soup, const FreeBorders& borders, const st
         votes.length += length;
         const GapHit back = search.ahead(from, times(-1, edge.outward), patch);
         hits[e] = search.ahead(from, edge.outward, patch);
-        const bool touches = (hits[e].within && hits[e].along <= tolerance / 32) || (back.within && back.along <= tolerance / 32);
-        if (touches) {
+        const bool touches_ahead = hits[e].within && hits[e].along <= tolerance / 32;
+        if (touches_ahead || (back.within && back.along <= tolerance / 32)) {
             votes.attached += length;
+            votes.beside_patch[touches_ahead ? hits[e].patch : back.patch] += length;
             hits[e] = {};
             continue;
         }
         if (back.within && (!hits[e].found() || !hits[e].within || back.along <= hits[e].along)) {
             votes.behind += length;
+            votes.beside_patch[back.patch] += length;
             hits[e] = {};
             continue;
         }
@@ -57,13 +60,37 @@ Votes count_votes(const TriangleSoup& soup, const FreeBorders& borders, const st
     return votes;
 }
 
+std::uint32_t most_of(const std::map<std::uint32_t, double>& patches) {
+    if (patches.empty()) return no_index;
+    return std::ranges::max_element(patches, {}, [](const auto& v) { return v.second; })->first;
+}
+
+int percent_of(double part, double whole) { return static_cast<int>(100 * part / whole); }
+
+/// The patch from one side of which to the other a piece goes over: it stops short of it, sticks through it and ends on it along
+/// at least 60 % of its length; no_index: none.
+std::uint32_t gone_over(const Votes& votes) {
+    for (const auto& [patch, ahead] : votes.by_patch) {
+        const auto beside = votes.beside_patch.find(patch);
+        if (beside != votes.beside_patch.end() && ahead + beside->second >= 0.6 * votes.length) return patch;
+    }
+    return no_index;
+}
+
 void decide(const Votes& votes, Contact& contact) {
+    contact.on = votes.ahead > 0 ? most_of(votes.by_patch) : most_of(votes.beside_patch);
     if (votes.ahead > 0) {
         contact.mean_gap = votes.gaps / votes.ahead;
         contact.max_gap = votes.largest;
-        contact.on = std::ranges::max_element(votes.by_patch, {}, [](const auto& v) { return v.second; })->first;
     }
-    if (votes.attached > 0.6 * votes.length) {
+    const std::uint32_t over = votes.ahead < 0.6 * votes.length ? gone_over(votes) : no_index;
+    if (over != no_index) {
+        contact.on = over;
+        contact.decision = GapDecision::closed;
+        contact.in_part = true;
+        contact.why = std::to_string(percent_of(votes.by_patch.at(over), votes.length)) +
+                      " % of it stops short; the rest ends on it already, or sticks through and is trimmed";
+    } else if (votes.attached > 0.6 * votes.length) {
         contact.why = "it ends on another surface already";
     } else if (votes.behind > votes.ahead && votes.behind > 0.6 * votes.length) {
         contact.decision = GapDecision::trimmed;
@@ -71,8 +98,8 @@ void decide(const Votes& votes, Contact& contact) {
     } else if (votes.ahead >= 0.6 * votes.length) {
         contact.decision = GapDecision::closed;
     } else {
-        const int percent = static_cast<int>(100 * votes.ahead / votes.length);
-        contact.why = votes.ahead > 0 ? "only " + std::to_string(percent) + " % of it has a surface ahead within the limit"
+        contact.why = votes.ahead > 0 ? "only " + std::to_string(percent_of(votes.ahead, votes.length)) +
+                                            " % of it has a surface ahead within the limit"
                                       : "no surface lies ahead within the limit";
     }
 }
@@ -80,7 +107,8 @@ void decide(const Votes& votes, Contact& contact) {
 void obey(std::span<const PatchWish> wishes, Contact& contact) {
     for (const PatchWish& wish : wishes) {
         if (wish.patch != contact.patch || (wish.on != no_index && wish.on != contact.on)) continue;
-        const bool can_close = contact.on != no_index;
+        const bool can_close = contact.max_gap > 0;
+        contact.in_part &= wish.close;
         contact.decision = wish.close && can_close ? GapDecision::closed : GapDecision::left;
         contact.why = wish.close && !can_close ? "to be closed by the recipe, but no surface lies ahead within the limit" : "by the recipe";
     }

@@ -22,6 +22,7 @@ struct Contact {
     std::uint32_t on = no_index;       ///< patch that most of the piece would meet; no_index: none
     double mean_gap = 0, max_gap = 0;  ///< along the surface, over the edges that meet something
     GapDecision decision = GapDecision::left;
+    bool in_part = false;  ///< closed: only its edges that stop short of `on` are; the others end on it or stick through
     std::string why;
 };
 
@@ -32,7 +33,8 @@ struct PatchWish {
 };
 
 /// Decides for each piece of the free borders, by votes of its edges weighted by length: closed where at least 60 % of it has a surface
-/// ahead, and more of it has one ahead than sticks through one within the same limit (trimmed, once all is cut).
+/// ahead, and more of it has one ahead than sticks through one within the same limit (trimmed, once all is cut). A piece that
+/// goes over from one side of a surface to the other, at least 60 % of it near that surface, is closed where it stops short.
 /// \param wishes come before votes
 /// \param hits per edge gets what lies ahead of its middle
 std::vector<Contact> decide_contacts(const TriangleSoup& soup, const FreeBorders& borders, const GapSearch& search, double tolerance,

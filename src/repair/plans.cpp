@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <string_view>
 #include <utility>
 
@@ -41,11 +42,17 @@ void add(std::vector<SurfacePlan>& plans, SurfacePlan plan) {
     if (!plan.steps.empty() && !known) plans.push_back(std::move(plan));
 }
 
-/// Errors that are left, and one more where the model should be closed and is not.
-std::uint64_t badness(const SurfaceRepair& repair) {
-    std::uint64_t sum = repair.should_close && !repair.closed ? 1 : 0;
-    for (const auto& [code, count] : repair.errors) sum += count;
-    return sum;
+/// What is left: errors, and one more where the model should be closed and is not; then borders that nearly meet a surface.
+struct Left {
+    std::uint64_t errors = 0, near_misses = 0;
+    auto operator<=>(const Left&) const = default;
+    bool nothing() const { return errors == 0 && near_misses == 0; }
+};
+
+Left left_by(const SurfaceRepair& repair) {
+    Left left{repair.should_close && !repair.closed ? 1u : 0u, repair.near_misses};
+    for (const auto& [code, count] : repair.errors) left.errors += count;
+    return left;
 }
 
 /// Whether each surface parts regions, or a region from the outside.
@@ -119,22 +126,22 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         if (plan.tolerance >= 0) own.checks.tolerance = plan.tolerance;
         return repair_surfaces(dataset, before, plan.steps, own);
     };
-    const auto is_better = [&](const SurfaceRepair& repair) { return !best || badness(repair) < badness(best->repair); };
+    const auto is_better = [&](const SurfaceRepair& repair) { return !best || left_by(repair) < left_by(best->repair); };
     for (const SurfacePlan& plan : plans) {
         auto repaired = attempt(plan);
         if (!repaired) return std::move(repaired).why();
         if (!is_better(*repaired)) continue;
         best = PlannedRepair{std::move(*repaired), plan, {}};
-        if (badness(best->repair) == 0) break;
+        if (left_by(best->repair).nothing()) break;
     }
-    if (!search || (badness(best->repair) == 0 && best->repair.closed)) return std::move(*best);
+    if (!search || (left_by(best->repair).errors == 0 && best->repair.closed)) return std::move(*best);
     auto wider = wider_tolerances(dataset, options);
     if (!wider) return std::move(wider).why();
     for (const double tolerance : wider->lengths) {
         SurfacePlan plan{in_order(without(plans.front().steps, of_gaps), weld_and_cut), tolerance, reason(tolerance)};
         auto repaired = attempt(plan);
         if (!repaired) return std::move(repaired).why();
-        if (badness(*repaired) > 0 || !repaired->closed || (!repaired->should_close && !is_sealed(*repaired->result.brep))) continue;
+        if (left_by(*repaired).errors > 0 || !repaired->closed || (!repaired->should_close && !is_sealed(*repaired->result.brep))) continue;
         if (tolerance > wider->limit) best->would_close = tolerance;
         else best = PlannedRepair{std::move(*repaired), std::move(plan), {}};
         break;

@@ -28,12 +28,22 @@ struct State {
     SurfaceModel model;
     SurfaceResult result;
     ErrorCounts errors;
+    std::uint64_t near_misses = 0;  ///< borders that nearly meet a surface
 };
 
-Result<ErrorCounts> judge(const SurfaceResult& result, const validators::CheckOptions& checks) {
+struct Judged {
+    ErrorCounts errors;
+    std::uint64_t near_misses = 0;
+};
+
+std::uint64_t near_misses_in(std::span<const Finding> findings) {
+    return static_cast<std::uint64_t>(std::ranges::count(findings, "B23", &Finding::code));
+}
+
+Result<Judged> judge(const SurfaceResult& result, const validators::CheckOptions& checks) {
     auto checked = validators::check_models(result.dataset, checks);
     if (!checked) return std::move(checked).why();
-    return errors_of(checked->findings);
+    return Judged{errors_of(checked->findings), near_misses_in(checked->findings)};
 }
 
 std::string too_far(const StepOutcome& outcome, double limit) {
@@ -105,16 +115,16 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
     if (why.empty()) {
         auto result = result_of(next);
         if (!result) return std::move(result).why();
-        auto errors = judge(*result, options.checks);
-        if (!errors) return std::move(errors).why();
-        if (!options.keep_worse) why = why_worse(state.errors, *errors);
+        auto judged = judge(*result, options.checks);
+        if (!judged) return std::move(judged).why();
+        if (!options.keep_worse) why = why_worse(state.errors, judged->errors);
         if (!options.keep_worse && why.empty()) {
             auto lost = region_lost_between(state, next, *result);
             if (!lost) return std::move(lost).why();
             why = std::move(*lost);
         }
         if (why.empty()) {
-            state = State{std::move(next), std::move(*result), std::move(*errors)};
+            state = State{std::move(next), std::move(*result), std::move(judged->errors), judged->near_misses};
             return all;
         }
     }
@@ -224,7 +234,7 @@ Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Fi
     auto result = result_of(*model);
     if (!result) return std::move(result).why();
     const SurfaceDriverOptions options = with_judges_lengths(dataset, model->lengths, given);
-    State state{std::move(*model), std::move(*result), errors_of(before)};
+    State state{std::move(*model), std::move(*result), errors_of(before), near_misses_in(before)};
     const bool closing = should_close(state, before) || options.steps.box || options.steps.automatic_box;
     std::vector<SurfaceStepDone> steps;
     for (const auto& chain : chains_of(names)) {
@@ -239,6 +249,7 @@ Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Fi
                          state.model.lengths,
                          std::move(state.model.objects),
                          std::move(state.errors),
+                         state.near_misses,
                          closing,
                          closed};
 }

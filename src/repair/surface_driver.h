@@ -46,6 +46,7 @@ struct SurfaceRepair {
     topology::Lengths lengths;           ///< by which the model was mended and judged
     std::vector<std::uint32_t> objects;  ///< of the Dataset that the result takes the place of, ascending
     ErrorCounts errors;                  ///< that are left, by the tolerance that the model was judged at
+    std::uint64_t near_misses = 0;       ///< borders that still nearly meet a surface
     bool should_close = false;           ///< it had regions, or surfaces that are stated to bound it, or was found open
     bool closed = false;                 ///< it has a region
 };

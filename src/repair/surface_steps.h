@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -28,9 +29,10 @@ struct SurfaceStepOptions {
     const Monitor* monitor = nullptr;
 };
 
-/// The largest gap that is closed, hole that is filled and overshoot that is trimmed: as given, else a thousandth of D.
+/// The largest gap that is closed, hole that is filled and overshoot that is trimmed: as given, but a tenth of D at most; else a
+/// thousandth of D.
 inline double gap_limit(const SurfaceModel& model, const SurfaceStepOptions& options) {
-    return options.max_gap >= 0 ? options.max_gap : 1e-3 * model.lengths.diameter;
+    return options.max_gap >= 0 ? std::min(options.max_gap, 0.1 * model.lengths.diameter) : 1e-3 * model.lengths.diameter;
 }
 
 /// What was decided about a piece of a border that nearly meets another surface.

@@ -98,33 +98,46 @@ struct Removed {
     std::uint64_t pieces = 0, triangles = 0;
 };
 
+/// Per patch what it is measured by: its largest piece of those that part regions, or of all where none does.
+std::vector<double> main_areas(const std::vector<Piece>& all, const PatchPieces& pieces, const std::vector<std::uint8_t>& parting,
+                               std::size_t patches) {
+    std::vector<double> main(patches, 0), largest(patches, 0);
+    for (std::size_t p = 0; p < all.size(); ++p) {
+        if (all[p].triangles.empty()) continue;
+        double& area = (parting[all[p].triangles[0]] != 0 ? main : largest)[pieces.patch[p]];
+        area = std::max(area, all[p].area);
+    }
+    for (std::size_t i = 0; i < patches; ++i) main[i] = main[i] > 0 ? main[i] : largest[i];
+    return main;
+}
+
 /// Takes pieces away that end freely and lie within the limit of where their patch ended before it was cut; then those behind
-/// them, until there are none. The largest piece of a patch stays, and what parts regions does.
+/// them, until there are none. The main piece of a patch stays, and of what parts regions all that is no mere corner of it.
 Result<Removed> drop_narrow(const SurfaceModel& model, double limit, std::vector<std::uint8_t>& keep) {
+    constexpr double share_of_corner = 0.1;
     const TriangleSoup& soup = model.model.soup;
     const SoupEdges edges = edges_of(soup);
     const PatchPieces pieces = pieces_between_lines(soup, edges);
     const UncutBorders borders(model);
     std::vector<std::uint8_t> removed(soup.triangles.size(), 0), near(pieces.count(), 2);
-    std::vector<double> largest(model.model.patches.size(), 0);
     Removed sum;
-    std::vector<std::uint8_t> parting;  // known once it matters
+    const auto first = gather(soup, edges, pieces, removed);
+    if (std::ranges::none_of(first, [](const Piece& p) { return p.has_line && p.is_open; })) return sum;
+    const auto parting = parting_triangles(model);
+    if (!parting) return parting.why();
+    const auto main = main_areas(first, pieces, *parting, model.model.patches.size());
     for (bool again = true; again;) {
         again = false;
         const auto all = gather(soup, edges, pieces, removed);
-        for (std::size_t p = 0; p < all.size(); ++p) largest[pieces.patch[p]] = std::max(largest[pieces.patch[p]], all[p].area);
         for (std::size_t p = 0; p < all.size(); ++p) {
             const Piece& piece = all[p];
             if (piece.triangles.empty() || removed[piece.triangles[0]] != 0) continue;
-            if (!piece.has_line || !(piece.is_open || piece.follows) || piece.area == largest[pieces.patch[p]]) continue;
+            const double whole = main[pieces.patch[p]];
+            const bool parts = !piece.is_open && (*parting)[piece.triangles[0]] != 0;
+            if (!piece.has_line || !(piece.is_open || piece.follows) || piece.area == whole) continue;
+            if (parts && piece.area > share_of_corner * whole) continue;
             if (near[p] == 2) near[p] = is_near_border(soup, piece, pieces.patch[p], borders, limit) ? 1 : 0;
             if (near[p] == 0) continue;
-            if (!piece.is_open && parting.empty()) {
-                auto found = parting_triangles(model);
-                if (!found) return std::move(found).why();
-                parting = std::move(*found);
-            }
-            if (!piece.is_open && parting[piece.triangles[0]] != 0) continue;
             for (const std::uint32_t t : piece.triangles) removed[t] = 1;
             ++sum.pieces;
             sum.triangles += piece.triangles.size();

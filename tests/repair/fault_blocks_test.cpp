@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "repair/surface_driver.h"
+#include "repair/plans.h"
 #include "support/seeds.h"
 #include "validators/registry.h"
 
@@ -28,9 +28,12 @@ Mended mend(const Dataset& dataset, double max_gap) {
     EXPECT_TRUE(before);
     repair::SurfaceDriverOptions options;
     options.steps.max_gap = max_gap;
-    const auto plan = repair::plan_for(before->findings, max_gap >= 0);
-    auto repaired = repair::repair_surfaces(dataset, before->findings, plan, options);
-    EXPECT_TRUE(repaired);
+    repair::PlanFacts facts;
+    facts.findings = facts.strict = before->findings;
+    facts.close_gaps = max_gap >= 0;
+    auto planned = repair::repair_by_plans(dataset, before->findings, repair::plans_for(facts), options, false);
+    EXPECT_TRUE(planned);
+    const repair::SurfaceRepair* repaired = &planned->repair;
     Mended mended;
     for (const auto& region : repaired->result.brep->regions) mended.volumes.push_back(region.volume);
     std::ranges::sort(mended.volumes);
