@@ -2,9 +2,9 @@
 #include "formats/options.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
+#include "base/nearest_word.h"
 #include "base/number_text.h"
 #include "base/text_cursor.h"
 #include "formats/registry.h"
@@ -21,31 +21,6 @@ std::vector<std::string_view> split(std::string_view text, char at) {
         if (end == std::string_view::npos) return parts;
         text.remove_prefix(end + 1);
     }
-}
-
-// Letters to insert, to leave out, to change or to swap with the next one.
-std::size_t steps_between(std::string_view a, std::string_view b) {
-    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) {
-        for (std::size_t j = 0; j <= b.size(); ++j) {
-            if (i == 0 || j == 0) {
-                d[i][j] = i + j;
-                continue;
-            }
-            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-        }
-    }
-    return d[a.size()][b.size()];
-}
-
-// The known word that is spelt most like this one, where at most every third letter differs; else nothing: a word of two
-// letters is one step away from many that mean something else.
-std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known) {
-    const std::string lower = lower_case(word.substr(0, 100));
-    const auto best = std::ranges::min_element(known, {}, [&](std::string_view one) { return steps_between(lower, one); });
-    if (best == known.end() || 3 * steps_between(lower, *best) > std::max(lower.size(), best->size())) return {};
-    return *best;
 }
 
 // "a, b or c", each once.
@@ -92,7 +67,7 @@ std::string expected(const std::vector<const OptionRow*>& rows, std::string_view
         if (row->kind != OptionValue::words) return "expected " + std::string(row->values);
         std::ranges::copy(split(row->values, '|'), std::back_inserter(words));
     }
-    const std::string_view near = nearest(value, words);
+    const std::string_view near = nearest_word(value, words);
     return "expected " + listed(words) + (near.empty() ? "" : " (nearest: " + std::string(near) + ")");
 }
 
@@ -155,7 +130,7 @@ Result<FormatOptions> checked_options(const FormatOptions& options, const Option
             if (const std::string home = home_of(key); !home.empty()) return wrong(key, value, home + ", which this run does not do");
             std::vector<std::string_view> keys;
             for (const OptionRow* row : rows) keys.push_back(row->key);
-            const std::string_view near = nearest(key, keys);
+            const std::string_view near = nearest_word(key, keys);
             return wrong(key, value, near.empty() ? no_such_option(keys) : "no such option; the nearest is " + std::string(near));
         }
         std::optional<std::string> good;

@@ -2,11 +2,11 @@
 #include "validators/choice.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "base/codes.h"
+#include "base/nearest_word.h"
 #include "validators/readiness.h"
 #include "validators/registry.h"
 
@@ -29,24 +29,6 @@ bool names(const std::vector<std::string>& list, std::string_view code) {
     return std::ranges::any_of(list, [&](const std::string& word) { return stands_for(word, code); });
 }
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-/// How many letters must be put in, taken out or changed to make one word of the other.
-std::size_t changes_between(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t changed = diagonal + (upper(a[i]) == upper(b[j]) ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
-
 Result<void> known_word(const std::string& word) {
     constexpr std::size_t longest = 64;  // no pattern for codes is longer, and patterns are tried in all ways
     const auto all = code_catalogue();
@@ -67,14 +49,9 @@ bool stands_for(std::string_view word, std::string_view code) {
 bool always_told(std::string_view code) { return code.starts_with("F0") || code == "M09"; }
 
 std::string_view nearest_code(std::string_view word) {
-    std::string_view best;
-    std::size_t fewest = static_cast<std::size_t>(-1);
-    for (const CodeInfo& row : code_catalogue()) {
-        const std::size_t changes = changes_between(word, row.code);
-        if (changes < fewest) best = row.code;
-        fewest = std::min(fewest, changes);
-    }
-    return best;
+    std::vector<std::string_view> codes;
+    for (const CodeInfo& row : code_catalogue()) codes.push_back(row.code);
+    return nearest_word(word, codes);
 }
 
 Result<void> known_codes(const CheckOptions& options) {

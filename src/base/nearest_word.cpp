@@ -31,7 +31,8 @@ std::size_t steps_between(std::string_view a, std::string_view b) {
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {
     const std::string_view start = word.substr(0, 100);
     const auto best = std::ranges::min_element(known, {}, [&](std::string_view one) { return steps_between(start, one); });
-    return best == known.end() ? std::string_view() : *best;
+    if (best == known.end() || 3 * steps_between(start, *best) > std::max(start.size(), best->size())) return {};
+    return *best;
 }
 
 }  // namespace geomend

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <mutex>
 
+#include "base/number_text.h"
 #include "report/advice.h"
 
 namespace geomend::cli {
@@ -61,11 +62,20 @@ void add_common_options(CLI::App& command, CommonOptions& o, bool writes) {
         ->check(CLI::IsMember({"auto", "always", "never"}));
     command.add_option("--tolerance", o.tolerance, "Welding length for checks and repairs; reading and converting never weld by it")
         ->type_name("L")
-        ->check(CLI::NonNegativeNumber);
+        ->check(is_length());
     command.add_option("--near", o.near, "Search length for near misses in checks; not used by reading and converting")
         ->type_name("L")
-        ->check(CLI::NonNegativeNumber);
+        ->check(is_length());
     command.add_option("--option", o.options, "Format option, may be repeated")->type_name("KEY=VALUE")->allow_extra_args(false);
+}
+
+CLI::Validator is_length() {
+    const auto check = [](const std::string& text) {
+        double value = 0;
+        const bool good = parse_real(text, value) == NumberStatus::ok && value >= 0 && value <= 1e20;
+        return good ? std::string() : "expected a length, a number of at least 0; found '" + text + "'";
+    };
+    return CLI::Validator(check, std::string());
 }
 
 Result<FormatOptions> format_options(const std::vector<std::string>& texts) {

@@ -28,6 +28,9 @@ struct CommonOptions {
 /// Adds them to a command; `writes` adds --to.
 void add_common_options(CLI::App& command, CommonOptions& options, bool writes);
 
+/// A check of options: a finite number of at least 0 and at most 1e20.
+CLI::Validator is_length();
+
 /// KEY=VALUE texts as pairs; failure (usage) where one has no '='.
 Result<FormatOptions> format_options(const std::vector<std::string>& texts);
 

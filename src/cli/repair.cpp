@@ -53,6 +53,21 @@ std::vector<std::string> steps_of(const RepairOptions& o) {
     return steps;
 }
 
+// Options that no step of a list takes are no help to it, but a mistake.
+Result<void> taken_by_steps(const RepairOptions& o, const repair::Recipe& recipe) {
+    if (recipe.steps.empty()) return {};
+    const auto has = [&](std::initializer_list<std::string_view> names) {
+        return std::ranges::any_of(names,
+                                   [&](std::string_view name) { return std::ranges::find(recipe.steps, name) != recipe.steps.end(); });
+    };
+    const auto refuse = [](const std::string& option, const std::string& steps) {
+        return failure(FailureKind::usage, "F018", {}, option + ": none of the steps takes it; it is for " + steps);
+    };
+    if (!o.box.empty() && !has({"box"})) return refuse("--box", "box");
+    if (o.max_gap && !has({"close", "holes", "tails"})) return refuse("--max-gap", "holes, close and tails");
+    return {};
+}
+
 // The recipe that is named, if one is; what the command line says besides takes the place of its entries.
 Result<repair::Recipe> recipe_of(const RepairOptions& o) {
     repair::Recipe recipe;
@@ -71,6 +86,7 @@ Result<repair::Recipe> recipe_of(const RepairOptions& o) {
         recipe.automatic_box = false;
         if (auto box = repair::parse_box(o.box, recipe); !box) return std::move(box).why();
     }
+    if (auto taken = taken_by_steps(o, recipe); !taken) return std::move(taken).why();
     return recipe;
 }
 
@@ -124,6 +140,9 @@ Result<void> check_places(const RepairOptions& o) {
     if (!o.recipe.empty()) taken.push_back(o.recipe);
     for (const std::string& file : beside) {
         std::error_code none;
+        const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+        if (!folder.empty() && !std::filesystem::is_directory(folder, none))
+            return failure(FailureKind::unwritable, "F020", {file}, "there is no folder '" + folder.string() + "'");
         if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) continue;
         for (const std::string& other : taken) {
             if (!is_same_file(file, other)) continue;
@@ -194,10 +213,10 @@ void add_repair(CLI::App& program, ExitStatus& status) {
     command
         ->add_option("--max-gap", o->max_gap, "Largest gap that is closed and overshoot that is trimmed (default 1e-3 of the model's size)")
         ->type_name("L")
-        ->check(CLI::NonNegativeNumber);
+        ->check(is_length());
     command->add_option("--max-displacement", o->max_displacement, "A step that moves a vertex farther is undone")
         ->type_name("L")
-        ->check(CLI::NonNegativeNumber);
+        ->check(is_length());
     command->add_flag("--keep-invalid", o->keep_invalid, "Write the result even where it still has errors");
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
     add_check_arguments(*command, *o);

@@ -5,8 +5,10 @@
 #include <array>
 #include <optional>
 
+#include "base/wording.h"
 #include "pipeline/command_options.h"
 #include "pipeline/shape.h"
+#include "repair/code_steps.h"
 #include "repair/grid_steps.h"
 #include "repair/plans.h"
 #include "topology/lengths.h"
@@ -21,16 +23,37 @@ bool is_grid(const Object& object) {
     return grid != nullptr && validators::has_geometry(*grid);
 }
 
-Result<void> known_step(const std::string& name) {
-    if (repair::surface_step(name) != nullptr) return {};
-    return repair::known_grid_steps(std::array{name});
+// Failure (usage) where steps or options are not for grids.
+Result<void> are_of_grids(const RepairRequest& request) {
+    const auto refuse = [&](const std::string& what) {
+        return failure(FailureKind::usage, "F018", {request.files.inputs.front()}, what + " is for models of surfaces, and this is a grid");
+    };
+    for (const std::string& name : request.recipe.steps) {
+        if (repair::surface_step(name) != nullptr) return refuse("step " + name);
+    }
+    if (request.recipe.box || request.recipe.automatic_box) return refuse("a box");
+    if (request.recipe.max_gap) return refuse("--max-gap");
+    if (request.recipe.max_displacement) return refuse("--max-displacement");
+    if (!request.recipe.contacts.empty()) return refuse("a contact");
+    return {};
+}
+
+// The same for models of surfaces.
+Result<void> are_of_surfaces(const RepairRequest& request) {
+    const auto refuse = [&](const std::string& what) {
+        return failure(FailureKind::usage, "F018", {request.files.inputs.front()}, what + " is for grids, and this is a model of surfaces");
+    };
+    for (const std::string& name : request.recipe.steps) {
+        if (repair::surface_step(name) == nullptr) return refuse("step " + name);
+    }
+    return request.gap ? refuse("--option gap") : Result<void>();
 }
 
 Result<void> mend_grids(Dataset& dataset, const RepairRequest& request, RepairReport& report) {
     const auto usual = repair::usual_grid_steps();
     std::vector<std::string> names = request.recipe.steps;
     if (names.empty()) names.assign(usual.begin(), usual.end());
-    if (auto known = repair::known_grid_steps(names); !known) return known;
+    if (auto of_grids = are_of_grids(request); !of_grids) return of_grids;
     auto done = repair::run_grid_steps(dataset, names, {request.checks, request.gap});
     if (!done) return std::move(done).why();
     for (auto& [step, what] : *done) {
@@ -39,6 +62,11 @@ Result<void> mend_grids(Dataset& dataset, const RepairRequest& request, RepairRe
         reported.what = std::move(what);
         reported.changed = reported.what.count;
         report.file.steps.push_back(std::move(reported));
+    }
+    const auto surfaces = std::ranges::count_if(dataset.objects, [](const Object& o) { return std::holds_alternative<Surface>(o); });
+    if (surfaces > 0 && !report.file.steps.empty()) {
+        report.file.steps.back().what.message += "; " + geomend::counted(static_cast<std::uint64_t>(surfaces), "surface", "surfaces") +
+                                                 " beside the grid: left as read, mend them in a run of their own";
     }
     report.recipe.steps = names;
     return {};
@@ -122,10 +150,7 @@ std::vector<repair::SurfacePlan> plans_of(const FoundBefore& before, const repai
 
 Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const RepairRequest& request, RepairReport& report) {
     repair::Recipe recipe = request.recipe;
-    for (const std::string& name : recipe.steps) {
-        if (repair::surface_step(name) == nullptr)
-            return failure(FailureKind::usage, "F018", {}, "--step " + name + ": no such step of surfaces");
-    }
+    if (auto of_surfaces = are_of_surfaces(request); !of_surfaces) return of_surfaces;
     if (request.checks.tolerance >= 0) recipe.tolerance = request.checks.tolerance;
     const auto plans = plans_of(before, recipe);
     const bool search = recipe.steps.empty() && !recipe.tolerance && !before.judged().empty();
@@ -200,6 +225,11 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     if (!grids) add_region_surfaces(dataset);
     report.closed = grids;
     auto mended = grids ? mend_grids(dataset, request, report) : mend_surfaces(dataset, *before, request, report);
+    if (!mended && mended.why().error.where.file.empty() && mended.why().kind == FailureKind::usage) {
+        Failure why = mended.why();
+        why.error.where.file = path;
+        return why;
+    }
     if (!mended) return mended;
     // Regions that were found, and stated by none of the inputs, are no loss where the target holds none.
     if (!stated && target.wants == WriterWants::objects) dataset.models.clear();
@@ -225,7 +255,7 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
 
 Result<RepairReport> repair_file(const RepairRequest& request) {
     for (const std::string& name : request.recipe.steps) {
-        if (auto known = known_step(name); !known) return std::move(known).why();
+        if (auto known = repair::known_step(name); !known) return std::move(known).why();
     }
     RepairReport report;
     ConvertRequest files = request.files;

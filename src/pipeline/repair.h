@@ -27,8 +27,8 @@ struct RepairReport {
     ReportedFile file;         ///< what is found after it, and what each step did
     bool valid_before = true;  ///< no error was found before
     bool written = false;
-    bool closed = false;  ///< the result has a region, or is a grid; without one it is not called valid where the input was not
-    bool open = false;    ///< the model should close around volumes, but has no region
+    bool closed = false;    ///< the result has a region, or is a grid; without one it is not called valid where the input was not
+    bool open = false;      ///< the model should close around volumes, but has no region
     repair::Recipe recipe;  ///< with which the same is done again: the steps that were taken, and the lengths
     std::vector<Loss> losses;
 };

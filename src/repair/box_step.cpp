@@ -76,6 +76,25 @@ Bounds automatic(const SurfaceModel& model) {
     return box;
 }
 
+/// Failure (usage) where a box lies beside all surfaces.
+Result<void> meets_surfaces(const SurfaceModel& model, const Bounds& box) {
+    Bounds all{Vec3{INFINITY, INFINITY, INFINITY}, Vec3{-INFINITY, -INFINITY, -INFINITY}};
+    for (const auto& [name, entry] : bounds_of_interfaces(model)) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            all[0][k] = std::min(all[0][k], entry.first[0][k]);
+            all[1][k] = std::max(all[1][k], entry.first[1][k]);
+        }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (box[0][k] <= all[1][k] && all[0][k] <= box[1][k]) continue;
+        const std::string axis(1, "xyz"[k]);
+        return failure(FailureKind::usage, "F018", {},
+                       "the box lies beside the surfaces: " + axis + " from " + rounded(box[0][k]) + " to " + rounded(box[1][k]) +
+                           ", and theirs from " + rounded(all[0][k]) + " to " + rounded(all[1][k]));
+    }
+    return {};
+}
+
 constexpr std::array<std::string_view, 6> names = {"box_west", "box_east", "box_south", "box_north", "box_base", "box_top"};
 /// Corners of each side, counter-clockwise from outside; bit k of a corner: high of axis k.
 constexpr std::array<std::array<unsigned, 4>, 6> corners = {
@@ -123,6 +142,7 @@ Result<StepOutcome> add_box(SurfaceModel& model, const SurfaceStepOptions& optio
             FailureKind::usage, "F018", {},
             "the box has no extent along " + std::string(1, "xyz"[k]) + ": from " + rounded(box[0][k]) + " to " + rounded(box[1][k]));
     }
+    if (auto fits = meets_surfaces(model, box); !fits) return std::move(fits).why();
     add_sides(model, box);
     outcome.changed = 6;
     outcome.what.message = "six sides were added: x " + rounded(box[0][0]) + " .. " + rounded(box[1][0]) + ", y " + rounded(box[0][1]) +

@@ -147,23 +147,6 @@ private:
     Strip strip_;
 };
 
-/// The user's decisions by patch; names are of patches or of interfaces.
-std::vector<PatchWish> wishes_of(const SurfaceModel& model, std::span<const ContactWish> wishes) {
-    const auto& patches = model.model.patches;
-    const auto is = [&](std::uint32_t p, const std::string& name) { return patches[p].name == name || patches[p].interface_name == name; };
-    std::vector<PatchWish> result;
-    for (const ContactWish& wish : wishes) {
-        for (std::uint32_t p = 0; p < patches.size(); ++p) {
-            if (!is(p, wish.border)) continue;
-            if (wish.on.empty()) result.push_back({p, no_index, wish.close});
-            for (std::uint32_t q = 0; q < patches.size() && !wish.on.empty(); ++q) {
-                if (is(q, wish.on)) result.push_back({p, q, wish.close});
-            }
-        }
-    }
-    return result;
-}
-
 void tell(const SurfaceModel& model, const std::vector<Contact>& contacts, StepOutcome& outcome) {
     for (const Contact& c : contacts) {
         ContactDecision told;
@@ -184,7 +167,9 @@ Result<StepOutcome> close_borders(SurfaceModel& model, const SurfaceStepOptions&
     const FreeBorders borders = free_borders(soup, edges_of(soup));
     const GapSearch search(soup, limit);
     std::vector<GapHit> hits;
-    const auto contacts = decide_contacts(soup, borders, search, model.lengths.tolerance, wishes_of(model, options.contacts), hits);
+    const auto wishes = patch_wishes(model, options.contacts);
+    if (!wishes) return wishes.why();
+    const auto contacts = decide_contacts(soup, borders, search, model.lengths.tolerance, *wishes, hits);
     StepOutcome outcome;
     tell(model, contacts, outcome);
     const auto closed = static_cast<std::uint64_t>(std::ranges::count(contacts, GapDecision::closed, &Contact::decision));

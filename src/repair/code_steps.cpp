@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/nearest_word.h"
+#include "base/wording.h"
 #include "repair/grid_steps.h"
 #include "repair/surface_steps.h"
 
@@ -199,6 +201,22 @@ std::vector<std::string_view> steps_for(std::string_view code) {
 std::string_view why_unmended(std::string_view code) {
     const auto row = std::ranges::find(unmended, code, &Unmended::code);
     return row == unmended.end() ? std::string_view() : row->why;
+}
+
+Result<void> known_step(std::string_view name) {
+    std::vector<std::string_view> all;
+    for (const SurfaceStepRow& row : surface_steps()) all.push_back(row.name);
+    const std::size_t of_surfaces = all.size();
+    for (const StepRow& row : grid_steps()) all.push_back(row.name);
+    if (std::ranges::find(all, name) != all.end()) return {};
+    if (name.empty()) return failure(FailureKind::usage, "F018", {}, "a step without a name: there is nothing between two commas");
+    std::string text =
+        "no such step: " + quoted_start(name) + "; the nearest is " + std::string(nearest_word(name, all)) + "; of surfaces: ";
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (i > 0) text += i == of_surfaces ? "; of grids: " : ", ";
+        text += all[i];
+    }
+    return failure(FailureKind::usage, "F018", {}, text);
 }
 
 }  // namespace geomend::repair

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "base/nearest_word.h"
 #include "base/vectors.h"
+#include "base/wording.h"
 #include "model/objects.h"
 
 namespace geomend::repair {
@@ -114,7 +116,39 @@ void obey(std::span<const PatchWish> wishes, Contact& contact) {
     }
 }
 
+/// The patches of a name. Failure (usage) where there is none.
+Result<std::vector<std::uint32_t>> patches_named(const SurfaceModel& model, const ContactWish& wish, const std::string& name) {
+    const auto& patches = model.model.patches;
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t p = 0; p < patches.size(); ++p) {
+        if (patches[p].name == name || patches[p].interface_name == name) found.push_back(p);
+    }
+    if (!found.empty()) return found;
+    std::vector<std::string_view> known;
+    for (const auto& patch : patches) known.insert(known.end(), {patch.name, patch.interface_name});
+    return failure(FailureKind::usage, "F018", wish.where,
+                   "there is no surface " + quoted(name) + "; the nearest is " + quoted(nearest_word(name, known)));
+}
+
 }  // namespace
+
+Result<std::vector<PatchWish>> patch_wishes(const SurfaceModel& model, std::span<const ContactWish> wishes) {
+    std::vector<PatchWish> result;
+    for (const ContactWish& wish : wishes) {
+        const auto borders = patches_named(model, wish, wish.border);
+        if (!borders) return borders.why();
+        std::vector<std::uint32_t> on{no_index};  // any
+        if (!wish.on.empty()) {
+            auto named = patches_named(model, wish, wish.on);
+            if (!named) return std::move(named).why();
+            on = std::move(*named);
+        }
+        for (const std::uint32_t p : *borders) {
+            for (const std::uint32_t q : on) result.push_back({p, q, wish.close});
+        }
+    }
+    return result;
+}
 
 const char* to_string(GapDecision decision) {
     constexpr const char* words[] = {"left", "closed", "trimmed"};

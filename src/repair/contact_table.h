@@ -8,6 +8,7 @@
 
 #include "repair/border_pieces.h"
 #include "repair/gap_search.h"
+#include "repair/surface_steps.h"
 
 namespace geomend::repair {
 
@@ -39,5 +40,9 @@ struct PatchWish {
 /// \param hits per edge gets what lies ahead of its middle
 std::vector<Contact> decide_contacts(const TriangleSoup& soup, const FreeBorders& borders, const GapSearch& search, double tolerance,
                                      std::span<const PatchWish> wishes, std::vector<GapHit>& hits);
+
+/// The user's decisions by patch; names are of patches or of interfaces.
+/// Failure (usage) where a name is of no surface, with where the recipe has it and the nearest one.
+Result<std::vector<PatchWish>> patch_wishes(const SurfaceModel& model, std::span<const ContactWish> wishes);
 
 }  // namespace geomend::repair

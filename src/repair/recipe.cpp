@@ -4,10 +4,13 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "base/nearest_word.h"
 #include "base/number_text.h"
 #include "base/wording.h"
+#include "repair/code_steps.h"
 
 namespace geomend::repair {
 
@@ -30,8 +33,8 @@ Result<std::vector<std::string>> steps_of(const toml::node& node, const std::str
     if (array == nullptr) return wrong(file, node.source(), "'steps' expects a list of names in square brackets");
     for (const toml::node& entry : *array) {
         const auto name = entry.value<std::string>();
-        if (!name || surface_step(*name) == nullptr)
-            return wrong(file, entry.source(), "no such step: " + (name ? quoted(*name) : "a value that is no text"));
+        if (!name) return wrong(file, entry.source(), "a step is named by a text");
+        if (auto known = known_step(*name); !known) return wrong(file, entry.source(), known.why().error.message);
         steps.push_back(*name);
     }
     return steps;
@@ -50,6 +53,7 @@ Result<ContactWish> contact_of(const toml::node& node, const std::string& file) 
         else if (key.str() == "decision") return wrong(file, value.source(), "'decision' is 'close' or 'leave', found " + quoted(*text));
         else return wrong(file, value.source(), "a contact has 'border', 'on' and 'decision', no '" + std::string(key.str()) + "'");
     }
+    wish.where = {file, node.source().begin.line, node.source().begin.column};
     if (wish.border.empty()) return wrong(file, node.source(), "a contact names the surface whose 'border' it is about");
     return wish;
 }
@@ -72,7 +76,8 @@ Result<void> take_box(const toml::node& node, const std::string& file, Recipe& r
     return {};
 }
 
-Result<void> take_entry(std::string_view key, const toml::node& node, const std::string& file, Recipe& recipe) {
+Result<void> take_entry(const toml::key& name, const toml::node& node, const std::string& file, Recipe& recipe) {
+    const std::string_view key = name.str();
     if (key == "steps") {
         auto steps = steps_of(node, file);
         if (!steps) return std::move(steps).why();
@@ -96,9 +101,10 @@ Result<void> take_entry(std::string_view key, const toml::node& node, const std:
                                     : key == "max_displacement" ? &recipe.max_displacement
                                                                 : nullptr;
     if (target == nullptr) {
-        return wrong(
-            file, node.source(),
-            "no recipe has '" + std::string(key) + "'; there are steps, tolerance, near, max_gap, max_displacement, box and contact");
+        constexpr std::array<std::string_view, 7> keys{"steps", "tolerance", "near", "max_gap", "max_displacement", "box", "contact"};
+        return wrong(file, name.source(),
+                     "no recipe has '" + std::string(key) + "'; the nearest is '" + std::string(nearest_word(key, keys)) +
+                         "'; there are steps, tolerance, near, max_gap, max_displacement, box and contact");
     }
     auto length = length_of(node, key, file);
     if (!length) return std::move(length).why();
@@ -142,7 +148,7 @@ Result<Recipe> parse_recipe(std::string_view text, const std::string& file) {
     }
     Recipe recipe;
     for (const auto& [key, node] : table) {
-        if (auto taken = take_entry(key.str(), node, file, recipe); !taken) return std::move(taken).why();
+        if (auto taken = take_entry(key, node, file, recipe); !taken) return std::move(taken).why();
     }
     return recipe;
 }

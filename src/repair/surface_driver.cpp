@@ -5,10 +5,12 @@
 #include <array>
 #include <ctime>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string_view>
 
 #include "base/wording.h"
+#include "repair/contact_table.h"
 #include "repair/outer_boundary.h"
 #include "repair/surviving_regions.h"
 
@@ -28,7 +30,8 @@ struct State {
     SurfaceModel model;
     SurfaceResult result;
     ErrorCounts errors;
-    std::uint64_t near_misses = 0;  ///< borders that nearly meet a surface
+    std::uint64_t near_misses = 0;     ///< borders that nearly meet a surface
+    std::shared_ptr<const Brep> read;  ///< as the model was before any step: its regions are those that should survive
 };
 
 struct Judged {
@@ -62,14 +65,14 @@ std::string lost_surface(const SurfaceModel& before, const SurfaceModel& after) 
     return {};
 }
 
-/// Which region of a model is not there in the one that was made of it: none that is thicker than some tolerances may go but where
-/// it lies outside of the closed boundary. Empty: all are there.
-Result<std::string> region_lost_between(const State& before, const SurfaceModel& after, const SurfaceResult& result) {
+/// Which region of the model as it was read is not there in the one that was made of it: none that is thicker than some tolerances
+/// may go but where it lies outside of the closed boundary. Pockets between tails that a step made may. Empty: all are there.
+Result<std::string> region_lost_between(const Brep& before, const SurfaceModel& after, const SurfaceResult& result) {
     std::optional<OuterBoundary> boundary;
     bool known = false;
     std::optional<Failure> failed;
     const double thin = 4 * after.lengths.tolerance;
-    auto why = repair::lost_region(*before.result.brep, *result.brep, thin, [&](const Vec3& point) {
+    auto why = repair::lost_region(*before, *result.brep, thin, [&](const Vec3& point) {
         if (!known) {
             auto found = OuterBoundary::of(after);
             if (found) boundary = std::move(*found);
@@ -119,12 +122,12 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
         if (!judged) return std::move(judged).why();
         if (!options.keep_worse) why = why_worse(state.errors, judged->errors);
         if (!options.keep_worse && why.empty()) {
-            auto lost = region_lost_between(state, next, *result);
+            auto lost = region_lost_between(*state.read, next, *result);
             if (!lost) return std::move(lost).why();
             why = std::move(*lost);
         }
         if (why.empty()) {
-            state = State{std::move(next), std::move(*result), std::move(judged->errors), judged->near_misses};
+            state = State{std::move(next), std::move(*result), std::move(judged->errors), judged->near_misses, state.read};
             return all;
         }
     }
@@ -231,10 +234,12 @@ Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Fi
                                       const SurfaceDriverOptions& given) {
     auto model = surface_model_of(dataset, {given.checks.tolerance, given.checks.near});
     if (!model) return std::move(model).why();
+    if (auto known = patch_wishes(*model, given.steps.contacts); !known) return std::move(known).why();
     auto result = result_of(*model);
     if (!result) return std::move(result).why();
     const SurfaceDriverOptions options = with_judges_lengths(dataset, model->lengths, given);
-    State state{std::move(*model), std::move(*result), errors_of(before), near_misses_in(before)};
+    auto read = std::make_shared<const Brep>(result->brep);
+    State state{std::move(*model), std::move(*result), errors_of(before), near_misses_in(before), std::move(read)};
     const bool closing = should_close(state, before) || options.steps.box || options.steps.automatic_box;
     std::vector<SurfaceStepDone> steps;
     for (const auto& chain : chains_of(names)) {

@@ -18,6 +18,7 @@ namespace geomend::repair {
 struct ContactWish {
     std::string border, on;  ///< names of surfaces; `on` empty: any
     bool close = true;       ///< false: left as they are
+    Location where{};        ///< in the recipe
 };
 
 /// What the user says of the steps.

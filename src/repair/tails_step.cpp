@@ -114,7 +114,7 @@ std::vector<double> main_areas(const std::vector<Piece>& all, const PatchPieces&
 /// Takes pieces away that end freely and lie within the limit of where their patch ended before it was cut; then those behind
 /// them, until there are none. The main piece of a patch stays, and of what parts regions all that is no mere corner of it.
 Result<Removed> drop_narrow(const SurfaceModel& model, double limit, std::vector<std::uint8_t>& keep) {
-    constexpr double share_of_corner = 0.1;
+    constexpr double share_of_corner = 0.02;
     const TriangleSoup& soup = model.model.soup;
     const SoupEdges edges = edges_of(soup);
     const PatchPieces pieces = pieces_between_lines(soup, edges);

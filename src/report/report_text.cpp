@@ -147,9 +147,10 @@ private:
         if (s.max_displacement > 0)
             text_ += "    vertices moved by at most " + rounded(s.max_displacement) + ", " + rounded(s.mean_displacement) + " on average\n";
         for (const ReportedContact& c : s.contacts) {
-            if (c.decision == "left" && c.on.empty()) continue;  // nothing is ahead of it
-            text_ += "    border of '" + c.border + "' near '" + c.on + "', gap " + rounded(c.gap) + ": " + c.decision +
-                     (c.why.empty() ? "" : ", " + c.why) + '\n';
+            if (c.decision == "left" && (c.on.empty() || c.gap == 0)) continue;  // nothing is ahead of it, or it ends there already
+            text_ += "    border of '" + c.border + "'" + (c.on.empty() ? "" : " near '" + c.on + "'") +
+                     (c.gap > 0 ? ", gap " + rounded(c.gap) : std::string()) + ": " + c.decision + (c.why.empty() ? "" : ", " + c.why) +
+                     '\n';
         }
         if (!s.kept) text_ += "    undone: " + s.why + '\n';
         elements(s.what);

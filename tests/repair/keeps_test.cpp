@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "made_boxes.h"
+#include "support/program.h"
+
+// What a repair may not do: lose a region, call valid what is not, make worse what it cannot mend.
+
+namespace geomend {
+namespace {
+
+using test::box_text;
+using test::info;
+using test::level;
+using test::run_geomend;
+using test::Sheet;
+using test::TemporaryFolder;
+using test::tsurf_text;
+using test::write_file;
+
+std::vector<double> volumes_in(const std::string& file) {
+    std::vector<double> volumes;
+    const nlohmann::json all = info(file);
+    for (const auto& region : all["brep"]["region_volumes"]) volumes.push_back(region.value("volume", -1.0));
+    std::ranges::sort(volumes);
+    return volumes;
+}
+
+void expect_volumes(const std::string& file, std::vector<double> right, double share = 1e-9) {
+    const auto volumes = volumes_in(file);
+    ASSERT_EQ(volumes.size(), right.size());
+    std::ranges::sort(right);
+    for (std::size_t i = 0; i < right.size(); ++i) EXPECT_NEAR(volumes[i], right[i], share * right[i]);
+}
+
+nlohmann::json repaired(const TemporaryFolder& folder, const std::string& text, std::vector<std::string> options, int status) {
+    write_file(folder / "in.ts", text);
+    std::vector<std::string> words{"repair", folder / "in.ts", "-o", folder / "out.ml", "--json"};
+    words.insert(words.end(), options.begin(), options.end());
+    const auto run = run_geomend(words);
+    EXPECT_EQ(run.status, status) << run.out << run.err;
+    return nlohmann::json::parse(run.out, nullptr, false);
+}
+
+const Sheet fault{"F", {5, 0, 0}, {0, 10, 0}, {0, 0, 10}, 6, "fault", {}};
+
+TEST(Overlaps, AHorizonThatLiesInTheTopOfItsBoxBecomesAPartOfIt) {
+    const TemporaryFolder folder;
+    for (const int n : {4, 5}) {  // the triangles of the side, and others
+        const auto j = repaired(folder, box_text() + tsurf_text(level("H", 10, n)) + tsurf_text(level("H2", 5)), {}, 0);
+        expect_volumes(folder / "out.ml", {500, 500});
+        EXPECT_NE(j.dump().find("all of 'H' in 'side_5' left out"), std::string::npos) << j["steps"].dump();
+    }
+}
+
+TEST(Overlaps, ASurfaceThatIsThereTwiceBecomesOne) {
+    const TemporaryFolder folder;
+    for (const int n : {5, 7}) {
+        repaired(folder, box_text() + tsurf_text(level("H2", 5)) + tsurf_text(level("H3", 5, n)), {}, 0);
+        expect_volumes(folder / "out.ml", {500, 500});
+    }
+    repaired(folder, box_text() + box_text(), {}, 0);
+    expect_volumes(folder / "out.ml", {1000});
+}
+
+TEST(Overlaps, OfAPartThatOverlapsThatStaysWhichHangsTogetherWithMoreAroundIt) {
+    const TemporaryFolder folder;
+    // A horizon that rises into the top and runs along it for the last fifth of its way.
+    Sheet rising = level("H", 5, 5);
+    rising.move = [](const Vec3& p) { return Vec3{p[0], p[1], p[0] < 7 ? 5.0 : 10.0}; };
+    const auto j = repaired(folder, box_text() + tsurf_text(rising), {}, 0);
+    expect_volumes(folder / "out.ml", {350, 650});
+    EXPECT_NE(j.dump().find("of 'H' in 'side_5' left out"), std::string::npos) << j["steps"].dump();
+}
+
+TEST(Verdict, IsByTheRuleAlsoWhereALargerToleranceIsGiven) {
+    const TemporaryFolder folder;
+    // Judged by 0.3 the shaken box closes; nothing welds it.
+    const std::string box = box_text(0.05);
+    write_file(folder / "in.ts", box);
+    ASSERT_EQ(run_geomend({"validate", folder / "in.ts", "--tolerance", "0.3"}).status, 0);
+    const auto j = repaired(folder, box, {"--tolerance", "0.3", "--steps", "clean"}, 6);
+    EXPECT_EQ(j["report"]["files"][0]["valid"], false);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.ml"));
+    // Welded by it, it is sound by any.
+    repaired(folder, box, {"--tolerance", "0.3"}, 0);
+    EXPECT_EQ(volumes_in(folder / "out.ml").size(), 1u);
+    EXPECT_EQ(run_geomend({"validate", folder / "out.ml"}).status, 0);
+}
+
+TEST(Verdict, IsNeverValidWhereABoxHasNoRegion) {
+    const TemporaryFolder folder;
+    const auto with_roles = repaired(folder, box_text(0.05), {}, 6);
+    EXPECT_EQ(with_roles["report"]["files"][0]["valid"], false);
+    // Without roles nobody says that it should close; but it was not sound before, and has no region.
+    const auto without = repaired(folder, box_text(0.05, {}), {}, 0);
+    EXPECT_FALSE(without["report"]["files"][0].contains("valid")) << without["report"].dump();
+}
+
+TEST(DefaultPlan, WeldsByTheToleranceAtWhichBordersAgree) {
+    const TemporaryFolder folder;
+    for (const double shaken : {0.0005, 0.001, 0.002}) {
+        const auto j = repaired(folder, box_text(shaken), {}, 0);
+        const auto volumes = volumes_in(folder / "out.ml");
+        ASSERT_EQ(volumes.size(), 1u) << shaken;
+        EXPECT_NEAR(volumes[0], 1000, 1000 * shaken);
+        EXPECT_NE(j["steps"].dump().find("borders agree within"), std::string::npos);
+    }
+}
+
+TEST(DefaultPlan, NamesAToleranceThatIsTooLargeToBeTakenUnasked) {
+    const TemporaryFolder folder;
+    const auto j = repaired(folder, box_text(0.05), {}, 6);
+    ASSERT_TRUE(j["report"]["files"][0].contains("closes_with")) << j["report"].dump();
+    const double tolerance = j["report"]["files"][0]["closes_with"]["tolerance"];
+    repaired(folder, box_text(0.05), {"--tolerance", std::to_string(tolerance)}, 0);
+}
+
+TEST(DefaultPlan, ClosesBordersBeforeItWeldsWhereThatIsBetter) {
+    const TemporaryFolder folder;
+    const std::string sample = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box_gap.ml";
+    const auto run = run_geomend({"repair", sample, "-o", folder / "out.ml", "--max-gap", "20", "--write-recipe", folder / "r.toml"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(volumes_in(folder / "out.ml").size(), 6u);
+    // The recipe has the plan that was taken.
+    EXPECT_EQ(run_geomend({"repair", sample, "-o", folder / "again.ml", "--recipe", folder / "r.toml"}).status, 0);
+    EXPECT_EQ(test::read_file(folder / "again.ml"), test::read_file(folder / "out.ml"));
+}
+
+TEST(Close, ABorderHalfOfWhichSticksThroughIsClosedWhereItStopsShort) {
+    const TemporaryFolder folder;
+    for (const double at_south : {4.95, 4.955, 4.965}) {
+        Sheet half{"H",
+                   {0, 0, 5},
+                   {5, 0, 0},
+                   {0, 10, 0},
+                   8,
+                   "top",
+                   [&](const Vec3& p) {
+                       return Vec3{p[0] / 5 * (at_south + 0.01 * p[1]), p[1], p[2]}; }};
+        const auto j = repaired(folder, box_text() + tsurf_text(fault) + tsurf_text(half), {"--max-gap", "0.1"}, 0);
+        expect_volumes(folder / "out.ml", {250, 250, 500});
+        const auto own = std::ranges::find_if(j["contacts"], [](const auto& c) { return c["border"] == "H" && c["on"] == "F"; });
+        ASSERT_NE(own, j["contacts"].end());
+        EXPECT_EQ((*own)["decision"], "closed");
+    }
+}
+
+TEST(Tails, WhatPartsRegionsStaysHoweverLargeTheGapGivenIs) {
+    const TemporaryFolder folder;
+    // A fault across the box, sticking out of it, and a horizon on one side of it that sticks through.
+    Sheet wide = fault;
+    wide.corner = {5, -0.2, -0.2};
+    wide.u = {0, 10.4, 0};
+    wide.v = {0, 0, 10.4};
+    Sheet half = level("H", 5, 8);
+    half.u = {5.2, 0, 0};
+    const std::string model = box_text() + tsurf_text(wide) + tsurf_text(half);
+    for (const char* gap : {"0.3", "1", "8", "1e9"}) {
+        repaired(folder, model, {"--max-gap", gap}, 0);
+        expect_volumes(folder / "out.ml", {250, 250, 500});
+    }
+}
+
+TEST(Regions, ThatCellsPartAreStillPartedWithoutThem) {
+    const TemporaryFolder folder;
+    // Two tetrahedra, one above the other, in two volumes with no face between them.
+    write_file(
+        folder / "in.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"low\"\n3 2 \"high\"\n$EndPhysicalNames\n$Nodes\n5\n"
+        "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 0 0 -1\n$EndNodes\n$Elements\n2\n1 4 2 1 1 1 3 2 5\n2 4 2 2 2 1 2 3 4\n$EndElements\n");
+    const auto run = run_geomend({"repair", folder / "in.msh", "-o", folder / "out.ml", "--lossy"});
+    ASSERT_EQ(run.status, 0) << run.out << run.err;
+    expect_volumes(folder / "out.ml", {1.0 / 6, 1.0 / 6});
+}
+
+TEST(Close, AGapLargerThanTheModelMovesNothingOutOfIt) {
+    const TemporaryFolder folder;
+    Sheet shorter = level("H", 5, 5);
+    shorter.u = {9, 0, 0};
+    const auto j = repaired(folder, box_text() + tsurf_text(shorter), {"--max-gap", "1e9", "--keep-invalid"}, 0);
+    for (const auto& step : j["steps"]) EXPECT_LE(step["max_displacement"].get<double>(), 10) << step;
+    expect_volumes(folder / "out.ml", {500, 500});
+}
+
+}  // namespace
+}  // namespace geomend
