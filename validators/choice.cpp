@@ -35,7 +35,7 @@ Result<void> known_word(const std::string& word) {
     if (word.size() <= longest && std::ranges::any_of(all, [&](const CodeInfo& row) { return stands_for(word, row.code); })) return {};
     std::string message = "'" + word + "': no such check";
     if (word.size() <= longest && word.find_first_of("*?") == std::string::npos)
-        message += "; did you mean " + std::string(nearest_code(word)) + "?";
+        if (const std::string_view near = nearest_code(word); !near.empty()) message += "; did you mean " + std::string(near) + "?";
     return failure(FailureKind::usage, "F018", {}, message + " (see 'geomend checks')");
 }
 

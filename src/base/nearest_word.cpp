@@ -35,4 +35,9 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
     return *best;
 }
 
+std::string nearest_hint(std::string_view word, std::span<const std::string_view> known) {
+    const std::string_view near = nearest_word(word, known);
+    return near.empty() ? std::string() : "; the nearest is '" + std::string(near) + "'";
+}
+
 }  // namespace geomend

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace geomend {
@@ -11,5 +12,7 @@ namespace geomend {
 /// letters is one step away from many that mean something else. Only the first 100 bytes of the word count.
 /// Cost: the length of the word times that of all in the list.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
+/// "; the nearest is 'WORD'", or nothing where there is none: the end of a message.
+std::string nearest_hint(std::string_view word, std::span<const std::string_view> known);
 
 }  // namespace geomend

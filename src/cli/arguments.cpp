@@ -21,10 +21,7 @@ std::vector<std::string> command_names(const CLI::App& program) {
 
 bool is_option(const std::string& argument) { return argument.size() > 1 && argument.starts_with('-'); }
 
-std::string quoted_nearest(std::string_view word, const std::vector<std::string>& known) {
-    const std::vector<std::string_view> views(known.begin(), known.end());
-    return "'" + std::string(nearest_word(word, views)) + "'";
-}
+std::vector<std::string_view> views_of(const std::vector<std::string>& words) { return {words.begin(), words.end()}; }
 
 std::vector<std::string> option_names(const CLI::App& command) {
     std::vector<std::string> names;
@@ -55,7 +52,9 @@ std::optional<std::string> wrong_command(const CLI::App& program, const std::vec
     const std::string& word = arguments.front();
     if (std::ranges::find(names, word) != names.end()) return std::nullopt;
     if (std::ranges::find(planned, word) != planned.end()) return "'" + word + "' is not in this version yet";
-    return "no such command '" + word + "'; did you mean " + quoted_nearest(word, names) + "?";
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return "no such command '" + word + "'" + nearest_hint(word, views_of(names)) + "; there are " + all;
 }
 
 std::string wrong_options(const CLI::App& program) {
@@ -69,8 +68,8 @@ std::string wrong_options(const CLI::App& program) {
             continue;
         }
         text += "no such option '" + extra + "'";
-        if (const auto names = option_names(command); extra.starts_with("--") && !names.empty())
-            text += "; the nearest is " + quoted_nearest(extra.substr(0, extra.find('=')), names);
+        const auto names = option_names(command);
+        text += nearest_hint(extra.substr(0, extra.find('=')), views_of(names));
     }
     return text;
 }

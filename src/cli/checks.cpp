@@ -50,8 +50,7 @@ Result<Rows> rows_of(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         const auto is_meant = [&](const CodeInfo& row) { return same_word(row.code, name) || same_word(row.code.substr(0, 1), name); };
         if (std::ranges::none_of(code_catalogue(), is_meant))
-            return failure(FailureKind::usage, "F018", {},
-                           "no such code '" + name + "'; the nearest is " + std::string(nearest_word(name, known)));
+            return failure(FailureKind::usage, "F018", {}, "no such code '" + name + "'" + nearest_hint(name, known));
     }
     for (const CodeInfo& row : code_catalogue()) {
         const auto names_it = [&](const std::string& n) { return same_word(row.code, n) || same_word(row.code.substr(0, 1), n); };

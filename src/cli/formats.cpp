@@ -76,8 +76,7 @@ Result<Rows> rows_of(const std::vector<std::string>& names) {
     };
     for (const std::string& name : names) {
         if (std::ranges::none_of(all_formats(), [&](const Format& f) { return is_meant(f, name); }))
-            return failure(FailureKind::usage, "F018", {},
-                           "no such format '" + name + "'; the nearest is " + std::string(nearest_word(name, known)));
+            return failure(FailureKind::usage, "F018", {}, "no such format '" + name + "'" + nearest_hint(name, known));
     }
     for (const Format& f : all_formats()) {
         if (names.empty() || std::ranges::any_of(names, [&](const std::string& n) { return is_meant(f, n); })) rows.push_back(&f);

@@ -210,8 +210,7 @@ Result<void> known_step(std::string_view name) {
     for (const StepRow& row : grid_steps()) all.push_back(row.name);
     if (std::ranges::find(all, name) != all.end()) return {};
     if (name.empty()) return failure(FailureKind::usage, "F018", {}, "a step without a name: there is nothing between two commas");
-    std::string text =
-        "no such step: " + quoted_start(name) + "; the nearest is " + std::string(nearest_word(name, all)) + "; of surfaces: ";
+    std::string text = "no such step: " + quoted_start(name) + nearest_hint(name, all) + "; of surfaces: ";
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (i > 0) text += i == of_surfaces ? "; of grids: " : ", ";
         text += all[i];

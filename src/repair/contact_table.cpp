@@ -126,8 +126,7 @@ Result<std::vector<std::uint32_t>> patches_named(const SurfaceModel& model, cons
     if (!found.empty()) return found;
     std::vector<std::string_view> known;
     for (const auto& patch : patches) known.insert(known.end(), {patch.name, patch.interface_name});
-    return failure(FailureKind::usage, "F018", wish.where,
-                   "there is no surface " + quoted(name) + "; the nearest is " + quoted(nearest_word(name, known)));
+    return failure(FailureKind::usage, "F018", wish.where, "there is no surface " + quoted(name) + nearest_hint(name, known));
 }
 
 }  // namespace

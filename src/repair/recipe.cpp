@@ -103,8 +103,8 @@ Result<void> take_entry(const toml::key& name, const toml::node& node, const std
     if (target == nullptr) {
         constexpr std::array<std::string_view, 7> keys{"steps", "tolerance", "near", "max_gap", "max_displacement", "box", "contact"};
         return wrong(file, name.source(),
-                     "no recipe has '" + std::string(key) + "'; the nearest is '" + std::string(nearest_word(key, keys)) +
-                         "'; there are steps, tolerance, near, max_gap, max_displacement, box and contact");
+                     "no recipe has '" + std::string(key) + "'" + nearest_hint(key, keys) +
+                         "; there are steps, tolerance, near, max_gap, max_displacement, box and contact");
     }
     auto length = length_of(node, key, file);
     if (!length) return std::move(length).why();

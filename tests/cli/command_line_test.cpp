@@ -18,7 +18,7 @@ bool says(const ProgramRun& run, const std::string& text) { return run.err.find(
 TEST(CommandLine, NamesTheNearestCommandAndOption) {
     ProgramRun run = run_geomend({"valdate", "x.ts"});
     EXPECT_EQ(run.status, 2);
-    EXPECT_TRUE(says(run, "no such command 'valdate'; did you mean 'validate'?")) << run.err;
+    EXPECT_TRUE(says(run, "no such command 'valdate'; the nearest is 'validate'; there are ")) << run.err;
     run = run_geomend({"validate", "x.ts", "--tolerence", "3"});
     EXPECT_EQ(run.status, 2);
     EXPECT_TRUE(says(run, "no such option '--tolerence'; the nearest is '--tolerance'")) << run.err;
@@ -53,7 +53,7 @@ TEST(CommandLine, TablesTakeNames) {
     ASSERT_EQ(formats.size(), 2u);
     const ProgramRun none = run_geomend({"checks", "B77"});
     EXPECT_EQ(none.status, 2);
-    EXPECT_TRUE(says(none, "no such code 'B77'; the nearest is B")) << none.err;
+    EXPECT_TRUE(says(none, "no such code 'B77'; the nearest is 'B07'")) << none.err;
     EXPECT_EQ(run_geomend({"formats", "docx"}).status, 2);
 }
 

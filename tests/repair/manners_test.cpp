@@ -39,7 +39,7 @@ protected:
 };
 
 TEST_F(Manners, AnUnknownStepIsRefusedWithTheNearestAndAllOthers) {
-    for (const char* word : {"nearest is close", "tails", "close-gaps"}) expect_refused({"--step", "clsoe"}, word);
+    for (const char* word : {"nearest is 'close'", "tails", "close-gaps"}) expect_refused({"--step", "clsoe"}, word);
     expect_refused({"--steps", "cut,,tails"}, "between two commas");
 }
 
