@@ -11,6 +11,7 @@
 #include "formats/grdecl/grdecl.h"
 #include "formats/horizon/horizon.h"
 #include "formats/roff/roff.h"
+#include "formats/surfaces/surfaces.h"
 #include "formats/vtk/vtk.h"
 
 namespace geomend {
@@ -19,8 +20,8 @@ namespace {
 
 std::vector<Format> gather() {
     std::vector<Format> all;
-    for (const auto rows :
-         {gocad::formats(), vtk::formats(), gmsh::formats(), horizon::formats(), grdecl::formats(), eclipse::formats(), roff::formats()}) {
+    for (const auto rows : {gocad::formats(), vtk::formats(), gmsh::formats(), horizon::formats(), grdecl::formats(), eclipse::formats(),
+                            roff::formats(), surfaces::formats()}) {
         all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;

@@ -13,45 +13,6 @@ Result<std::optional<ZPositive>> z_option(const FormatOptions& options) {
     return failure(FailureKind::usage, "F018", {}, "option z: expected depth or elevation, found " + shown(word));
 }
 
-std::string name_of(const Input& input) {
-    std::string name = input.base_name();
-    const std::size_t dot = name.rfind('.');
-    if (dot != std::string::npos && dot > 0) name.resize(dot);
-    return name;
-}
-
-Location location_of(const Input& input, const TextCursor& cursor, std::string_view token) {
-    Location where{input.name(), cursor.line(), cursor.column()};
-    const std::string_view line = cursor.line_text();
-    if (!token.empty() && token.data() >= line.data() && token.data() < line.data() + line.size()) {
-        where.column = static_cast<std::uint32_t>(token.data() - line.data() + 1);
-    }
-    return where;
-}
-
-std::string shown(std::string_view token) {
-    if (token.empty()) return "the end of the line";
-    constexpr std::size_t longest = 40;
-    return "'" + std::string(token.substr(0, longest)) + (token.size() > longest ? "...'" : "'");
-}
-
-std::optional<Failure> finite_number(const Input& input, TextCursor& cursor, std::string_view token, std::string_view what, double& value) {
-    const NumberStatus status = parse_real(token, value);
-    if (status == NumberStatus::ok && std::isfinite(value)) return std::nullopt;
-    const bool not_finite = status != NumberStatus::malformed;
-    return unreadable(not_finite ? "F006" : "F005", location_of(input, cursor, token),
-                      "expected " + std::string(what) + (not_finite ? " as a finite number" : "") + ", found " + shown(token));
-}
-
-Failure stopped(const Input& input) { return failure(FailureKind::cancelled, "F022", {input.name()}, "reading was stopped"); }
-
-void tell_missing_line_end(const Input& input, Dataset& dataset) {
-    const std::string_view bytes = input.bytes();
-    if (bytes.empty() || bytes.back() == '\n' || bytes.back() == '\r') return;
-    Finding finding = make_finding("F101", "the last line has no line end: the file may have been cut short", {input.name()}, 0);
-    dataset.findings.push_back(std::move(finding));
-}
-
 Dataset dataset_of(std::string variant, Object object) {
     Dataset dataset;
     dataset.format = "horizon";

@@ -9,29 +9,12 @@
 
 #include "base/text_cursor.h"
 #include "formats/format.h"
+#include "formats/text_reading.h"
 
 namespace geomend::horizon {
 
 /// The sign of z that --option z=depth|elevation asks for; nothing where it is not given. Failure F018 for another word.
 Result<std::optional<ZPositive>> z_option(const FormatOptions& options);
-
-/// File name without folder, ".gz" and extension: these formats name no objects.
-std::string name_of(const Input& input);
-
-/// Location of a token that lies in the current line of a cursor, or of the line where the token is empty.
-Location location_of(const Input& input, const TextCursor& cursor, std::string_view token);
-
-/// "'1.2.3'" cut to a length fit for a message, or "the end of the line".
-std::string shown(std::string_view token);
-
-/// Reads the next token of a line as a finite number. The failure says what was expected.
-std::optional<Failure> finite_number(const Input& input, TextCursor& cursor, std::string_view token, std::string_view what, double& value);
-
-/// The failure of stopped work (F022).
-Failure stopped(const Input& input);
-
-/// A finding F101 when the last line has no line end, so that its last number may be cut short.
-void tell_missing_line_end(const Input& input, Dataset& dataset);
 
 /// A dataset of the family with one object.
 Dataset dataset_of(std::string variant, Object object);

@@ -34,7 +34,7 @@ USES = {
     "pipeline": ("formats", "report", "hexes", "complexity"),
     "cli": ("pipeline", "drawing"),
 }
-FAMILIES = ("gocad", "vtk", "gmsh", "horizon", "grdecl", "eclipse", "roff", "resqml")
+FAMILIES = ("gocad", "vtk", "gmsh", "horizon", "grdecl", "eclipse", "roff", "surfaces", "resqml")
 HIDDEN = re.compile(r"^(vtk\w*\.h|CGAL/.*|tetgen\.h|gmp\w*\.h|mpfr\.h)$")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 

@@ -23,6 +23,8 @@ BOTH = {
     "formats/horizon/lines_formats.cpp",
     "formats/horizon/petrel_points.cpp",
     "formats/horizon/zmap.cpp",
+    "formats/surfaces/off.cpp",
+    "formats/surfaces/stl.cpp",
     "formats/vtk/vtk_merge.cpp",
 }
 LISTS = re.compile(r"\badd_loss\((?!\s*data\.losses, std::move\(loss\)\))|losses_?\.(?:push_back|emplace_back)\(")
