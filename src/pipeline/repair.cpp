@@ -108,6 +108,7 @@ ReportedStep reported(repair::SurfaceStepDone& done) {
     step.max_displacement = done.outcome.max_displacement;
     step.mean_displacement = done.outcome.mean_displacement;
     step.seconds = done.seconds;
+    step.peak_memory = done.peak_memory;
     step.why = done.why;
     for (auto& c : done.outcome.contacts) {
         step.contacts.push_back({std::move(c.border), std::move(c.on), c.gap, std::move(c.decision), std::move(c.why)});
@@ -163,6 +164,11 @@ Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const Re
     report.recipe.steps = planned->plan.steps;
     report.recipe.tolerance = repaired->lengths.tolerance;
     report.recipe.near = repaired->lengths.near;
+    if (!report.file.steps.empty()) {
+        constexpr std::array words{"lost", "made", "parted"};  // as the kinds are numbered
+        for (const repair::NameChange& change : repaired->result.changes)
+            report.file.steps.back().names.push_back({words[change.kind], change.name, change.from});
+    }
     report.closed = repaired->closed;
     report.open = repaired->should_close && !repaired->closed;
     replace_surfaces(dataset, std::move(*repaired));

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/process_memory.h"
 #include "base/wording.h"
 #include "repair/contact_table.h"
 #include "repair/outer_boundary.h"
@@ -89,9 +90,11 @@ Result<std::string> region_lost_between(const Brep& before, const SurfaceModel& 
 Result<SurfaceStepDone> run_step(const SurfaceStepRow& row, const SurfaceDriverOptions& options, SurfaceModel& model) {
     SurfaceStepDone done;
     done.step = row.name;
+    forget_peak_memory();
     const double start = processor_seconds();
     auto outcome = row.run(model, options.steps);
     done.seconds = processor_seconds() - start;
+    done.peak_memory = peak_memory();
     if (!outcome) return std::move(outcome).why();
     done.outcome = std::move(*outcome);
     done.why = too_far(done.outcome, options.max_displacement);

@@ -24,8 +24,9 @@ struct SurfaceStepDone {
     std::string step;
     bool kept = true;
     StepOutcome outcome;
-    double seconds = 0;  ///< of processor time, judging left out
-    std::string why;     ///< why it was undone
+    double seconds = 0;      ///< of processor time, judging left out
+    double peak_memory = 0;  ///< bytes of the whole process while it ran; 0: not known
+    std::string why;         ///< why it was undone
 };
 
 /// The errors of a model: how many findings of each code.

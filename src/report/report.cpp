@@ -47,6 +47,13 @@ Json step_json(const ReportedStep& s) {
     step["max_displacement"] = s.max_displacement;
     step["mean_displacement"] = s.mean_displacement;
     step["seconds"] = s.seconds;
+    if (s.peak_memory > 0) step["peak_memory"] = s.peak_memory;
+    if (!s.contacts.empty()) step["contacts"] = contacts_json(s);
+    for (const ReportedName& n : s.names) {
+        Json name{{"change", n.change}, {"name", n.name}};
+        if (!n.from.empty()) name["from"] = n.from;
+        step["names"].push_back(std::move(name));
+    }
     if (!s.kept) step["why"] = s.why;
     Json what = finding_json(s.what);
     for (auto& [key, value] : what.items()) {
@@ -171,6 +178,7 @@ std::string repair_json(const Report& report) {
     for (const ReportedFile& file : report.files) {
         for (const ReportedStep& s : file.steps) {
             all["steps"].push_back(step_json(s));
+            all["steps"].back().erase("contacts");  // they stand by themselves
             for (Json& contact : contacts_json(s)) all["contacts"].push_back(std::move(contact));
         }
     }

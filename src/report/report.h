@@ -22,6 +22,13 @@ struct ReportedContact {
     std::string why;
 };
 
+/// What became of the name of a region in a repair.
+struct ReportedName {
+    std::string change;  ///< lost, made or parted
+    std::string name;
+    std::string from;  ///< parted: the region that it was a part of
+};
+
 /// What one step of a repair did; `what` has its message, entities, elements and count, and no code.
 struct ReportedStep {
     std::string step;
@@ -32,6 +39,8 @@ struct ReportedStep {
     double seconds = 0;                                  ///< of processor time
     std::string why;                                     ///< why it was undone
     std::vector<ReportedContact> contacts;
+    std::vector<ReportedName> names;
+    double peak_memory = 0;  ///< bytes of the whole process while it ran; 0: not known
 };
 
 /// What became of one file of a run.

@@ -165,6 +165,9 @@ std::string report_sarif(const Report& report) {
     }
     Json run{{"tool", {{"driver", std::move(driver)}}}, {"results", std::move(results)}};
     if (not_listed > 0) run["properties"]["not_listed"] = not_listed;
+    for (const ReportedFile& file : report.files) {
+        if (!file.steps.empty()) run["properties"]["steps"].push_back({{"file", file.file}, {"steps", file_json(file, 0)["steps"]}});
+    }
     Json chosen = Json::array();
     for (const ReportedFile& file : report.files) {
         if (file.chosen) chosen.push_back({{"file", file.file}, {"only", file.chosen->only}, {"skip", file.chosen->skip}});

@@ -142,6 +142,14 @@ private:
         if (!advice.empty() && f.severity > Severity::info) text_ += indent() + "to mend it: " + std::string(advice) + '\n';
     }
 
+    void names_of_regions(const std::vector<ReportedName>& names) {
+        for (std::size_t i = 0; i < names.size() && i <= shown_elements; ++i) {
+            const ReportedName& n = names[i];
+            if (i == shown_elements) text_ += "    ... and " + counted(names.size() - i, "name", "names") + " more\n";
+            else text_ += "    region '" + n.name + "': " + (n.from.empty() ? n.change : "a part of what was '" + n.from + "'") + '\n';
+        }
+    }
+
     void step(const ReportedStep& s) {
         text_ += "  " + painted(s.step, "36") + ": " + s.what.message + '\n';
         if (s.max_displacement > 0)
@@ -152,6 +160,7 @@ private:
                      (c.gap > 0 ? ", gap " + rounded(c.gap) : std::string()) + ": " + c.decision + (c.why.empty() ? "" : ", " + c.why) +
                      '\n';
         }
+        names_of_regions(s.names);
         if (!s.kept) text_ += "    undone: " + s.why + '\n';
         elements(s.what);
     }

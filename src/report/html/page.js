@@ -156,6 +156,23 @@ function drawVerdict() {
     length('near', file.near), closing].filter((e) => e));
 }
 
+// What a repair did, step by step, with what it decided about borders.
+function drawSteps() {
+  const steps = (report.files[state.file] || {}).steps || [], box = $('steps');
+  box.hidden = steps.length === 0;
+  const item = (step) => {
+    const decided = (step.contacts || []).filter((c) => c.decision !== 'left' || (c.on !== '' && c.gap > 0));
+    const contacts = decided.map((c) => make('li', {}, `border of '${c.border}'` + (c.on ? ` near '${c.on}'` : '') +
+      (c.gap > 0 ? `, gap ${figure(c.gap)}` : '') + `: ${c.decision}` + (c.why ? `, ${c.why}` : '')));
+    const names = (step.names || []).map((n) => make('li', {}, `region '${n.name}': ` + (n.from ? `a part of what was '${n.from}'` : n.change)));
+    const moved = step.max_displacement > 0 ? ` Vertices moved by at most ${figure(step.max_displacement)}.` : '';
+    return make('li', {}, make('b', {}, step.step), `: ${step.message}.${moved}` + (step.kept ? '' : ` Undone: ${step.why}.`),
+                contacts.length + names.length ? make('ul', {}, ...contacts, ...names) : null);
+  };
+  box.querySelector('summary').textContent = counted(steps.length, ['step of repair', 'steps of repair']);
+  box.querySelector('ol').replaceChildren(...steps.map(item));
+}
+
 function drawSeverities() {
   const files = report.files.filter((_, i) => state.file < 0 || i === state.file);
   $('severities').replaceChildren(...severities.map((severity) => {
@@ -249,6 +266,7 @@ function update() {
   if (state.chosen && !state.shown.includes(state.chosen)) state.chosen = null;
   drawHead();
   drawVerdict();
+  drawSteps();
   drawSeverities();
   drawFilters();
   drawRows();
