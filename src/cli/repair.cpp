@@ -166,7 +166,7 @@ ExitStatus run(const RepairOptions& o) {
     request->inspect = inspection(o, debris, 1);
     auto repaired = repair_file(*request);
     if (!repaired) return report(repaired.why());
-    const bool valid = count_by_severity(repaired->file.findings).error == 0;
+    const bool valid = repaired->edited && count_by_severity(repaired->file.findings).error == 0;
     ExitStatus status = !valid ? ExitStatus::invalid_result : fails(o, repaired->file.findings) ? ExitStatus::findings : ExitStatus::done;
     Report all = empty_report(o);
     all.files.push_back(std::move(repaired->file));
@@ -187,6 +187,8 @@ ExitStatus run(const RepairOptions& o) {
         else status = worse(status, print(text));
     }
     if (o.dry_run) std::fputs("geomend: a dry run: nothing was written\n", stderr);
+    else if (!repaired->edited)
+        std::fputs("geomend: what was to be edited was undone: nothing was written (--keep-invalid keeps it)\n", stderr);
     else if (!repaired->written) std::fputs("geomend: the result is not valid: nothing was written (--keep-invalid writes it)\n", stderr);
     return status;
 }

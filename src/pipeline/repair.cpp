@@ -35,6 +35,7 @@ Result<void> are_of_grids(const RepairRequest& request) {
     if (request.recipe.max_gap) return refuse("--max-gap");
     if (request.recipe.max_displacement) return refuse("--max-displacement");
     if (!request.recipe.contacts.empty()) return refuse("a contact");
+    if (!request.recipe.edits.empty()) return refuse("an edit");
     return {};
 }
 
@@ -85,13 +86,16 @@ void replace_surfaces(Dataset& dataset, repair::SurfaceRepair repaired) {
     for (Loss& loss : made.losses) add_loss(dataset.losses, std::move(loss));
 }
 
-repair::SurfaceDriverOptions driver_options(const RepairRequest& request) {
+repair::SurfaceDriverOptions driver_options(const RepairRequest& request, std::span<const repair::SurfaceEdit> edits) {
     const repair::Recipe& recipe = request.recipe;
     repair::SurfaceDriverOptions options;
     options.steps.max_gap = recipe.max_gap.value_or(-1);
     options.steps.box = recipe.box;
     options.steps.automatic_box = recipe.automatic_box;
     options.steps.contacts = recipe.contacts;
+    options.steps.scar_angle = recipe.scar_angle.value_or(options.steps.scar_angle);
+    options.steps.micro_volume = recipe.micro_volume.value_or(-1);
+    options.steps.edits = edits;
     options.steps.monitor = request.checks.monitor;
     options.max_displacement = recipe.max_displacement.value_or(-1);
     options.keep_worse = request.keep_invalid;
@@ -114,6 +118,27 @@ ReportedStep reported(repair::SurfaceStepDone& done) {
         step.contacts.push_back({std::move(c.border), std::move(c.on), c.gap, std::move(c.decision), std::move(c.why)});
     }
     return step;
+}
+
+/// Reads what edits add, and puts its surfaces behind the others under the names that they are to have.
+Result<void> read_edits(std::vector<repair::SurfaceEdit>& edits, const RepairRequest& request, Dataset& dataset) {
+    for (repair::SurfaceEdit& edit : edits) {
+        if (edit.file.empty()) continue;
+        LoadOptions load = request.files.load;
+        load.from.clear();
+        load.one_of_many = true;
+        auto loaded = geomend::load(edit.file, load);
+        if (!loaded) return std::move(loaded).why();
+        for (Object& object : loaded->objects) {
+            auto* surface = std::get_if<Surface>(&object);
+            if (surface == nullptr || surface->polygons.size() == 0) continue;
+            if (!edit.surface.empty()) surface->info.name = edit.surface;
+            edit.objects.push_back(static_cast<std::uint32_t>(dataset.objects.size()));
+            dataset.objects.push_back(std::move(object));
+        }
+        if (edit.objects.empty()) return failure(FailureKind::usage, "F018", {edit.file}, "there is no surface with triangles in it");
+    }
+    return {};
 }
 
 // What was found before a repair: at the tolerance that was asked for, and at the one by rule where that is smaller.
@@ -153,9 +178,15 @@ Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const Re
     repair::Recipe recipe = request.recipe;
     if (auto of_surfaces = are_of_surfaces(request); !of_surfaces) return of_surfaces;
     if (request.checks.tolerance >= 0) recipe.tolerance = request.checks.tolerance;
-    const auto plans = plans_of(before, recipe);
+    auto plans = plans_of(before, recipe);
+    auto edits = recipe.edits;
+    if (auto read = read_edits(edits, request, dataset); !read) return read;
+    for (repair::SurfacePlan& plan : plans) {
+        const bool named = std::ranges::find(plan.steps, "edit") != plan.steps.end();
+        if (!edits.empty() && !named) plan.steps.insert(plan.steps.begin(), "edit");
+    }
     const bool search = recipe.steps.empty() && !recipe.tolerance && !before.judged().empty();
-    auto planned = repair::repair_by_plans(dataset, before.judged(), plans, driver_options(request), search);
+    auto planned = repair::repair_by_plans(dataset, before.judged(), plans, driver_options(request, edits), search);
     if (!planned) return std::move(planned).why();
     repair::SurfaceRepair* repaired = &planned->repair;
     for (auto& done : repaired->steps) report.file.steps.push_back(reported(done));
@@ -249,6 +280,9 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     if (request.inspect) {
         if (auto inspected = request.inspect(dataset, dataset.breps, report.file); !inspected) return inspected;
     }
+    report.edited = std::ranges::none_of(report.file.steps, [](const ReportedStep& s) { return s.step == "edit" && !s.kept; });
+    if (!report.edited)
+        return failure(FailureKind::cannot_hold, "F021", {request.files.output}, "the edit was undone: nothing was written");
     const bool errors = count_by_severity(report.file.findings).error > 0;
     if (errors && !request.keep_invalid)
         return failure(FailureKind::cannot_hold, "F021", {request.files.output}, "the result is not valid: nothing was written");

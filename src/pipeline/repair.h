@@ -29,6 +29,7 @@ struct RepairReport {
     bool written = false;
     bool closed = false;    ///< the result has a region, or is a grid; without one it is not called valid where the input was not
     bool open = false;      ///< the model should close around volumes, but has no region
+    bool edited = true;     ///< false: an edit that was asked for was undone, so that nothing is written
     repair::Recipe recipe;  ///< with which the same is done again: the steps that were taken, and the lengths
     std::vector<Loss> losses;
 };

@@ -30,7 +30,6 @@ struct Unmended {
 constexpr std::array unmended = {
     Unmended{"B03", not_yet},
     Unmended{"B04", not_yet},
-    Unmended{"B15", not_yet},
     Unmended{"B17", not_yet},
     Unmended{"B24", no_defect},
     Unmended{"B25", no_defect},

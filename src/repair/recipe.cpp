@@ -58,6 +58,65 @@ Result<ContactWish> contact_of(const toml::node& node, const std::string& file) 
     return wish;
 }
 
+Result<Vec3> vector_of(const toml::node& node, const std::string& file) {
+    const toml::array* array = node.as_array();
+    Vec3 by{};
+    bool good = array != nullptr && array->size() == 3;
+    for (std::size_t k = 0; good && k < 3; ++k) {
+        const auto value = (*array)[k].value<double>();
+        good = value && std::isfinite(*value) && std::abs(*value) <= 1e20;
+        if (good) by[k] = *value;
+    }
+    if (!good) return wrong(file, node.source(), "'by' of an edit expects three numbers: [x, y, z]");
+    return by;
+}
+
+Result<SurfaceEdit> edit_of(const toml::node& node, const std::string& file) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) return wrong(file, node.source(), "'edit' expects tables: [[edit]]");
+    SurfaceEdit edit;
+    bool has_action = false, has_by = false;
+    for (const auto& [key, value] : *table) {
+        if (key.str() == "by") {
+            auto by = vector_of(value, file);
+            if (!by) return std::move(by).why();
+            edit.by = *by;
+            has_by = true;
+            continue;
+        }
+        if (const auto number = value.value_exact<std::int64_t>(); number && key.str() == "face") {
+            edit.face = std::to_string(*number);
+            continue;
+        }
+        const auto text = value.value<std::string>();
+        if (!text) return wrong(file, value.source(), "'" + std::string(key.str()) + "' of an edit expects a text");
+        if (key.str() == "surface") edit.surface = *text;
+        else if (key.str() == "face") edit.face = *text;
+        else if (key.str() == "file") edit.file = *text;
+        else if (key.str() == "action") {
+            for (const auto kind : {SurfaceEdit::remove, SurfaceEdit::replace, SurfaceEdit::move, SurfaceEdit::add}) {
+                if (to_string(kind) != *text) continue;
+                edit.kind = kind;
+                has_action = true;
+            }
+            if (!has_action) return wrong(file, value.source(), "'action' is 'add', 'replace', 'move' or 'remove', found " + quoted(*text));
+        } else {
+            return wrong(file, value.source(),
+                         "an edit has 'action', 'surface', 'face', 'by' and 'file', no '" + std::string(key.str()) + "'");
+        }
+    }
+    const bool reads = edit.kind == SurfaceEdit::add || edit.kind == SurfaceEdit::replace;
+    if (!has_action) return wrong(file, node.source(), "an edit says its 'action': add, replace, move or remove");
+    if (edit.kind != SurfaceEdit::add && edit.surface.empty() && edit.face.empty())
+        return wrong(file, node.source(), "an edit names the 'surface' that it is about");
+    if (edit.kind == SurfaceEdit::move && !has_by) return wrong(file, node.source(), "a move says 'by' what: [x, y, z]");
+    if (edit.kind != SurfaceEdit::move && has_by) return wrong(file, node.source(), "only a move has 'by'");
+    if (reads && edit.file.empty())
+        return wrong(file, node.source(), "what is added or put in place of another surface comes from a 'file'");
+    if (!reads && !edit.file.empty()) return wrong(file, node.source(), "only add and replace have a 'file'");
+    return edit;
+}
+
 Result<void> take_box(const toml::node& node, const std::string& file, Recipe& recipe) {
     if (const auto text = node.value<std::string>(); text && *text == "auto") {
         recipe.automatic_box = true;
@@ -95,16 +154,29 @@ Result<void> take_entry(const toml::key& name, const toml::node& node, const std
         }
         return {};
     }
+    if (key == "edit") {
+        const toml::array* array = node.as_array();
+        if (array == nullptr) return wrong(file, node.source(), "'edit' expects tables: [[edit]]");
+        for (const toml::node& entry : *array) {
+            auto edit = edit_of(entry, file);
+            if (!edit) return std::move(edit).why();
+            recipe.edits.push_back(std::move(*edit));
+        }
+        return {};
+    }
     std::optional<double>* target = key == "tolerance"          ? &recipe.tolerance
                                     : key == "near"             ? &recipe.near
                                     : key == "max_gap"          ? &recipe.max_gap
+                                    : key == "scar_angle"       ? &recipe.scar_angle
+                                    : key == "micro_volume"     ? &recipe.micro_volume
                                     : key == "max_displacement" ? &recipe.max_displacement
                                                                 : nullptr;
     if (target == nullptr) {
-        constexpr std::array<std::string_view, 7> keys{"steps", "tolerance", "near", "max_gap", "max_displacement", "box", "contact"};
+        constexpr std::array<std::string_view, 10> keys{"steps",      "tolerance",    "near", "max_gap", "max_displacement",
+                                                        "scar_angle", "micro_volume", "box",  "contact", "edit"};
         return wrong(file, name.source(),
                      "no recipe has '" + std::string(key) + "'" + nearest_hint(key, keys) +
-                         "; there are steps, tolerance, near, max_gap, max_displacement, box and contact");
+                         "; there are steps, tolerance, near, max_gap, max_displacement, scar_angle, micro_volume, box, contact and edit");
     }
     auto length = length_of(node, key, file);
     if (!length) return std::move(length).why();
@@ -137,6 +209,15 @@ void add_length(std::string& text, const char* key, const std::optional<double>&
     if (value) text += std::string(key) + " = " + toml_number(*value) + '\n';
 }
 
+void add_edit(std::string& text, const SurfaceEdit& edit) {
+    text += "\n[[edit]]\naction = " + toml_text(to_string(edit.kind)) + '\n';
+    if (!edit.surface.empty()) text += "surface = " + toml_text(edit.surface) + '\n';
+    if (!edit.face.empty()) text += "face = " + toml_text(edit.face) + '\n';
+    if (!edit.file.empty()) text += "file = " + toml_text(edit.file) + '\n';
+    if (edit.kind == SurfaceEdit::move)
+        text += "by = [" + toml_number(edit.by[0]) + ", " + toml_number(edit.by[1]) + ", " + toml_number(edit.by[2]) + "]\n";
+}
+
 }  // namespace
 
 Result<Recipe> parse_recipe(std::string_view text, const std::string& file) {
@@ -161,6 +242,8 @@ std::string recipe_text(const Recipe& recipe) {
     add_length(text, "near", recipe.near);
     add_length(text, "max_gap", recipe.max_gap);
     add_length(text, "max_displacement", recipe.max_displacement);
+    add_length(text, "scar_angle", recipe.scar_angle);
+    add_length(text, "micro_volume", recipe.micro_volume);
     if (recipe.automatic_box) text += "box = \"auto\"\n";
     if (recipe.box) {
         text += "box = [";
@@ -174,6 +257,7 @@ std::string recipe_text(const Recipe& recipe) {
         if (!wish.on.empty()) text += "on = " + toml_text(wish.on) + '\n';
         text += std::string("decision = \"") + (wish.close ? "close" : "leave") + "\"\n";
     }
+    for (const SurfaceEdit& edit : recipe.edits) add_edit(text, edit);
     return text;
 }
 

@@ -19,6 +19,9 @@ struct Recipe {
     std::optional<std::array<Vec3, 2>> box;  ///< low and high corner
     bool automatic_box = false;
     std::vector<ContactWish> contacts;
+    std::optional<double> scar_angle;  ///< degrees
+    std::optional<double> micro_volume;
+    std::vector<SurfaceEdit> edits;
 };
 
 /// Reads a recipe. Failure (usage): what is no TOML, a key that no recipe has, a step that there is not, a value of another kind;

@@ -40,7 +40,7 @@ std::vector<Share> shares_of(const SurfaceModel& model, const std::vector<std::v
     for (std::uint32_t now = 0; now < sides.size(); ++now) {
         for (const TriangleSide& side : sides[now]) {
             if (model.origin.triangles[side.triangle] == no_index) continue;
-            const std::uint32_t patch = model.model.soup.patches[side.triangle];
+            const std::uint32_t patch = model.source.patches[model.origin.triangles[side.triangle]];
             const bool front = side.front == wound_as_source(model, side.triangle);
             const std::uint32_t before = behind[2 * patch + (front ? 1 : 0)];
             if (before != no_index) areas[{now, before}] += triangle_area(model.model.soup, side.triangle);

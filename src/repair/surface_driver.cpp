@@ -13,6 +13,7 @@
 #include "base/wording.h"
 #include "repair/contact_table.h"
 #include "repair/outer_boundary.h"
+#include "repair/scars.h"
 #include "repair/surviving_regions.h"
 
 namespace geomend::repair {
@@ -60,7 +61,9 @@ std::string lost_surface(const SurfaceModel& before, const SurfaceModel& after) 
     std::vector<std::uint8_t> left(after.model.patches.size(), 0);
     for (const std::uint32_t p : after.model.soup.patches) left[p] = 1;
     for (const std::uint32_t p : before.model.soup.patches) {
-        if (left[p] == 0 && (p >= after.lies_in.size() || after.lies_in[p] == no_index))
+        const std::uint32_t now = successor_of(after, p);
+        const bool lies_in_another = p < after.lies_in.size() && after.lies_in[p] != no_index;
+        if (now != no_index && left[now] == 0 && !lies_in_another)
             return "nothing is left of surface '" + before.model.patches[p].name + "' after it";
     }
     return {};
@@ -101,6 +104,21 @@ Result<SurfaceStepDone> run_step(const SurfaceStepRow& row, const SurfaceDriverO
     return done;
 }
 
+/// Adds to what a step says which names of regions were lost and made by it.
+void tell_names(std::span<const NameChange> before, std::span<const NameChange> after, SurfaceStepDone& done) {
+    std::string lost, made;
+    const auto add = [](std::string& text, const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+    for (const NameChange& change : after) {
+        if (std::ranges::find(before, change) != before.end()) continue;
+        done.outcome.what.entities.push_back({"region", change.name, -1});
+        if (change.kind == NameChange::lost) add(lost, quoted(change.name));
+        else if (change.kind == NameChange::made) add(made, quoted(change.name));
+        else add(made, quoted(change.name) + ", parted from " + quoted(change.from));
+    }
+    if (!lost.empty()) done.outcome.what.message += "; regions lost: " + lost;
+    if (!made.empty()) done.outcome.what.message += "; regions made: " + made;
+}
+
 /// Takes some steps one after the other and judges the model once, after the last of them; `state` is as it was where they are
 /// undone, all or none.
 Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRow* const> rows, const SurfaceDriverOptions& options,
@@ -109,6 +127,7 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
     SurfaceModel next = state.model;
     std::string why;
     bool changed = false;
+    const bool changes_regions = std::ranges::any_of(rows, [](const SurfaceStepRow* row) { return row->changes_regions; });
     for (const SurfaceStepRow* row : rows) {
         auto done = run_step(*row, options, next);
         if (!done) return std::move(done).why();
@@ -124,13 +143,15 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
         auto judged = judge(*result, options.checks);
         if (!judged) return std::move(judged).why();
         if (!options.keep_worse) why = why_worse(state.errors, judged->errors);
-        if (!options.keep_worse && why.empty()) {
+        if (!options.keep_worse && why.empty() && !changes_regions) {
             auto lost = region_lost_between(*state.read, next, *result);
             if (!lost) return std::move(lost).why();
             why = std::move(*lost);
         }
         if (why.empty()) {
-            state = State{std::move(next), std::move(*result), std::move(judged->errors), judged->near_misses, state.read};
+            tell_names(state.result.changes, result->changes, all.back());
+            auto read = changes_regions ? std::make_shared<const Brep>(result->brep) : state.read;
+            state = State{std::move(next), std::move(*result), std::move(judged->errors), judged->near_misses, std::move(read)};
             return all;
         }
     }
@@ -223,7 +244,7 @@ std::string why_worse(const ErrorCounts& before, const ErrorCounts& after) {
 std::vector<std::string> plan_for(std::span<const Finding> findings, bool close_gaps, bool box) {
     std::vector<std::string> plan;
     for (const SurfaceStepRow& row : surface_steps()) {
-        const bool mends = std::ranges::any_of(findings, [&](const Finding& f) {
+        const bool mends = !row.only_named && std::ranges::any_of(findings, [&](const Finding& f) {
             return f.severity != Severity::info && std::ranges::find(row.mends, std::string_view(f.code)) != row.mends.end();
         });
         const bool cuts = row.name == "cut" || row.name == "tails";

@@ -26,6 +26,8 @@ struct SurfaceModel {
     struct SourcePatch {
         std::uint32_t first_vertex = 0, first_triangle = 0;  ///< in source; they end where those of the next patch begin
         std::vector<Attribute> attributes;                   ///< over its vertices (point) or triangles (polygon), or for the whole
+        std::uint32_t object = no_index;                     ///< of the Dataset
+        std::int64_t number = 0;                             ///< of the face in its file; 0: none
     };
     std::vector<SourcePatch> source_patches;
 
@@ -43,6 +45,9 @@ struct SurfaceModel {
 
     /// Per patch of which nothing is left, being in others, one of these; else no_index. Empty: there is none.
     std::vector<std::uint32_t> lies_in;
+    /// Per patch the one that its triangles belong to now; no_index: it was removed, as it was asked for. May be shorter than the
+    /// patches: the others are themselves.
+    std::vector<std::uint32_t> became;
 
     topology::Lengths lengths;           ///< by which it is mended, from the input or as given
     std::vector<std::uint32_t> objects;  ///< of the Dataset that are in it, ascending

@@ -7,6 +7,7 @@
 
 #include "exchange/model_from_brep.h"
 #include "repair/region_names.h"
+#include "repair/scars.h"
 #include "repair/surface_values.h"
 #include "topology/assemble.h"
 
@@ -61,7 +62,8 @@ std::vector<std::vector<TriangleSide>> region_sides(const topology::JudgedModel&
 }
 
 /// The soup and its patches, but for those of which nothing is left.
-topology::SoupModel without_empty_patches(topology::SoupModel model) {
+topology::SoupModel without_empty_patches(const SurfaceModel& whole) {
+    topology::SoupModel model = whole.model;
     std::vector<std::uint32_t> number(model.patches.size(), no_index);
     for (const std::uint32_t p : model.soup.patches) number[p] = 0;
     if (std::ranges::find(number, no_index) == number.end()) return model;
@@ -77,15 +79,20 @@ topology::SoupModel without_empty_patches(topology::SoupModel model) {
     for (std::uint32_t& p : model.soup.patches) p = number[p];
     std::erase_if(model.interfaces, [&](const auto& i) { return !left.contains(i.name); });
     for (auto& feature : model.features) {
-        std::erase_if(feature.faces, [&](std::uint32_t f) { return number[f] == no_index; });
-        for (std::uint32_t& f : feature.faces) f = number[f];
+        for (std::uint32_t& f : feature.faces) {
+            const std::uint32_t now = successor_of(whole, f);
+            f = now == no_index ? no_index : number[now];
+        }
+        std::ranges::sort(feature.faces);
+        feature.faces.erase(std::unique(feature.faces.begin(), feature.faces.end()), feature.faces.end());
+        std::erase(feature.faces, no_index);
     }
     std::erase_if(model.features, [](const auto& feature) { return feature.faces.empty(); });
     return model;
 }
 
 Result<topology::JudgedModel> assembled(const SurfaceModel& model) {
-    auto complex = topology::complex_of_soup(without_empty_patches(model.model));
+    auto complex = topology::complex_of_soup(without_empty_patches(model));
     if (!complex) return std::move(complex).why();
     complex->take_apart = true;
     complex->lines.shared_nodes = true;
@@ -94,6 +101,13 @@ Result<topology::JudgedModel> assembled(const SurfaceModel& model) {
 }
 
 }  // namespace
+
+Result<PiecesOfModel> pieces_of(const SurfaceModel& model) {
+    auto judged = assembled(model);
+    if (!judged) return std::move(judged).why();
+    auto triangles = soup_triangles(model, *judged);
+    return PiecesOfModel{std::move(judged->brep), std::move(triangles)};
+}
 
 Result<std::vector<std::uint8_t>> parting_triangles(const SurfaceModel& model) {
     auto judged = assembled(model);

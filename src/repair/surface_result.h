@@ -13,6 +13,7 @@ struct NameChange {
     enum Kind : std::uint8_t { lost, made, parted } kind;
     std::string name;  ///< lost: that it had; made, parted: that it has
     std::string from;  ///< parted: the region that it was a part of
+    bool operator==(const NameChange&) const = default;
 };
 
 /// A mended model as it can be judged and written.
@@ -21,6 +22,14 @@ struct SurfaceResult {
     Dataset dataset;                  ///< one surface for each interface, with a model stated over them
     std::vector<NameChange> changes;  ///< of regions; in no run of a kind sorted by name
 };
+
+/// The pieces and regions of a model as it is now.
+struct PiecesOfModel {
+    Brep brep;
+    std::vector<std::vector<std::uint32_t>> triangles;  ///< per surface its triangles in model.model.soup
+};
+/// Failure (internal) where the result is inconsistent. Cost: near-linear.
+Result<PiecesOfModel> pieces_of(const SurfaceModel& model);
 
 /// Makes the boundary representation of a model: surfaces are one for each piece between lines, regions are found by walking
 /// along them. Attributes come from where triangles come from. A region that was read gives its name to that of the new ones

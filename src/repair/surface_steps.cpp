@@ -18,9 +18,17 @@ constexpr std::array<std::string_view, 6> weld_mends = {"M01", "B05", "B07", "B1
 constexpr std::array<std::string_view, 7> close_mends = {"B05", "B06", "B07", "B09", "B12", "B23", "B29"};
 constexpr std::array<std::string_view, 12> tails_mends = {"B02", "B05", "B06", "B08", "B09", "B10",
                                                           "B11", "B12", "B16", "B20", "B22", "B23"};
+constexpr std::array<std::string_view, 1> micro_mends = {"B15"};
 constexpr std::array<std::string_view, 10> rebuild_mends = {"B05", "B06", "B12", "B13", "B14", "B18", "B19", "F106", "B30", "B31"};
 
 constexpr std::array steps = {
+    SurfaceStepRow{"edit",
+                   "surfaces are added, replaced, moved or removed, as a recipe says, and what that affects is cut again",
+                   {},
+                   edit_surfaces,
+                   false,
+                   true,
+                   true},
     SurfaceStepRow{"clean", "triangles without area, doubles and small stray parts are removed", clean_mends, clean_surfaces},
     SurfaceStepRow{"box", "six sides are added around the surfaces, or as --box says", {}, add_box, true},
     SurfaceStepRow{"holes", "small holes in a surface, and missing single triangles, are filled", holes_mends, fill_holes},
@@ -31,6 +39,9 @@ constexpr std::array steps = {
     SurfaceStepRow{"cut", "all surfaces are cut along everything that they have in common", cut_mends, cut_surfaces},
     SurfaceStepRow{"tails", "what sticks through another surface by less than the limit, or out of a closed boundary, is removed",
                    tails_mends, remove_tails},
+    SurfaceStepRow{"scars", "traces of lines that no surface needs any more are stitched and erased", {}, remove_scars},
+    SurfaceStepRow{"micro", "regions smaller than a limit are merged into a neighbour", micro_mends, merge_micro_regions, false, true,
+                   true},
     SurfaceStepRow{"rebuild", "surfaces, lines, corners and regions are made anew; names are carried over", rebuild_mends,
                    rebuild_surfaces},
 };

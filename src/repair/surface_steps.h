@@ -10,6 +10,7 @@
 
 #include "base/finding.h"
 #include "base/monitor.h"
+#include "repair/surface_edits.h"
 #include "repair/surface_model.h"
 
 namespace geomend::repair {
@@ -27,6 +28,9 @@ struct SurfaceStepOptions {
     std::optional<std::array<Vec3, 2>> box;   ///< low and high corner of the box that is added
     bool automatic_box = false;               ///< a box is added that fits the surfaces
     std::span<const ContactWish> contacts{};  ///< what the user decided about borders
+    double scar_angle = 45;                   ///< degrees: two lips of a scar that bend by more are not stitched
+    double micro_volume = -1;                 ///< smaller regions are merged into others; negative: a millionth of the whole
+    std::span<const SurfaceEdit> edits{};     ///< what the user wants changed
     const Monitor* monitor = nullptr;
 };
 
@@ -60,7 +64,9 @@ struct SurfaceStepRow {
     std::string_view meaning;                 ///< one line
     std::span<const std::string_view> mends;  ///< codes of findings for which it is taken where no step is named
     SurfaceStep run;
-    bool leads_to_cut = false;  ///< the model is not judged after it, but once what follows is done: cut, tails
+    bool leads_to_cut = false;     ///< the model is not judged after it, but once what follows is done: cut, tails
+    bool changes_regions = false;  ///< regions may go and come by it, as it was asked for
+    bool only_named = false;       ///< taken only where it is named, whatever was found
 };
 
 /// All steps, in the order in which they are taken where none is named.
@@ -77,6 +83,7 @@ struct Displacement {
 Displacement displacement(const TriangleSoup& before, const TriangleSoup& after, const Origin& origin);
 
 // The steps.
+Result<StepOutcome> edit_surfaces(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> clean_surfaces(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> add_box(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> fill_holes(SurfaceModel&, const SurfaceStepOptions&);
@@ -84,6 +91,8 @@ Result<StepOutcome> weld_surfaces(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> cut_surfaces(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> close_borders(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> remove_tails(SurfaceModel&, const SurfaceStepOptions&);
+Result<StepOutcome> remove_scars(SurfaceModel&, const SurfaceStepOptions&);
+Result<StepOutcome> merge_micro_regions(SurfaceModel&, const SurfaceStepOptions&);
 Result<StepOutcome> rebuild_surfaces(SurfaceModel&, const SurfaceStepOptions&);
 
 }  // namespace geomend::repair

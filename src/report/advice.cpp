@@ -29,7 +29,7 @@ constexpr std::array advice = {
     Advice{"B12", "close the hole that the finding shows"},
     Advice{"B13", "correct the region's list"},
     Advice{"B14", "correct the regions' lists"},
-    Advice{"B15", "merge the region with a neighbour"},
+    Advice{"B15", "merge the region with a neighbour: repair --step micro, with micro_volume in a recipe"},
     Advice{"B16", "remove it, or close its region"},
     Advice{"B17", "remove one of the two"},
     Advice{"B18", "mend the entity that is named"},

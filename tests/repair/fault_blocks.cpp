@@ -67,6 +67,7 @@ Outline without_repeats(const Outline& outline, double least) {
 struct Maker {
     Dice dice;
     Ending ending;
+    Vec3 lowest_moved;
     FaultBlocks made;
     Vec3 high{}, offset{};
     std::vector<Plane> faults;
@@ -176,8 +177,10 @@ struct Maker {
                 patch = clipped(patch, faults[f], (signs >> f & 1) != 0 ? 1 : -1, beyond_fault() * sine);
             }
             add(patch, "horizon_" + std::to_string(h + 1) + "_block_" + std::to_string(signs));
-            take_region(clipped(rest, plane, -1));
-            rest = clipped(rest, plane, 1);
+            Plane boundary = plane;
+            if (h == 0) boundary.level += dot(normal, lowest_moved);
+            take_region(clipped(rest, boundary, -1));
+            rest = clipped(rest, boundary, 1);
         }
         take_region(rest);
     }
@@ -193,9 +196,9 @@ struct Maker {
 
 }  // namespace
 
-FaultBlocks fault_blocks(std::uint32_t seed, Ending ending) {
+FaultBlocks fault_blocks(std::uint32_t seed, Ending ending, const Vec3& lowest_moved) {
     for (std::uint32_t trial = 0;; ++trial) {
-        Maker maker{Dice(seed + 7919 * trial), ending, {}, {}, {}, {}, {}, true};
+        Maker maker{Dice(seed + 7919 * trial), ending, lowest_moved, {}, {}, {}, {}, {}, true};
         maker.make_box();
         maker.make_faults();
         const int horizons = maker.dice.upto(4);

@@ -23,7 +23,8 @@ struct FaultBlocks {
 
 /// The model of a seed; one without regions too small to tell. The same for the same arguments.
 /// Sides of the box: 10 x 8 x 4 or a hundred times that, at the origin or in map coordinates.
-FaultBlocks fault_blocks(std::uint32_t seed, Ending ending);
+/// \param lowest_moved the lowest horizon of every block is elsewhere by this in the volumes, not in the surfaces
+FaultBlocks fault_blocks(std::uint32_t seed, Ending ending, const Vec3& lowest_moved = {0, 0, 0});
 
 /// Puts the triangles of all surfaces in another order, points, too. Nothing else changes.
 void shuffle(Dataset& dataset, std::uint32_t seed);
