@@ -27,8 +27,8 @@ bool takes_part(const CornerPointGrid& grid, std::uint64_t cell) {
     return dual ? (state & (fracture ? 2U : 1U)) != 0 : state != 0;
 }
 
-void tell_connections(const GridScope& scope, const std::vector<const CornerPointGrid::Connection*>& wrong, const std::string& what,
-                      bool to_inactive, std::vector<Finding>& findings) {
+void tell_connections(const GridScope& scope, const std::vector<const CornerPointGrid::Connection*>& wrong, const std::string& one,
+                      const std::string& many, bool is_no_error, std::vector<Finding>& findings) {
     if (wrong.empty()) return;
     const CornerPointGrid& grid = scope.grid();
     FoundCells cells;
@@ -38,12 +38,31 @@ void tell_connections(const GridScope& scope, const std::vector<const CornerPoin
     numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
     for (const std::size_t cell : numbers) cells.add(cell, 0);
     Finding f = cells_finding(scope, "C29",
-                              counted(wrong.size(), "stated connection", "stated connections") + ' ' + what + ": " +
-                                  connection_text(grid, *wrong.front()) + (wrong.size() > 1 ? ", ..." : ""),
+                              counted(wrong.size(), "stated connection", "stated connections") + ' ' + (wrong.size() == 1 ? one : many) +
+                                  ": " + connection_text(grid, *wrong.front()) + (wrong.size() > 1 ? ", ..." : ""),
                               cells);
-    if (to_inactive) use_other_severity(f);
+    if (is_no_error) use_other_severity(f);
     f.count = wrong.size();
     findings.push_back(std::move(f));
+}
+
+/// Whether two cells are side by side in the numbering, along one axis.
+bool are_side_by_side(const CornerPointGrid& grid, const CornerPointGrid::Connection& c) {
+    if (std::max(c.first, c.second) >= grid.cell_count()) return false;
+    const auto a = grid.ijk(static_cast<std::size_t>(c.first)), b = grid.ijk(static_cast<std::size_t>(c.second));
+    unsigned steps = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) steps += a[axis] > b[axis] ? a[axis] - b[axis] : b[axis] - a[axis];
+    return steps == 1;
+}
+
+/// Whether faces of two such cells touch, so that simulators join them without any record.
+bool do_touch(const GridScope& scope, const CornerPointGrid::Connection& c) {
+    const grid::Connections& all = scope.connections();
+    const auto low = static_cast<std::size_t>(std::min(c.first, c.second)), high = static_cast<std::size_t>(std::max(c.first, c.second));
+    const unsigned to = all.neighbours[low];
+    return ((to & grid::Connections::east) != 0 && high == low + 1) ||
+           ((to & grid::Connections::south) != 0 && high == low + scope.grid().dims[0]) ||
+           ((to & grid::Connections::below) != 0 && high == grid::next_below(scope.grid(), all.present, low));
 }
 
 /// Host cells of a local grid, ascending: those that its cells name, else its box.
@@ -67,15 +86,20 @@ std::vector<std::uint64_t> host_cells(const CornerPointGrid& host, const CornerP
 
 void check_stated_connections(const GridScope& scope, std::vector<Finding>& findings) {
     const CornerPointGrid& grid = scope.grid();
-    std::vector<const CornerPointGrid::Connection*> self, negative, inactive;
+    std::vector<const CornerPointGrid::Connection*> self, negative, inactive, neighbours;
+    const bool is_single = grid.porosity == CornerPointGrid::Porosity::single && has_geometry(grid);
     for (const auto& c : grid.connections) {
         if (c.first == c.second) self.push_back(&c);
         else if (!takes_part(grid, c.first) || !takes_part(grid, c.second)) inactive.push_back(&c);
+        else if (is_single && are_side_by_side(grid, c) && do_touch(scope, c)) neighbours.push_back(&c);
         if (c.transmissibility && *c.transmissibility < 0) negative.push_back(&c);
     }
-    tell_connections(scope, self, "join a cell with itself", false, findings);
-    tell_connections(scope, negative, "have a transmissibility below 0", false, findings);
-    tell_connections(scope, inactive, "lead to inactive cells: nothing flows there", true, findings);
+    tell_connections(scope, self, "joins a cell with itself", "join a cell with itself", false, findings);
+    tell_connections(scope, negative, "has a transmissibility below 0", "have a transmissibility below 0", false, findings);
+    tell_connections(scope, inactive, "leads to an inactive cell: nothing flows there", "lead to inactive cells: nothing flows there", true,
+                     findings);
+    tell_connections(scope, neighbours, "joins cells whose faces touch: simulators add it to what the geometry gives",
+                     "join cells whose faces touch: simulators add them to what the geometry gives", true, findings);
 }
 
 void check_radial_angles(const GridScope& scope, std::vector<Finding>& findings) {

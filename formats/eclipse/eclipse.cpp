@@ -21,6 +21,9 @@ constexpr std::string_view grid_extensions[] = {".grid"};
 constexpr std::string_view fgrid_extensions[] = {".fgrid"};
 constexpr std::string_view bgrdecl_extensions[] = {".bgrdecl"};
 
+constexpr std::array bgrdecl_options{OptionRow{"dims", OptionUse::reading, OptionValue::whole_numbers, "NX,NY,NZ",
+                                               "numbers of cells, for property files that do not state them"}};
+
 enum class Kind : std::uint8_t { none, egrid, old_grid, init, restart, deck };
 
 /// Whether the head names an array; names stand in the same eight characters in both encodings.
@@ -187,20 +190,8 @@ constexpr std::array rows = {
            {},
            false,
            true},
-    Format{"bgrdecl",
-           "eclipse",
-           "GRDECL as binary records",
-           bgrdecl_extensions,
-           sniff<Kind::deck, false>,
-           read_bgrdecl,
-           write_bgrdecl,
-           corner_point,
-           deck_keeps(),
-           deck_note,
-           "real files",
-           {},
-           false,
-           true},
+    Format{"bgrdecl", "eclipse", "GRDECL as binary records", bgrdecl_extensions, sniff<Kind::deck, false>, read_bgrdecl, write_bgrdecl,
+           corner_point, deck_keeps(), deck_note, "real files", bgrdecl_options, false, true},
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "base/text_cursor.h"
 #include "formats/drop.h"
 #include "formats/grdecl/flow_words.h"
+#include "formats/grdecl/section_words.h"
 
 namespace geomend::grdecl {
 
@@ -146,7 +147,7 @@ Trouble DeckReader::keyword(const Item& word) {
     if (text.empty()) return unreadable("F012", where(word.at), "expected a keyword, found an empty name");
     word_ = word.quoted ? std::string(text) : known_name(text);
     word_at_ = word.at;
-    if (!word.quoted && !probing_ && !in_companion_ && !flow_reads(word_)) note_unread(word);
+    if (!word.quoted && !probing_ && !in_companion_ && !flow_reads(word_)) note_unread(word.at, word_);
     if (word_ != "EXTERNAL_FILE" && !word.quoted) take_line_remark();
     if (word_ == "END") {
         ended_ = true;
@@ -183,9 +184,9 @@ Trouble DeckReader::keyword(const Item& word) {
 }
 
 /// A keyword that OPM Flow does not know. All of them are one finding.
-void DeckReader::note_unread(const Item& word) {
-    if (unread_count_++ == 0) first_unread_ = where(word.at);
-    if (unread_.size() < 20 && std::ranges::find(unread_, word_) == unread_.end()) unread_.push_back(word_);
+void DeckReader::note_unread(const char* at, const std::string& word) {
+    if (unread_count_++ == 0) first_unread_ = where(at);
+    if (unread_.size() < 20 && std::ranges::find(unread_, word) == unread_.end()) unread_.push_back(word);
 }
 
 void DeckReader::enter(Section s) {
@@ -205,6 +206,7 @@ Trouble DeckReader::section_text() {
     const char* end = in().end();
     const char* line = begin;
     Section next = Section::none;
+    SectionWords words(section_);
     while (line != end) {
         const void* newline = std::memchr(line, '\n', static_cast<std::size_t>(end - line));
         const char* stop = newline == nullptr ? end : static_cast<const char*>(newline);
@@ -212,6 +214,7 @@ Trouble DeckReader::section_text() {
         next = section_line(text, section_);
         ended_ = is_end_line(text);
         if (next != Section::none || ended_) break;
+        if (std::string unknown = words.unknown_in(text); !unknown.empty() && !probing_ && !in_companion_) note_unread(line, unknown);
         line = stop == end ? end : stop + 1;
     }
     if (!probing_) texts_.back().second.append(begin, line);

@@ -46,7 +46,7 @@ private:
     Trouble keep(const char* begin, std::string_view name, bool is_known);
     void keep_text(const char* begin, const char* end);
     void enter(Section s);
-    void note_unread(const Item& word);
+    void note_unread(const char* at, const std::string& word);
     Trouble companion_properties();
 
     // deck_keywords.cpp: one function for each keyword that says something of a grid

@@ -146,6 +146,7 @@ void write_head(const CornerPointGrid& grid, DeckOutput& to) {
     else if (!units[0].empty() || !units[2].empty())
         to.losses.push_back(
             {LossClass::identity, grid.info.name, "units of the axes", "GRIDUNIT knows METRES, FEET and CM for all axes", 1});
+    if (to.deck && radial_blocks(grid)) return;  // RUNSPEC states its numbers of cells
     out << "SPECGRID\n ";
     out.number(grid.dims[0]) << ' ';
     out.number(grid.dims[1]) << ' ';
@@ -168,6 +169,7 @@ void write_head(const CornerPointGrid& grid, DeckOutput& to) {
 
 void write_geometry(const CornerPointGrid& grid, DeckOutput& to) {
     if (grid.depths.empty()) return;
+    if (const auto blocks = to.deck ? radial_blocks(grid) : std::nullopt) return write_radial_blocks(*blocks, to);
     const std::size_t n = grid.depths.size();
     const auto bad = [](double v) { return !std::isfinite(v); };
     if (const auto count = std::ranges::count_if(grid.depths, bad) + std::ranges::count_if(grid.pillars, bad); count > 0) {

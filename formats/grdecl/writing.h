@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,16 @@ void write_head(const CornerPointGrid& grid, DeckOutput& to);
 void write_geometry(const CornerPointGrid& grid, DeckOutput& to);
 void write_faults_and_connections(const CornerPointGrid& grid, DeckOutput& to, bool activity_too);
 void write_local_grid_begin(const CornerPointGrid& grid, DeckOutput& to);
+/// A radial grid as blocks: steps outwards from the inner radius and around from an angle of 0, tops of the first layer, heights of all
+/// cells.
+struct RadialBlocks {
+    double inner = 0;
+    std::vector<double> radii, angles, tops, heights;
+};
+/// What a grid is as such blocks (radial_writing.cpp); nothing where it is none: not radial, pillars that lean or are not in circles and
+/// rays, cells that are not flat or do not lie on each other. Cost: linear.
+std::optional<RadialBlocks> radial_blocks(const CornerPointGrid& grid);
+void write_radial_blocks(const RadialBlocks& blocks, DeckOutput& to);
 /// METRES, FEET or CM for a unit that is one of them however it is spelt; else empty.
 std::string_view unit_word(std::string_view unit);
 

@@ -54,6 +54,23 @@ void apply_section_edit(const CornerPointGrid& grid, const grid::Connections& fo
     }
 }
 
+// Stated connections of cells that the geometry joins anyway: simulators add them to its transmissibilities, and list none.
+void add_to_neighbours(CornerPointGrid& grid, const grid::Connections& found, grid::Transmissibilities& values) {
+    std::erase_if(grid.connections, [&](const CornerPointGrid::Connection& c) {
+        const auto low = static_cast<std::size_t>(std::min(c.first, c.second)),
+                   high = static_cast<std::size_t>(std::max(c.first, c.second));
+        if (!c.transmissibility || high >= grid.cell_count()) return false;
+        const unsigned to = found.neighbours[low];
+        double* value = nullptr;
+        if ((to & grid::Connections::east) != 0 && high == low + 1) value = &values.x[low];
+        else if ((to & grid::Connections::south) != 0 && high == low + grid.dims[0]) value = &values.y[low];
+        else if ((to & grid::Connections::below) != 0 && high == grid::next_below(grid, found.present, low)) value = &values.z[low];
+        if (value == nullptr) return false;
+        *value += *c.transmissibility;
+        return true;
+    });
+}
+
 // Factors of EDITNNC, which are in the transmissibilities then.
 void apply_factors(CornerPointGrid& grid) {
     std::map<std::pair<std::uint64_t, std::uint64_t>, double> factors;
@@ -108,6 +125,7 @@ Result<void> compute_connections(CornerPointGrid& grid, bool from_deck, std::vec
         else add_connection(grid, known, found.others[c].first, found.others[c].second, values->others[c]);
     }
     apply_section_edit(grid, found, from_deck, *values);
+    if (from_deck) add_to_neighbours(grid, found, *values);
     apply_factors(grid);
     set_attribute(grid, "TRANX", std::move(values->x));
     set_attribute(grid, "TRANY", std::move(values->y));

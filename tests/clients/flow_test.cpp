@@ -11,6 +11,7 @@
 #include "grid/cell_geometry.h"
 #include "grid/pore_volume.h"
 #include "grid/transmissibility.h"
+#include "pipeline/load.h"
 #include "support/corner_point_grids.h"
 #include "support/program.h"
 #include "support/real_data.h"
@@ -229,6 +230,28 @@ TEST_F(Flow, multiplies_faults_and_regions_as_we_do) {
     expect_same_as_simulator(c);
 }
 
+TEST_F(Flow, adds_stated_connections_of_neighbours_to_their_transmissibilities_as_we_do) {
+    FlowCase c{folder_.path(), {6, 4, 3}, "", false};
+    c.grid_section = "NNC\n 1 2 1 2 2 1 5 /\n 2 3 3 2 2 3 7 /\n 2 2 1 2 2 2 0.5 /\n 1 2 2 6 4 3 11 /\n/\n";
+    write_include(faulted(), folder_ / "GRID.GRDECL");
+    write_deck(c);
+    ASSERT_TRUE(dry_run(c));
+    for (const char* name : {"ours.EGRID", "ours.INIT"}) {
+        const ProgramRun run = run_geomend(
+            {"convert", (folder_ / "CASE.DATA").string(), "-o", (folder_ / name).string(), "--lossy", "--option", "connections=compute"});
+        ASSERT_EQ(run.status, 0) << run.err;
+    }
+    const auto read = load((folder_ / "ours.INIT").string(), {});
+    ASSERT_TRUE(read);
+    const auto& ours = std::get<CornerPointGrid>(read->objects.front());
+    const CornerPointGrid theirs = simulated(c);
+    for (const char* name : {"TRANX", "TRANY", "TRANZ"}) {
+        const auto a = values(ours, name), b = values(theirs, name);
+        ASSERT_EQ(a.size(), b.size()) << name;
+        for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5 * std::abs(b[i])) << name << i;
+    }
+}
+
 TEST_F(Flow, takes_grids_that_we_wrote_with_the_same_cells_and_pore_volumes) {
     write_include(faulted(), folder_ / "own.grdecl");
     const auto there = (folder_ / "grid.egrid").string(), back = (folder_ / "GRID.GRDECL").string();
@@ -241,6 +264,25 @@ TEST_F(Flow, takes_grids_that_we_wrote_with_the_same_cells_and_pore_volumes) {
     double sum = 0;
     for (const double v : values(simulated(c), "PORV")) sum += v;
     EXPECT_NEAR(sum, 0.2 * grid::volume(faulted()), 1e-6 * sum);
+}
+
+TEST_F(Flow, takes_radial_decks_that_we_wrote_with_our_volumes) {
+    const std::string runspec =
+        "RUNSPEC\nDIMENS\n 3 4 2 /\nOIL\nWATER\nMETRIC\nSTART\n 1 'JAN' 2020 /\nWELLDIMS\n 2 2 2 2 /\nTABDIMS\n /\nEQLDIMS\n /\nUNIFOUT\n";
+    const std::string grid =
+        "GRID\nINIT\nINRAD\n 0.25 /\nDRV\n 1.0 5.0 20.0 /\nDTHETAV\n 3*90 45 /\nDZ\n 12*10 12*7 /\nTOPS\n 12*2000 /\nPORO\n 24*0.2 "
+        "/\nPERMR\n 24*100 /\nPERMTHT\n 24*100 /\nPERMZ\n 24*10 /\n";
+    const std::string rest =
+        "PROPS\nPVTW\n 200 1.0 4.0E-5 0.5 0 /\nPVDO\n 100 1.1 1.0\n 300 1.0 1.1 /\nROCK\n 200 1E-5 /\nDENSITY\n 800 1000 1 /\nSWOF\n 0.2 0 "
+        "1 "
+        "0\n 1.0 1 0 0 /\nSOLUTION\nEQUIL\n 2000 200 2500 0 /\nSUMMARY\nSCHEDULE\nTSTEP\n 1 /\n";
+    write_file(folder_ / "in.DATA", runspec + "RADIAL\n" + grid + rest);
+    ASSERT_EQ(run_geomend({"convert", (folder_ / "in.DATA").string(), "-o", (folder_ / "CASE.DATA").string()}).status, 0);
+    const FlowCase c{folder_.path(), {3, 4, 2}, "", true};
+    ASSERT_TRUE(dry_run(c));
+    double sum = 0;
+    for (const double v : values(simulated(c), "PORV")) sum += v;
+    EXPECT_NEAR(sum, 0.2 * grid::volume(of_deck(c)), 1e-5 * sum);
 }
 
 // Quoted names without blanks at their ends: the simulator stops on those.

@@ -126,4 +126,24 @@ TEST(RadialGrids, SpidersGoRoundOnceOnly) {
     EXPECT_TRUE(has_finding(*d, "C31"));
 }
 
+TEST(FlowWords, KeywordsOfLaterSectionsThatFlowDoesNotKnow) {
+    const auto all = [](const std::string& text) {
+        const auto d = read_text("RUNSPEC\nGRID\n" + two_cells + text);
+        EXPECT_TRUE(d) << why(d) << text;
+        std::string found;
+        for (const Finding& f : d->findings) found += f.code + f.message;
+        return found;
+    };
+    for (const char* text : {"PROPS\nMARVEL\n 1 2 /\n", "PROPS\nPVTW\n 200 1 4e-5 0.5 0 /\nMARVEL\n",
+                             "SOLUTION\nEQUIL\n 2000 200 /\nMARVEL\n 1 /\n", "SUMMARY\nMARVEL\nFOPR\n", "SUMMARY\nFOPR\nFOPT\nMARVEL\n",
+                             "SUMMARY\nWOPR\n P1 /\nMARVEL\n", "SCHEDULE\nTSTEP\n 1 /\nmarvel -- a remark\n 1 2 /\n/\n"})
+        EXPECT_NE(all(text).find("MARVEL"), std::string::npos) << text;
+    for (const char* text :
+         {"PROPS\nPVTW\n 200 1 4e-5 0.5 0 /\nROCK\n 200 1E-5 /\n",
+          "SUMMARY\nALL\nFOPR\nWOPR\nP1\nP2\n/\nRPR\n/\nTCPU\nTIMESTEP\nPERFORMA\nEXCEL\n",
+          "SCHEDULE\nRPTSCHED\nRESTART\nFIP\n/\nWELSPECS\n'P1' 'G' 1 1 2000 OIL /\n/\nWCONPROD\nP1 OPEN BHP 5* 100 /\n/\nTSTEP\n 1 /\n",
+          "PROPS\n-- MARVEL\n", "SOLUTION\nRPTSOL\nFIP\n/\n"})
+        EXPECT_EQ(all(text), "") << text;
+}
+
 }  // namespace geomend::test

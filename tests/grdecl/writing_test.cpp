@@ -286,6 +286,34 @@ TEST(Writing, RegionsMayMissCells) {
     EXPECT_EQ(values(grid_of(*again), "SATNUM")[2], 3);
 }
 
+TEST(Writing, RadialDecksStayBlocksAroundTheirAxis) {
+    const std::string head = "RUNSPEC\nDIMENS\n 3 4 2 /\nMETRIC\nRADIAL\nGRID\n";
+    for (const char* steps :
+         {"INRAD\n 0.25 /\nDRV\n 1.0 5.0 20.0 /\nDTHETAV\n 4*90 /\nDZ\n 24*10 /\nTOPS\n 12*2000 /\n",
+          "INRAD\n 0.1 /\nDRV\n 0.3 0.7 1.1 /\nDTHETAV\n 10.1 20.2 30.3 40.4 /\nDZ\n 12*3.3 12*0 /\nTOPS\n 2000.1 11*2001.7 /\n",
+          "INRAD\n 0.5 /\nOUTRAD\n 300 /\nDTHETAV\n 4*30 /\nDZV\n 7 9 /\nTOPS\n 12*1500.5 /\n"}) {
+        const auto grid = good(head + steps);
+        const TemporaryFolder folder;
+        const std::string written = read_file(write(dataset_of(grid), folder / "back.DATA").path);
+        EXPECT_NE(written.find("DTHETAV"), std::string::npos) << written;
+        EXPECT_EQ(written.find("COORD"), std::string::npos) << written;
+        EXPECT_EQ(written.find("SPECGRID"), std::string::npos) << written;
+        const auto back = good(written);
+        EXPECT_TRUE(same(grid.pillars, back.pillars)) << steps;
+        EXPECT_TRUE(same(grid.depths, back.depths)) << steps;
+        EXPECT_TRUE(back.cylindrical);
+    }
+}
+
+TEST(Writing, RadialGridsThatAreNoBlocksKeepTheirPillars) {
+    auto grid = good("RUNSPEC\nDIMENS\n 2 1 1 /\nRADIAL\nGRID\nINRAD\n 1 /\nDRV\n 1 2 /\nDTHETAV\n 90 /\nDZ\n 2*3 /\nTOPS\n 2*10 /\n");
+    grid.depths.back() += 0.5;  // no longer flat
+    const TemporaryFolder folder;
+    const std::string written = read_file(write(dataset_of(grid), folder / "back.DATA").path);
+    EXPECT_NE(written.find("COORD"), std::string::npos);
+    EXPECT_TRUE(same(grid.depths, good(written).depths));
+}
+
 TEST(Writing, OnlyPropertiesWhereThatIsAsked) {
     const TemporaryFolder folder;
     const auto written = write(dataset_of(full()), folder / "back.grdecl", {{"content", "properties"}});

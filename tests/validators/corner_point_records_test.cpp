@@ -90,6 +90,18 @@ TEST(RegionNumbers, C24WantsThemFromOneInActiveCells) {
     EXPECT_EQ(f.entities[1].name, "SATNUM");
 }
 
+TEST(StatedConnections, C29NamesThoseOfCellsThatTouchAnyway) {
+    CornerPointGrid grid = brick_grid(4, 2, 2);
+    grid.connections = {{0, 1, 5.0}, {5, 1, 2.0}, {3, 11, 1.0}, {0, 6, 1.0}};
+    const Finding f = find(findings_of(grid), "C29", Severity::warning);
+    EXPECT_EQ(f.count, 3u) << "side by side along each axis, and not at a corner";
+    EXPECT_NE(f.message.find("faces touch"), std::string::npos) << f.message;
+    grid = brick_grid(2, 1, 1);
+    add_throw(grid, 1, 100);  // no longer side by side
+    grid.connections = {{0, 1, 5.0}};
+    EXPECT_FALSE(codes_of(grid).contains("C29 warning"));
+}
+
 TEST(FaultRecords, C25NamesFaultsBetweenNoActiveCells) {
     CornerPointGrid grid = brick_grid(4, 1, 2);
     grid.faults = {{"EDGE", {{{3, 0, 0}, {3, 0, 1}, CellFace::i_plus}}, {}}};

@@ -306,7 +306,7 @@ constexpr Fixture fixtures[] = {
     {"C26", [] { return two_fault_records(1, false); }, [] { return two_fault_records(0, true); }},
     {"C27", [] { return ribbon(true); }, [] { return ribbon(false); }, "", true},
     {"C28", [] { return bent_faces(30); }, [] { return bent_faces(0); }, "", true},
-    {"C29", [] { return stated_connection(5, 5); }, [] { return stated_connection(5, 17); }},
+    {"C29", [] { return stated_connection(5, 5); }, [] { return stated_connection(5, 16); }},
     {"C30", [] { return local_grids(1); }, [] { return local_grids(2); }},
     {"C31", [] { return around_an_axis("95"); }, [] { return around_an_axis("90"); }},
     {"S01", a_point, ready_for_flow, "flow"},
