@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -94,13 +96,12 @@ std::vector<std::uint32_t> numbers_of(const Surface& surface) {
 }
 
 /// Corners at some points, of the polygons that have a point once only, by part and point.
+/// \param parts per polygon its part
 std::vector<std::pair<std::uint32_t, Around>> corners_at(const Surface& surface, const std::vector<std::uint32_t>& number,
-                                                         const std::vector<std::uint8_t>& wanted) {
+                                                         const std::vector<std::uint8_t>& wanted, std::span<const std::uint32_t> parts) {
     std::vector<std::pair<std::uint32_t, Around>> corners;
-    std::uint32_t part = 0;
     std::vector<std::uint32_t> ring;
     for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
-        while (part + 1 < surface.parts.size() && p >= surface.parts[part + 1].first_polygon) ++part;
         const auto polygon = surface.polygons[p];
         const std::size_t n = polygon.size();
         if (n < 3 || std::ranges::none_of(polygon, [&](std::uint32_t corner) { return wanted[number[corner]] != 0; })) continue;
@@ -108,7 +109,7 @@ std::vector<std::pair<std::uint32_t, Around>> corners_at(const Surface& surface,
         for (const std::uint32_t corner : polygon) ring.push_back(number[corner]);
         if (std::set(ring.begin(), ring.end()).size() != n) continue;
         for (std::size_t i = 0; i < n; ++i) {
-            if (wanted[ring[i]] != 0) corners.push_back({part, {ring[i], ring[(i + n - 1) % n], ring[(i + 1) % n], p}});
+            if (wanted[ring[i]] != 0) corners.push_back({parts[p], {ring[i], ring[(i + n - 1) % n], ring[(i + 1) % n], p}});
         }
     }
     std::ranges::sort(corners, [](const auto& a, const auto& b) {
@@ -164,13 +165,30 @@ Belongs surfaces_of_polygons(const ModelScope& scope, std::span<const std::uint3
     return belongs;
 }
 
+/// The cells of a mesh as the polygons of a surface, so that their numbers are the same.
+Surface cells_as_polygons(const CellMesh& mesh) {
+    Surface faces;
+    faces.points = mesh.points;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+        const auto nodes = mesh.cell_nodes(c);
+        const std::uint32_t corners = node_count(linear_type(mesh.types[c]));
+        faces.polygons.push_back(corners == 0 || corners > nodes.size() ? nodes : nodes.first(corners));
+    }
+    return faces;
+}
+
 void find_points(const ModelScope& scope, const std::vector<std::uint8_t>& between, std::uint32_t object,
                  std::span<const std::uint32_t> surfaces, std::map<Part, Wrong>& wrong) {
-    const auto* source = object < scope.dataset().objects.size() ? std::get_if<Surface>(&scope.dataset().objects[object]) : nullptr;
+    if (object >= scope.dataset().objects.size()) return;
+    std::optional<Surface> faces;
+    if (const auto* mesh = std::get_if<CellMesh>(&scope.dataset().objects[object])) faces = cells_as_polygons(*mesh);
+    const auto* source = faces ? &*faces : std::get_if<Surface>(&scope.dataset().objects[object]);
     if (source == nullptr) return;
     const Belongs belongs = surfaces_of_polygons(scope, surfaces, source->polygons.size());
+    std::vector<std::uint32_t> parts;
+    for (const auto& [s, p] : belongs) parts.push_back(s == no_index ? no_index : scope.brep().surfaces[s].source_part);
     const auto number = numbers_of(*source);
-    const auto corners = corners_at(*source, number, points_of_polygons_at(scope, between, *source, surfaces, number));
+    const auto corners = corners_at(*source, number, points_of_polygons_at(scope, between, *source, surfaces, number), parts);
     std::vector<Around> around;
     for (std::size_t i = 0; i < corners.size();) {
         around.clear();
@@ -194,7 +212,8 @@ void find_points(const ModelScope& scope, const std::vector<std::uint8_t>& betwe
     }
 }
 
-Finding finding_of_part(const ModelScope& scope, const Wrong& wrong, std::uint32_t object) {
+Finding finding_of_part(const ModelScope& scope, const Wrong& wrong, const Part& part) {
+    const auto& [object, number] = part;
     std::string what;
     if (!wrong.edges.empty()) what = counted(wrong.edges.size(), "edge is", "edges are") + " shared by more than two of its triangles";
     if (!wrong.points.empty())
@@ -204,6 +223,7 @@ Finding finding_of_part(const ModelScope& scope, const Wrong& wrong, std::uint32
     for (const std::uint32_t s : wrong.surfaces) {
         if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, s));
     }
+    if (number == no_index) use_other_severity(finding);
     finding.element_kind = "triangle";
     for (const auto& [s, p] : wrong.polygons) {
         if (finding.elements.size() >= listed_elements) break;
@@ -239,7 +259,7 @@ void report_loose_manifold(const ModelScope& scope, const std::vector<std::vecto
     }
     const auto between = vertices_between(brep);
     for (const auto& [object, surfaces] : surfaces_of) find_points(scope, between, object, surfaces, wrong);
-    for (const auto& [part, what] : wrong) findings.push_back(finding_of_part(scope, what, part.first));
+    for (const auto& [part, what] : wrong) findings.push_back(finding_of_part(scope, what, part));
 }
 
 }  // namespace geomend::validators

@@ -78,7 +78,7 @@ bool nearly_closes(const ModelScope& scope, std::span<const std::uint32_t> surfa
 
 /// Whether two surfaces are one in the file, and were taken apart.
 bool of_one_part(const BrepData::Surface& a, const BrepData::Surface& b) {
-    return a.source_object == b.source_object && a.source_part == b.source_part;
+    return a.source_object == b.source_object && a.source_part == b.source_part && a.source_part != no_index;
 }
 
 /// Calls visit(a, b) for each two surfaces that end at an edge where nothing else is, at an angle: as the sides of a box do, and

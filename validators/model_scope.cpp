@@ -99,6 +99,8 @@ Finding outlying_finding(const Object& object, std::span<const topology::Outlyin
                           "at " + stated_position(object, p) + ", " + rounded(first.times) +
                           " times as far from the others as these are from each other";
     if (usual) message += "; the height looks like no-data";
+    message +=
+        alone ? "; all else is judged as if it lay between its neighbours" : "; all else is judged as if they lay between their neighbours";
     Finding finding = finding_of("M15", std::move(message));
     finding.entities.push_back({kind_name(object), info_of(object).name});
     finding.element_kind = "point";

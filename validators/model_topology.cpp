@@ -10,7 +10,9 @@
 #include "validators/each_surface.h"
 #include "validators/found_cells.h"
 #include "validators/free_borders.h"
+#include "validators/loose_seams.h"
 #include "validators/model_checks.h"
+#include "validators/region_volumes.h"
 
 namespace geomend::validators {
 
@@ -38,20 +40,30 @@ double radius(const BrepData& brep, std::span<const std::uint32_t> lines) {
 std::uint64_t edge_key(VertexId a, VertexId b) { return std::uint64_t{std::min(a.value, b.value)} << 32 | std::max(a.value, b.value); }
 
 /// Edges of lines that more than one surface uses; ascending.
-std::vector<std::uint64_t> edges_of_several_surfaces(const ModelScope& scope) {
+struct SharedEdges {
+    std::vector<std::uint64_t> all;
+    std::vector<std::uint64_t> through;  ///< those with four uses or more: none of the surfaces only ends there
+};
+
+SharedEdges edges_of_several_surfaces(const ModelScope& scope) {
     const topology::LineGraph& graph = scope.model().graph;
-    std::vector<std::uint64_t> shared;
+    SharedEdges shared;
     for (const auto& edge : graph.edges) {
         const auto uses = graph.edge_uses(edge);
-        std::uint32_t first = no_index;
-        const bool several = std::ranges::any_of(uses, [&](const auto& use) {
-            if (use.surface == no_index) return false;  // a line that the file states
+        std::uint32_t first = no_index, count = 0;
+        bool several = false;
+        for (const auto& use : uses) {
+            if (use.surface == no_index) continue;  // a line that the file states
             if (first == no_index) first = use.surface;
-            return use.surface != first;
-        });
-        if (several) shared.push_back(edge_key(VertexId(uses[0].low), VertexId(uses[0].high)));
+            several |= use.surface != first;
+            ++count;
+        }
+        if (!several) continue;
+        shared.all.push_back(edge_key(VertexId(uses[0].low), VertexId(uses[0].high)));
+        if (count > 3) shared.through.push_back(shared.all.back());
     }
-    std::ranges::sort(shared);
+    std::ranges::sort(shared.all);
+    std::ranges::sort(shared.through);
     return shared;
 }
 
@@ -126,14 +138,19 @@ std::vector<std::uint32_t> pieces_by_edges(const BrepData::Surface& surface, con
 
 void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
     if (!scope.model().stated) return;
-    // Regions that are found by walking along sides are not told apart by a surface whose sides go on across another one.
+    // Regions that are found by walking along sides are not told apart by a surface whose sides go on across another one; one that
+    // only ends there parts them where other regions lie on the two parts of the surface.
     const auto embedded = embedded_edges(scope);
-    const auto cuts = scope.model().regions_stated ? std::vector<std::uint64_t>{} : edges_of_several_surfaces(scope);
+    const SharedEdges cuts = scope.model().regions_stated ? SharedEdges{} : edges_of_several_surfaces(scope);
+    const auto is_between_several = cuts.all.empty() || surfaces_are_whole(scope)
+                                        ? std::vector<std::uint8_t>(scope.brep().surfaces.size(), 0)
+                                        : surfaces_between_several(scope);
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
         auto polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], {}, embedded));
         const bool is_cut = polygons_of.size() < 2;
-        if (is_cut && !cuts.empty()) polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], cuts, embedded));
+        const auto& own_cuts = is_between_several[s] != 0 ? cuts.all : cuts.through;
+        if (is_cut && !own_cuts.empty()) polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], own_cuts, embedded));
         if (polygons_of.size() < 2) return std::nullopt;
         std::uint64_t largest = 0, all = 0;
         for (const auto& [piece, count] : polygons_of) {
@@ -168,10 +185,12 @@ void check_seams(const ModelScope& scope, std::vector<Finding>& findings) {
         }
     }
     std::map<std::uint32_t, Finding> of_surface;
-    const auto embedded = embedded_lines(scope);
+    const auto embedded = embedded_lines(scope), between_pieces = seams_between_pieces(scope);
+    const auto first = first_of_part(scope);
     for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
-        if (shared[l] != 0 || uses[l] < 2 || embedded[l] != 0) continue;
-        Finding& finding = of_surface[owner[l]];
+        const bool inside_one = shared[l] == 0 && uses[l] >= 2 && embedded[l] == 0;
+        if (!inside_one && between_pieces[l] == 0) continue;
+        Finding& finding = of_surface[first[owner[l]]];
         ++finding.count;
         finding.entities.push_back(line_ref(scope, l));
         if (finding.index.size() < listed_elements) finding.index.push_back(l);

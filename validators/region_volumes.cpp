@@ -2,6 +2,8 @@
 #include "validators/region_volumes.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <set>
 
 #include "topology/face_edges.h"
@@ -65,15 +67,6 @@ std::vector<Corners> polygons_of(const BrepData& brep) {
     return polygons;
 }
 
-bool surfaces_are_whole(const ModelScope& scope) {
-    const BrepData& brep = scope.brep();
-    std::vector<std::uint32_t> piece_of;
-    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
-        if (topology::number_pieces(brep.surfaces[s], scope.model().faces[s], piece_of) > 1) return false;
-    }
-    return true;
-}
-
 /// What the pieces of all surfaces part space into. \param source per piece its surface
 topology::FoundRegions regions_of_pieces(const ModelScope& scope, std::vector<std::uint32_t>& source) {
     const BrepData& brep = scope.brep();
@@ -97,6 +90,15 @@ topology::FoundRegions regions_of_pieces(const ModelScope& scope, std::vector<st
 }
 
 }  // namespace
+
+bool surfaces_are_whole(const ModelScope& scope) {
+    const BrepData& brep = scope.brep();
+    std::vector<std::uint32_t> piece_of;
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        if (topology::number_pieces(brep.surfaces[s], scope.model().faces[s], piece_of) > 1) return false;
+    }
+    return true;
+}
 
 std::vector<std::uint8_t> regions_with_bare_facets(const ModelScope& scope) {
     const BrepData& brep = scope.brep();
@@ -155,6 +157,22 @@ std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope) {
         count(found, [&](std::uint32_t piece) { return source[piece]; });
     }
     return volumes;
+}
+
+std::vector<std::uint8_t> surfaces_between_several(const ModelScope& scope) {
+    std::vector<std::uint32_t> source;  // per piece its surface
+    const auto found = regions_of_pieces(scope, source);
+    std::vector<std::uint8_t> several(scope.brep().surfaces.size(), 0);
+    if (found.region_of_side.empty()) return several;
+    using Sides = std::array<std::uint32_t, 2>;
+    std::vector<std::optional<Sides>> first(several.size());
+    for (std::uint32_t piece = 0; piece < source.size(); ++piece) {
+        const Sides sides{found.region_of_side[2 * piece], found.region_of_side[2 * piece + 1]};
+        auto& known = first[source[piece]];
+        if (known && *known != sides) several[source[piece]] = 1;
+        known = sides;
+    }
+    return several;
 }
 
 }  // namespace geomend::validators

@@ -16,4 +16,11 @@ std::vector<std::uint8_t> regions_with_bare_facets(const ModelScope& scope);
 /// the file cuts them there; 0 for regions without a surface inside, which the walk along whole surfaces tells already.
 std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope);
 
+/// Whether no line runs so through a surface that it falls into pieces. Cost: linear.
+bool surfaces_are_whole(const ModelScope& scope);
+
+/// Per surface 1 where its pieces between lines lie between different regions, once all surfaces are cut along lines: then it parts
+/// more than two. Cost: as of finding the regions of the model.
+std::vector<std::uint8_t> surfaces_between_several(const ModelScope& scope);
+
 }  // namespace geomend::validators

@@ -13,6 +13,7 @@
 #include "validators/grid_model.h"
 #include "validators/model_checks.h"
 #include "validators/object_checks.h"
+#include "validators/pulled_points.h"
 #include "validators/readiness.h"
 
 namespace geomend::validators {
@@ -54,7 +55,11 @@ constexpr std::array table = {
              "regions are stated, but walking along the surfaces finds none; or outer surfaces that meet at an angle, or all but close, "
              "bound nothing",
              check_openings),
-    of_model("B07", "a line that only one surface uses, from two sides; a warning for loose surfaces", check_seams),
+    of_model("B07",
+             "a line that only one surface uses, from two sides; of loose surfaces also one between two pieces whose points at it are not "
+             "one, and "
+             "a warning",
+             check_seams),
     of_model("B08", "triangles of two surfaces pass through each other; exact", check_intersections),
     of_model("B09", "a horizon, unconformity, topography or intrusion with a free border has one region on both sides", check_free_ends),
     of_model("B10", "B08 of two different horizons or unconformities", check_intersections),
@@ -141,7 +146,9 @@ constexpr std::array table = {
           "same way overlap, in columns that share no pillar"},
     Check{"C28", "with --option as=brep: as C27, in columns that share a pillar, or one column"},
     Check{"C29",
-          "a record of NNC joins a cell with itself, or its transmissibility is below 0 (error); or a cell of it is inactive (warning)",
+          "a record of NNC joins a cell with itself, or its transmissibility is below 0 (error); or a cell of it is inactive, or faces of "
+          "its cells touch "
+          "(warning)",
           check_stated_connections, true},
     Check{"C30", "two local grids refine the same cell of their host"},
     Check{"C31", "the angles of the cells of a radial grid add up to more than 360 degrees", check_radial_angles},
@@ -304,16 +311,18 @@ bool is_error(const Finding& finding) { return finding.severity == Severity::err
 
 /// As check_models().
 /// \param borders where not null: the points on lines of models with errors are added to it
-Result<Checked> judge_models(const Dataset& dataset, const CheckOptions& options, std::vector<Brep>* judged,
+Result<Checked> judge_models(const Dataset& as_read, const CheckOptions& options, std::vector<Brep>* judged,
                              std::vector<BorderPoints>* borders) {
     Checked result;
-    if (auto huge = huge_coordinates(dataset); !huge.empty()) {
+    if (auto huge = huge_coordinates(as_read); !huge.empty()) {
         result.findings = std::move(huge);
         return result;
     }
-    result.local = lengths_of(dataset, options);
+    result.local = lengths_of(as_read, options);
     result.lengths = result.local.largest;
-    report_outlying(dataset, result.local, result.findings);
+    report_outlying(as_read, result.local, result.findings);
+    const auto pulled = with_outlying_points_pulled_in(as_read, result.local);
+    const Dataset& dataset = pulled ? *pulled : as_read;
     auto models = topology::models_to_judge(dataset, topology::model_sources(dataset, result.local));
     if (!models) return std::move(models).why();
     std::vector<std::unique_ptr<ModelScope>> scopes;

@@ -16,7 +16,8 @@ constexpr std::array catalogue = {
     CodeInfo{"B01", error, "an element of an entity has no interior: it uses a vertex twice"},
     CodeInfo{"B02", error, "a surface crosses itself"},
     CodeInfo{"B03", error,
-             "a surface is not manifold where no line is: more than two of its triangles at an edge, or fans that meet in a point"},
+             "a surface is not manifold where no line is: more than two of its triangles at an edge, or fans that meet in a point",
+             OtherSeverity{warning, "nothing says which surfaces the faces of a mesh belong to"}},
     CodeInfo{"B04", error, "an entity does not hang together"},
     CodeInfo{"B05", error, "the surfaces that are stated to bound a region do not close"},
     CodeInfo{"B06", error, "the surfaces of a model close around no volume"},
@@ -80,7 +81,7 @@ constexpr std::array catalogue = {
     CodeInfo{"C27", error, "cells of columns that are no neighbours run into each other"},
     CodeInfo{"C28", info, "bent faces of neighbouring cells cross as triangles"},
     CodeInfo{"C29", error, "a stated connection joins a cell with itself or an inactive one, or is negative",
-             OtherSeverity{warning, "the connection leads to an inactive cell"}},
+             OtherSeverity{warning, "the connection leads to an inactive cell, or joins cells that the geometry joins, too"}},
     CodeInfo{"C30", error, "local grids refine the same cell"},
     CodeInfo{"C31", error, "the cells of a radial grid go round more than once"},
     // Files.

@@ -40,7 +40,11 @@ bool split_into_pieces(SurfaceComplex& complex, Assembly& a) {
     for (std::size_t f = 0; f < complex.faces.size(); ++f) {
         for (auto& piece : pieces_of(a.brep.surfaces[f], a.faces[f])) {
             faces.push_back(complex.faces[f]);
-            faces.back().source_polygons = std::move(piece.polygons);
+            auto& numbers = faces.back().source_polygons;
+            if (const auto& known = complex.faces[f].source_polygons; !known.empty()) {
+                for (std::uint32_t& p : piece.polygons) p = known[p];
+            }
+            numbers = std::move(piece.polygons);
             surfaces.push_back(std::move(piece.surface));
         }
     }
@@ -109,15 +113,14 @@ std::vector<std::uint8_t> lines_with_shared_nodes(const Assembly& a) {
     return joined;
 }
 
-/// Lines and corners. Gives the polygons that were turned over, per surface, where the complex is taken apart.
-std::vector<std::vector<std::uint32_t>> make_lines(SurfaceComplex& complex, Assembly& a) {
+/// Lines and corners. Gives the polygons that were turned over, per surface: where the complex is taken apart, and where it is to be
+/// judged, since a polygon that is wound wrongly is no reason to take a side of its surface for the other one.
+std::vector<std::vector<std::uint32_t>> make_lines(SurfaceComplex& complex, RegionSearch search, Assembly& a) {
     a.graph = build_lines(a.brep, a.faces, complex.lines);
+    const bool apart = complex.take_apart && split_into_pieces(complex, a);
     std::vector<std::vector<std::uint32_t>> turned;
-    if (complex.take_apart) {
-        const bool apart = split_into_pieces(complex, a);
-        turned = turn_over(a);
-        if (apart || !turned.empty()) make_lines_anew(complex, a);
-    }
+    if (complex.take_apart || search == RegionSearch::always) turned = turn_over(a);
+    if (apart || !turned.empty()) make_lines_anew(complex, a);
     name_corners(complex, a.brep);
     name_lines(complex, a);
     a.joined_lines = lines_with_shared_nodes(a);
@@ -156,7 +159,7 @@ void make_features(const SurfaceComplex& complex, BrepData& brep) {
 Result<JudgedModel> assemble(SurfaceComplex complex, RegionSearch search) {
     Assembly a;
     take_geometry(complex, a);
-    auto turned = make_lines(complex, a);
+    auto turned = make_lines(complex, search, a);
     for (const auto& face : complex.faces) a.tolerances.push_back(face.tolerance);
     make_interfaces(complex, a.brep);
     make_regions(complex, a);

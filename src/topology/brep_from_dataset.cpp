@@ -5,6 +5,8 @@
 #include <iterator>
 
 #include "topology/front_ends.h"
+#include "topology/mesh_surfaces.h"
+#include "topology/sources_to_judge.h"
 
 namespace geomend::topology {
 
@@ -29,9 +31,10 @@ SurfaceComplex complex_of(const Dataset& dataset, const ModelSource& source) {
     return complex_of_tagged_mesh(dataset, source.groups[0].objects[0], source.groups[0].tolerance);
 }
 
-}  // namespace
+/// How meshes of faces without volumes are taken: as models of their entities, or as loose surfaces.
+enum class SurfaceMeshes : std::uint8_t { models, loose };
 
-std::vector<ModelSource> model_sources(const Dataset& dataset) {
+std::vector<ModelSource> sources_of(const Dataset& dataset, SurfaceMeshes meshes) {
     std::vector<ModelSource> sources;
     std::vector<std::uint8_t> claimed(dataset.objects.size(), 0);
     for (std::uint32_t m = 0; m < dataset.models.size(); ++m) {
@@ -47,13 +50,20 @@ std::vector<ModelSource> model_sources(const Dataset& dataset) {
     std::vector<std::uint32_t> loose;
     for (std::uint32_t o = 0; o < dataset.objects.size(); ++o) {
         if (claimed[o] != 0) continue;
-        if (std::holds_alternative<Surface>(dataset.objects[o])) loose.push_back(o);
         const auto* mesh = std::get_if<CellMesh>(&dataset.objects[o]);
-        if (mesh != nullptr && states_model(*mesh)) sources.push_back({ModelSource::tagged_mesh, no_index, {{{o}, 0}}});
+        const bool is_loose_mesh = meshes == SurfaceMeshes::loose && mesh != nullptr && is_surface_mesh(*mesh);
+        if (is_loose_mesh || std::holds_alternative<Surface>(dataset.objects[o])) loose.push_back(o);
+        else if (mesh != nullptr && states_model(*mesh)) sources.push_back({ModelSource::tagged_mesh, no_index, {{{o}, 0}}});
     }
     if (!loose.empty()) sources.push_back({ModelSource::loose_surfaces, no_index, {{std::move(loose), 0}}});
     return sources;
 }
+
+}  // namespace
+
+std::vector<ModelSource> model_sources(const Dataset& dataset) { return sources_of(dataset, SurfaceMeshes::models); }
+
+std::vector<ModelSource> sources_to_judge(const Dataset& dataset) { return sources_of(dataset, SurfaceMeshes::loose); }
 
 void build_breps(Dataset& dataset) {
     dataset.breps.clear();
@@ -86,7 +96,7 @@ Result<std::vector<JudgedModel>> models_to_judge(const Dataset& dataset, std::sp
 }
 
 Result<std::vector<JudgedModel>> models_to_judge(const Dataset& dataset, double tolerance) {
-    auto sources = model_sources(dataset);
+    auto sources = sources_to_judge(dataset);
     for (auto& source : sources) {
         for (auto& group : source.groups) group.tolerance = tolerance;
     }

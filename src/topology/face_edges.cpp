@@ -2,6 +2,7 @@
 #include "topology/face_edges.h"
 
 #include <algorithm>
+#include <map>
 #include <span>
 
 #include "geometry/vectors.h"
@@ -129,6 +130,46 @@ std::vector<std::uint32_t> repeats(const BrepData::Surface& surface, const Polyg
     return found;
 }
 
+/// Of polygons with the same nodes the one stays that is wound as its neighbours want it, whichever comes first in the file.
+void keep_well_wound(const BrepData::Surface& surface, const PolygonEdges& edges, const EdgeTable& table,
+                     std::vector<std::uint32_t>& repeats) {
+    const auto sorted_nodes = [&](std::uint32_t p) {
+        std::vector<std::uint32_t> nodes(surface.polygons[p].begin(), surface.polygons[p].end());
+        std::ranges::sort(nodes);
+        return nodes;
+    };
+    struct Alike {
+        std::map<std::uint32_t, int> fits;  // per polygon how many neighbours run against it, less those that run with it
+    };
+    std::map<std::vector<std::uint32_t>, Alike> groups;
+    for (const std::uint32_t p : repeats) groups[sorted_nodes(p)];
+    const auto group_of = [&](std::uint32_t p) {
+        const auto found = groups.find(sorted_nodes(p));
+        return found == groups.end() ? nullptr : &found->second;
+    };
+    table.for_each_edge([&](std::span<const Use> around) {
+        if (around.size() < 2) return;
+        for (const Use& use : around) {
+            const std::uint32_t p = edges.polygon(use.corner);
+            Alike* alike = group_of(p);
+            if (alike == nullptr) continue;
+            int& fit = alike->fits[p];
+            for (const Use& other : around) {
+                if (group_of(edges.polygon(other.corner)) == alike) continue;
+                fit += edges.start_node(other.corner) == edges.start_node(use.corner) ? -1 : 1;
+            }
+        }
+    });
+    repeats.clear();
+    for (const auto& [nodes, alike] : groups) {
+        const auto best = std::ranges::max_element(alike.fits, {}, [](const auto& fit) { return fit.second; });  // the first of equal ones
+        for (const auto& [p, fit] : alike.fits) {
+            if (p != best->first) repeats.push_back(p);
+        }
+    }
+    std::ranges::sort(repeats);
+}
+
 }  // namespace
 
 VertexId far_vertex(const BrepData& brep, const BrepData::Surface& surface, std::uint32_t polygon, const Vec3& a, const Vec3& b) {
@@ -158,6 +199,7 @@ FaceEdges connect_polygons(BrepData::Surface& surface) {
     EdgeTable table(surface, skip);
     result.duplicate = repeats(surface, edges, table);
     if (!result.duplicate.empty()) {
+        keep_well_wound(surface, edges, table, result.duplicate);
         skip.resize(surface.polygons.size());
         for (const std::uint32_t p : result.duplicate) skip[p] = 1;
         table = EdgeTable(surface, skip);

@@ -51,12 +51,19 @@ private:
     Vec3 a_, b_, reference_;
 };
 
+/// Points as near the axis as this say nothing of the direction in which a polygon leaves it.
+constexpr double tolerances_beside_axis = 10;
+
+bool is_beside(const Vec3& a, const Vec3& b, const Vec3& p, double tolerance) {
+    const Vec3 u = across(minus(p, a), minus(b, a));
+    return dot(u, u) <= tolerances_beside_axis * tolerances_beside_axis * tolerance * tolerance;
+}
+
 /// Whether two half-planes from a to b, with a point of each, are apart by no more than the tolerance as far as the nearer point goes.
-/// Points next to the axis say nothing.
 bool coincide(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q, double tolerance) {
     const Vec3 axis = minus(b, a), u = across(minus(p, a), axis), v = across(minus(q, a), axis);
     const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v);
-    if (uv <= 0 || std::min(uu, vv) <= 100 * tolerance * tolerance) return false;
+    if (uv <= 0) return false;
     return std::min(uu, vv) * std::max(0.0, 1 - uv * uv / (uu * vv)) <= tolerance * tolerance;
 }
 
@@ -124,23 +131,25 @@ bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const P
     const Vec3& b = brep.vertices[uses[0].high];
     std::vector<Leaf> leaves;
     double tolerance = 0;
+    const auto of_surfaces = std::ranges::count_if(uses, [](const EdgeUse& use) { return use.surface != no_index; });
     for (const EdgeUse& use : uses) {
         if (use.surface == no_index) continue;
         if (!tolerances.empty()) tolerance = std::max(tolerance, tolerances[use.surface]);
         const auto& surface = brep.surfaces[use.surface];
         const std::uint32_t polygon = all_edges[use.surface].polygon(use.corner);
-        if (uses.size() == 1 && lesser.contains(use.surface, polygon)) return true;
+        if (of_surfaces == 1 && lesser.contains(use.surface, polygon)) return true;
         const VertexId tip = far_vertex(brep, surface, polygon, a, b);
         leaves.push_back({brep.vertices[tip.value], use.surface, use.direction > 0});
     }
     if (leaves.empty()) return true;
     const Around around(a, b, leaves[0].tip);
     std::stable_sort(leaves.begin(), leaves.end(), [&](const Leaf& x, const Leaf& y) { return around.compare(x.tip, y.tip) < 0; });
-    for (std::size_t i = 0; i + 1 < leaves.size(); ++i) {
-        if (around.compare(leaves[i].tip, leaves[i + 1].tip) == 0) return false;
-    }
-    for (std::size_t i = 0; tolerance > 0 && leaves.size() > 1 && i < leaves.size(); ++i) {
-        if (coincide(a, b, leaves[i].tip, leaves[(i + 1) % leaves.size()].tip, tolerance)) return false;
+    for (std::size_t i = 0; leaves.size() > 1 && i < leaves.size(); ++i) {
+        const Vec3 &p = leaves[i].tip, &q = leaves[(i + 1) % leaves.size()].tip;
+        // Of a polygon as flat as the tolerance (M03) any order will do.
+        if (tolerance > 0 && (is_beside(a, b, p, tolerance) || is_beside(a, b, q, tolerance))) continue;
+        if (i + 1 < leaves.size() && around.compare(p, q) == 0) return false;
+        if (tolerance > 0 && coincide(a, b, p, q, tolerance)) return false;
     }
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const Leaf& here = leaves[i];

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "topology/clusters.h"
 #include "topology/outlying_points.h"
+#include "topology/sources_to_judge.h"
 #include "topology/thickness.h"
 
 namespace geomend::topology {
@@ -218,7 +219,7 @@ LocalLengths Survey::lengths(const LengthRules& rules) const {
 }  // namespace
 
 std::vector<ModelSource> model_sources(const Dataset& dataset, const LocalLengths& lengths) {
-    auto sources = model_sources(dataset);
+    auto sources = sources_to_judge(dataset);
     for (ModelSource& source : sources) {
         std::map<std::pair<double, std::uint32_t>, WeldGroup> groups;
         const bool same = std::ranges::all_of(lengths.clusters, [&](const Lengths& l) { return l.tolerance == lengths.largest.tolerance; });

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "base/parallel.h"
 #include "topology/faces_from_surfaces.h"
 #include "topology/front_ends.h"
+#include "topology/mesh_parts.h"
 
 namespace geomend::topology {
 
@@ -42,6 +44,43 @@ void report_soup(SurfaceComplex& complex, const SurfaceComplex::Face& face) {
     complex.findings.push_back(std::move(finding));
 }
 
+/// Where a face comes from: a part of a surface, or cells of a mesh.
+struct Place {
+    std::uint32_t object, part;
+    std::optional<MeshSurface> cells;
+};
+
+SurfaceComplex::Face face_at(const Dataset& dataset, const Place& place, const WeldedPoints& points) {
+    if (place.cells) return face_of_cells(std::get<CellMesh>(dataset.objects[place.object]), place.object, *place.cells, points);
+    const auto& surface = std::get<Surface>(dataset.objects[place.object]);
+    SurfaceComplex::Face face = face_of_part(surface, place.object, place.part, points);
+    face.interface_name = surface.info.name;
+    face.surface.role = surface.info.role;
+    face.surface.role_text = surface.info.role_text;
+    return face;
+}
+
+/// All faces of some objects; what is said of lines and of whole interfaces goes into the complex.
+std::vector<Place> places_of(const Dataset& dataset, std::span<const std::uint32_t> objects, const WeldedPoints& points,
+                             SurfaceComplex& complex) {
+    std::vector<Place> places;
+    std::set<std::string> known;
+    for (const std::uint32_t o : objects) {
+        if (const auto* mesh = std::get_if<CellMesh>(&dataset.objects[o])) {
+            for (MeshSurface& cells : surfaces_of_mesh(*mesh)) places.push_back({o, 0, std::move(cells)});
+            add_lines_of_mesh(parts_of_mesh(*mesh, o), points, complex);
+            continue;
+        }
+        const auto& surface = std::get<Surface>(dataset.objects[o]);
+        for (std::uint32_t part = 0; part < part_count(surface); ++part) places.push_back({o, part, std::nullopt});
+        add_corner_hints(dataset.objects[o], points.of.at(o), complex);
+        if (known.insert(surface.info.name).second) {
+            complex.interfaces.push_back({surface.info.name, surface.info.feature, surface.info.annotations});
+        }
+    }
+    return places;
+}
+
 }  // namespace
 
 SurfaceComplex complex_of_loose_surfaces(const Dataset& dataset, std::span<const WeldGroup> groups) {
@@ -55,28 +94,12 @@ SurfaceComplex complex_of_loose_surfaces(const Dataset& dataset, std::span<const
     complex.stated = false;
     complex.take_apart = true;
     complex.lines.shared_nodes = true;  // a fault that ends inside a horizon seldom cuts it there
-    struct Place {
-        std::uint32_t object, part;
-    };
-    std::vector<Place> places;
-    std::set<std::string_view> known;
-    for (const std::uint32_t o : objects) {
-        const auto& surface = std::get<Surface>(dataset.objects[o]);
-        for (std::uint32_t part = 0; part < part_count(surface); ++part) places.push_back({o, part});
-        add_corner_hints(dataset.objects[o], points.of.at(o), complex);
-        if (known.insert(surface.info.name).second) {
-            complex.interfaces.push_back({surface.info.name, surface.info.feature, surface.info.annotations});
-        }
-    }
+    const std::vector<Place> places = places_of(dataset, objects, points, complex);
     complex.faces.resize(places.size());
     std::vector<std::uint8_t> joined(places.size(), 0);
     parallel_for_each_index(places.size(), [&](std::size_t f) {
-        const auto& surface = std::get<Surface>(dataset.objects[places[f].object]);
         auto& face = complex.faces[f];
-        face = face_of_part(surface, places[f].object, places[f].part, points);
-        face.interface_name = surface.info.name;
-        face.surface.role = surface.info.role;
-        face.surface.role_text = surface.info.role_text;
+        face = face_at(dataset, places[f], points);
         if (!is_soup(face.surface)) return;
         join_nodes(face.surface);
         joined[f] = 1;

@@ -36,6 +36,21 @@ SurfaceComplex::Face face_of_entity(const MeshParts& parts, std::uint32_t entity
     return face;
 }
 
+SurfaceComplex::Face face_of_cells(const CellMesh& mesh, std::uint32_t object, const MeshSurface& cells, const WeldedPoints& points) {
+    SurfaceComplex::Face face;
+    const std::int64_t tag = cells.entity == no_index ? -1 : mesh.entities[cells.entity].tag;
+    const bool has_twins = mesh.twins.has_value() && cells.entity != no_index;
+    face.surface = surface_of_cells(mesh, cells.cells, points.of.at(object), tag, has_twins ? &*mesh.twins : nullptr, true);
+    face.surface.role = cells.role;
+    face.surface.role_text = cells.role_text;
+    face.surface.source_object = object;
+    face.surface.source_part = cells.part;
+    face.source_polygons = cells.cells;
+    face.interface_name = cells.name;
+    face.tolerance = points.tolerance.at(object);
+    return face;
+}
+
 void add_lines_of_mesh(const MeshParts& parts, const WeldedPoints& points, SurfaceComplex& complex) {
     const CellMesh& mesh = *parts.mesh;
     const auto& vertex_of = points.of.at(parts.object);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "topology/mesh_surfaces.h"
 #include "topology/surface_complex.h"
 #include "topology/twin_nodes.h"
 #include "topology/welded_points.h"
@@ -27,6 +28,9 @@ std::string entity_name(const CellMesh& mesh, const CellMesh::Entity& entity, co
 /// The face of a two-dimensional entity, without names and role.
 /// \pre entity is a number of an entity
 SurfaceComplex::Face face_of_entity(const MeshParts& parts, std::uint32_t entity, const WeldedPoints& points);
+
+/// The face of some cells of a mesh that is taken for loose surfaces, with name and role.
+SurfaceComplex::Face face_of_cells(const CellMesh& mesh, std::uint32_t object, const MeshSurface& cells, const WeldedPoints& points);
 
 /// Adds the lines and corners that the mesh states, with their names.
 void add_lines_of_mesh(const MeshParts& parts, const WeldedPoints& points, SurfaceComplex& complex);

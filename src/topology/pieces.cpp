@@ -2,14 +2,48 @@
 #include "topology/pieces.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace geomend::topology {
+
+namespace {
+
+/// Puts polygons without neighbours into a piece where they belong: repeats to the polygon that they repeat, degenerate ones to one
+/// with most of their nodes.
+void place_aside(const BrepData::Surface& surface, const FaceEdges& face, std::vector<std::uint32_t>& piece_of) {
+    std::vector<std::uint32_t> aside = face.degenerate;
+    aside.insert(aside.end(), face.duplicate.begin(), face.duplicate.end());
+    std::ranges::sort(aside);
+    std::multimap<std::uint32_t, std::uint32_t> at;  // node, place in aside
+    std::vector<std::uint32_t> common(aside.size(), 0);
+    for (std::uint32_t k = 0; k < aside.size(); ++k) {
+        const auto polygon = surface.polygons[aside[k]];
+        for (const std::uint32_t node : std::set<std::uint32_t>(polygon.begin(), polygon.end())) at.emplace(node, k);
+    }
+    std::map<std::uint32_t, std::uint32_t> here;  // per place in aside the nodes that one polygon has of it
+    for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) {
+        if (std::ranges::binary_search(aside, p)) continue;
+        here.clear();
+        for (const std::uint32_t node : surface.polygons[p]) {
+            const auto [first, last] = at.equal_range(node);
+            for (auto found = first; found != last; ++found) ++here[found->second];
+        }
+        for (const auto& [k, nodes] : here) {
+            if (nodes <= common[k]) continue;
+            common[k] = nodes;
+            piece_of[aside[k]] = piece_of[p];
+        }
+    }
+}
+
+}  // namespace
 
 std::uint32_t number_pieces(const BrepData::Surface& surface, const FaceEdges& face, std::vector<std::uint32_t>& piece_of) {
     const std::size_t count = surface.polygons.size();
     piece_of.assign(count, no_index);
     for (const std::uint32_t p : face.degenerate) piece_of[p] = 0;
-    for (const std::uint32_t p : face.duplicate) piece_of[p] = 0;
+    for (const std::uint32_t p : face.duplicate) piece_of[p] = 0;  // until all others are numbered
     std::uint32_t pieces = 0;
     std::vector<std::uint32_t> stack;
     for (std::uint32_t start = 0; start < count; ++start) {
@@ -28,6 +62,7 @@ std::uint32_t number_pieces(const BrepData::Surface& surface, const FaceEdges& f
         }
         ++pieces;
     }
+    if (pieces > 1 && face.degenerate.size() + face.duplicate.size() > 0) place_aside(surface, face, piece_of);
     return std::max(pieces, 1u);
 }
 

@@ -15,8 +15,8 @@ struct Piece {
     std::vector<std::uint32_t> polygons;  ///< the numbers of its polygons in the whole
 };
 
-/// The pieces of a surface that hang together by its adjacency, in the order of their first polygons. Degenerate polygons and
-/// repeats go with the first piece. Cost: linear.
+/// The pieces of a surface that hang together by its adjacency, in the order of their first polygons. Repeats go with the
+/// polygon that they repeat, degenerate polygons with one that has most of their nodes. Cost: linear.
 std::vector<Piece> pieces_of(const BrepData::Surface& surface, const FaceEdges& face);
 
 /// Per polygon the number of its piece; gives how many there are, at least 1.
