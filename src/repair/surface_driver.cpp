@@ -203,13 +203,13 @@ bool has_region(const BrepData& brep) {
     return std::ranges::any_of(brep.regions, [](const auto& r) { return r.volume_known && r.volume > 0; });
 }
 
-/// Whether a model is meant to bound volumes: it does already, or says so, or was found open.
+/// Whether a model is meant to bound volumes: it does already, or says so, or it is an error that it does not.
 bool should_close(const State& state, std::span<const Finding> before) {
-    constexpr std::array<std::string_view, 5> of_openings{"B05", "B06", "B12", "B29", "M07"};
+    constexpr std::array<std::string_view, 3> of_openings{"B05", "B06", "B12"};
     return has_region(*state.result.brep) || !state.model.regions.empty() ||
            std::ranges::any_of(state.model.model.patches, [](const auto& p) { return p.role == FeatureRole::boundary; }) ||
            std::ranges::any_of(before, [&](const Finding& f) {
-               return std::ranges::find(of_openings, std::string_view(f.code)) != of_openings.end() && f.severity != Severity::info;
+               return std::ranges::find(of_openings, std::string_view(f.code)) != of_openings.end() && f.severity == Severity::error;
            });
 }
 
