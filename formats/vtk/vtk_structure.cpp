@@ -322,11 +322,16 @@ bool take_array(ObjectInfo& info, std::string_view name, AttributeLocation locat
     return false;
 }
 
-void take_alias(ObjectInfo& info, std::size_t points, std::vector<std::uint32_t>& alias) {
-    std::vector<std::uint32_t> values;
-    if (!take_array(info, alias_array, AttributeLocation::point, values)) return;
-    const bool good = std::ranges::all_of(values, [&](std::uint32_t v) { return v == no_index || v < points; });
-    if (good) alias = std::move(values);
+// A twin that was moved since, or whose twin is one itself, is none.
+void take_alias(ObjectInfo& info, const std::vector<Vec3>& points, std::vector<std::uint32_t>& alias) {
+    std::vector<std::uint32_t> stated;
+    if (!take_array(info, alias_array, AttributeLocation::point, stated) || stated.size() != points.size()) return;
+    std::vector<std::uint32_t> good(stated.size(), no_index);
+    for (std::size_t i = 0; i < stated.size(); ++i) {
+        const std::uint32_t twin = stated[i];
+        if (twin < stated.size() && stated[twin] == no_index && points[twin] == points[i]) good[i] = twin;
+    }
+    if (std::ranges::any_of(good, [](std::uint32_t twin) { return twin != no_index; })) alias = std::move(good);
 }
 
 void take_sets(ObjectInfo& info) {
@@ -435,7 +440,7 @@ bool restore_structure(std::string_view text, Object& object) {
                               o.alias;
                               o.points;
                           })
-                take_alias(o.info, o.points.size(), o.alias);
+                take_alias(o.info, o.points, o.alias);
         },
         object);
     if (auto* mesh = std::get_if<CellMesh>(&object)) {

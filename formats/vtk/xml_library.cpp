@@ -47,6 +47,7 @@
 #include <new>
 
 #include "base/number_text.h"
+#include "base/xml_text.h"
 #include "formats/vtk/vtk_structure.h"
 #include "formats/vtk/xml_names.h"
 
@@ -128,9 +129,10 @@ void add_attribute(vtkDataObject& object, vtkPointData& point_data, vtkCellData&
     const bool ids = std::ranges::find(a.annotations, std::pair<std::string, std::string>("vtk.type", "vtkIdType")) != a.annotations.end();
     if (auto* values = std::get_if<std::vector<std::int64_t>>(&a.values); values != nullptr && ids)
         array = in_place<vtkIdTypeArray>(*values, components);
-    array->SetName(a.name.c_str());
+    // VTK puts names between the quotes of its attributes as they are.
+    array->SetName(xml_attribute(a.name).c_str());
     for (std::size_t i = 0; i < a.component_names.size() && a.location != AttributeLocation::object; ++i)
-        array->SetComponentName(static_cast<vtkIdType>(i), xml_name(a.component_names[i]).c_str());
+        array->SetComponentName(static_cast<vtkIdType>(i), xml_attribute(xml_name(a.component_names[i])).c_str());
     vtkDataSetAttributes* data = a.location == AttributeLocation::point  ? static_cast<vtkDataSetAttributes*>(&point_data)
                                  : a.location == AttributeLocation::cell ? static_cast<vtkDataSetAttributes*>(&cell_data)
                                                                          : nullptr;
@@ -139,7 +141,7 @@ void add_attribute(vtkDataObject& object, vtkPointData& point_data, vtkCellData&
         return;
     }
     data->AddArray(array);
-    mark_active(*data, role_of(a), a.name.c_str());
+    mark_active(*data, role_of(a), array->GetName());
 }
 
 void add_everything(vtkDataSet& data, ObjectInfo& info, std::span<const XmlFieldText> texts) {

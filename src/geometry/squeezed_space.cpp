@@ -2,6 +2,7 @@
 #include "geometry/squeezed_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace geomend {
@@ -52,10 +53,11 @@ SqueezedSpace::SqueezedSpace(std::span<const Vec3> vertices, std::span<const Tri
         for (std::size_t k = 0; k < 3; ++k) {
             from[k] = at(k, low[k]);
             width[k] = (at(k, high[k]) - from[k]) / bins;
-            done[k] = done[k] || !(width[k] > 0);
+            done[k] = done[k] || !(width[k] > 0) || !std::isfinite(width[k]);
         }
         const auto bin_of = [&](std::size_t k, double x) {
-            return static_cast<std::size_t>(std::clamp((x - from[k]) / width[k], 0.0, bins - 1.0));
+            const double bin = (x - from[k]) / width[k];
+            return bin > 0 ? static_cast<std::size_t>(std::min(bin, bins - 1.0)) : std::size_t{0};  // also what is no number
         };
         for (const Triangle& t : triangles) {
             for (std::size_t k = 0; k < 3; ++k) {

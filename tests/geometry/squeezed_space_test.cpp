@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "geometry/triangle_tree.h"
@@ -53,6 +54,18 @@ TEST(SqueezedSpace, IsSpaceItselfWhereNothingIsEmpty) {
     soup.add_cloud({5, 6, 7}, 1);
     const auto space = soup.space();
     for (const double x : {-1e9, 5.0, 5.3, 7.0, 1e9}) EXPECT_EQ(space.at(0, x), x);
+}
+
+TEST(SqueezedSpace, IsSpaceItselfAlongAxesWhoseExtentIsNoNumber) {
+    for (const double far : {1.6e308, std::numeric_limits<double>::infinity()}) {
+        Soup soup = clouds_far_apart(100);
+        const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+        soup.vertices.insert(soup.vertices.end(), {{-far, 0, 0}, {far, 0, 0}, {0, 1, 0}});
+        soup.triangles.push_back({first, first + 1, first + 2});
+        const auto space = soup.space();
+        for (const double x : {-1e9, 5.0, 1e9, 1.7e308}) EXPECT_EQ(space.at(0, x), x) << far;
+        EXPECT_LT(space.at(1, 1) - space.at(1, -301), 302) << "the others are squeezed all the same";
+    }
 }
 
 TEST(SqueezedSpace, KeepsTheOrderAndLengthensNothing) {

@@ -30,7 +30,7 @@ Surface two_part_surface() {
     s.info.crs.axis_units = {"m", "m", "m"};
     s.info.crs.z_positive = ZPositive::depth;
     s.info.crs.z_positive_stated = true;
-    s.points = {awkward, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 0, 0.1}, {2, 1, 0}};
+    s.points = {awkward, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {2, 0, 0.1}, {2, 1, 0}};
     const std::array<std::uint32_t, 3> t{0, 1, 2};
     const std::array<std::uint32_t, 4> q{1, 4, 5, 3};
     s.polygons.push_back(t);
@@ -147,6 +147,49 @@ Surface surface_with_strange_names() {
                          attribute("\xFF\xFE", AttributeLocation::polygon, std::vector<double>{1, 2, 3, 4}, 2)};
     s.info.attributes.back().component_names = {"\xE0", "b"};
     return s;
+}
+
+TEST(XmlRoundTrip, NamesOfMarkupComeBackFromFilesThatOthersCanRead) {
+    Dataset data;
+    Surface s = two_part_surface();
+    const std::string name = "a<b & \"c\" 'd' &lt;";
+    s.info.attributes = {attribute(name, AttributeLocation::point, std::vector<double>{1, 2, 3, 4, 5, 6}),
+                         attribute(name + "2", AttributeLocation::polygon, std::vector<double>{1, 2, 3, 4}, 2)};
+    s.info.attributes[0].annotations.emplace_back("vtk.role", "Scalars");
+    s.info.attributes[1].component_names = {name, "b"};
+    data.objects.emplace_back(s);
+    for (const char* format : {"vtp", "vtu", "vtm"}) {
+        for (const FormatOptions& options : encodings) {
+            SCOPED_TRACE(format);
+            const TemporaryFolder folder;
+            const auto back = read_xml_file(write_xml(data, folder, format, options));
+            ASSERT_TRUE(back.ok()) << back.why().error.message;
+            ASSERT_EQ(back->objects.size(), 1u);
+            const auto& read = info_of(back->objects[0]).attributes;
+            ASSERT_EQ(read.size(), 2u);
+            for (std::size_t i = 0; i < 2; ++i) {
+                EXPECT_EQ(read[i].name, s.info.attributes[i].name);
+                EXPECT_EQ(read[i].component_names, s.info.attributes[i].component_names);
+                EXPECT_EQ(annotation(read[i], "vtk.role"), annotation(s.info.attributes[i], "vtk.role"));
+            }
+        }
+    }
+}
+
+// The position of a twin is that of another point: so a point that was moved, or whose twin is a twin itself, is no twin.
+TEST(XmlRoundTrip, TwinsThatCannotBeAreNone) {
+    Surface s = two_part_surface();
+    s.alias = {no_index, no_index, 2, 1, 0, 3};
+    Dataset data;
+    data.objects.emplace_back(s);
+    for (const char* format : {"vtp", "vtu"}) {
+        const TemporaryFolder folder;
+        const auto back = read_xml_file(write_xml(data, folder, format));
+        ASSERT_TRUE(back.ok()) << back.why().error.message;
+        EXPECT_EQ(std::get<Surface>(back->objects[0]).alias,
+                  (std::vector<std::uint32_t>{no_index, no_index, no_index, 1, no_index, no_index}))
+            << format;
+    }
 }
 
 /// What stands before the values, which are no text.
