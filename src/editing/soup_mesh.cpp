@@ -11,6 +11,7 @@ namespace geomend::editing {
 SoupMesh::SoupMesh(TriangleSoup soup)
     : soup_(std::move(soup)),
       from_(soup_.triangles.size()),
+      first_made_(soup_.vertices.size()),
       live_(soup_.triangles.size(), 1),
       marked_(soup_.vertices.size(), 0),
       around_(soup_.vertices.size()) {
@@ -36,6 +37,14 @@ std::uint32_t SoupMesh::add(const Triangle& triangle, std::uint32_t patch, std::
     return t;
 }
 
+std::uint32_t SoupMesh::add_vertex(const Vec3& place, const Origin::Vertex& origin) {
+    soup_.vertices.push_back(place);
+    made_.push_back(origin);
+    marked_.push_back(0);
+    around_.emplace_back();
+    return static_cast<std::uint32_t>(soup_.vertices.size() - 1);
+}
+
 void SoupMesh::drop(std::uint32_t t) {
     live_[t] = 0;
     for (const std::uint32_t v : soup_.triangles[t]) std::erase(around_[v], t);
@@ -53,7 +62,7 @@ EditedSoup SoupMesh::take() && {
         if (around_[v].empty() && marked_[v] == 0) continue;
         number[v] = static_cast<std::uint32_t>(edited.soup.vertices.size());
         edited.soup.vertices.push_back(soup_.vertices[v]);
-        edited.origin.vertices.push_back(Origin::from_vertex(v));
+        edited.origin.vertices.push_back(v < first_made_ ? Origin::from_vertex(v) : made_[v - first_made_]);
     }
     for (const std::uint32_t t : order) {
         const auto& [a, b, c] = soup_.triangles[t];

@@ -37,6 +37,8 @@ public:
     /// \param from a triangle of the soup as it was \return the number of the new triangle
     std::uint32_t add(const Triangle& triangle, std::uint32_t patch, std::uint32_t from);
     void drop(std::uint32_t t);
+    /// \param origin in the soup as it was \return the number of the new vertex
+    std::uint32_t add_vertex(const Vec3& place, const Origin::Vertex& origin);
     void set_patch(std::uint32_t t, std::uint32_t patch) { soup_.patches[t] = patch; }
     void move(std::uint32_t v, const Vec3& to) { soup_.vertices[v] = to; }
 
@@ -47,6 +49,8 @@ public:
 private:
     TriangleSoup soup_;
     std::vector<std::uint32_t> from_;
+    std::vector<Origin::Vertex> made_;  ///< of vertices that were added
+    std::size_t first_made_;
     std::vector<std::uint8_t> live_, marked_;
     std::vector<std::vector<std::uint32_t>> around_;
 };

@@ -7,6 +7,7 @@
 
 #include "base/wording.h"
 #include "pipeline/command_options.h"
+#include "pipeline/repair_cells.h"
 #include "pipeline/shape.h"
 #include "repair/code_steps.h"
 #include "repair/grid_steps.h"
@@ -259,9 +260,16 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     if (!before) return std::move(before).why();
     report.valid_before = count_by_severity(before->judged()).error == 0;
     report.recipe = request.recipe;
-    if (!grids) add_region_surfaces(dataset);
-    report.closed = grids;
-    auto mended = grids ? mend_grids(dataset, request, report) : mend_surfaces(dataset, *before, request, report);
+    const bool cells_only = !grids && mend_cells(dataset, before->judged(), request, report);
+    if (!grids && !cells_only && !report.file.steps.empty()) {  // what is left to mend in the surfaces
+        before = found_before(path, dataset, grids, request.checks);
+        if (!before) return std::move(before).why();
+    }
+    if (!grids && !cells_only) add_region_surfaces(dataset);
+    report.closed = grids || cells_only;
+    auto mended = cells_only ? Result<void>()
+                  : grids    ? mend_grids(dataset, request, report)
+                             : mend_surfaces(dataset, *before, request, report);
     if (!mended && mended.why().error.where.file.empty() && mended.why().kind == FailureKind::usage) {
         Failure why = mended.why();
         why.error.where.file = path;

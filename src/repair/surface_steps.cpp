@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "base/vectors.h"
+#include "repair/borders_step.h"
 
 namespace geomend::repair {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> clean_mends = {"B01", "M02", "M03", "M04", "M05", "M08", "B26"};
+constexpr std::array<std::string_view, 13> clean_mends = {"B01", "M02", "M03", "M04", "M05", "M08", "B26",
+                                                          "M20", "M22", "M26", "M27", "M28", "M35"};
 constexpr std::array<std::string_view, 15> cut_mends = {"B05", "B06", "B09", "B12", "B23", "B02", "B08", "B10",
                                                         "B11", "B20", "B22", "B26", "B27", "B28", "B32"};
 constexpr std::array<std::string_view, 4> holes_mends = {"B05", "B06", "B12", "M07"};
@@ -29,7 +31,8 @@ constexpr std::array steps = {
                    false,
                    true,
                    true},
-    SurfaceStepRow{"clean", "triangles without area, doubles and small stray parts are removed", clean_mends, clean_surfaces},
+    SurfaceStepRow{"clean", "triangles without area, doubles and small stray parts are removed, cells turned and cleaned", clean_mends,
+                   clean_surfaces},
     SurfaceStepRow{"box", "six sides are added around the surfaces, or as --box says", {}, add_box, true},
     SurfaceStepRow{"holes", "small holes in a surface, and missing single triangles, are filled", holes_mends, fill_holes},
     SurfaceStepRow{"weld", "what lies within the tolerance of each other becomes one: points, and points on edges and faces", weld_mends,
@@ -42,6 +45,8 @@ constexpr std::array steps = {
     SurfaceStepRow{"scars", "traces of lines that no surface needs any more are stitched and erased", {}, remove_scars},
     SurfaceStepRow{"micro", "regions smaller than a limit are merged into a neighbour", micro_mends, merge_micro_regions, false, true,
                    true},
+    SurfaceStepRow{
+        "borders", "lines of several surfaces get their coarsest common discretisation", {}, simplify_borders, false, false, true},
     SurfaceStepRow{"rebuild", "surfaces, lines, corners and regions are made anew; names are carried over", rebuild_mends,
                    rebuild_surfaces},
 };
