@@ -19,6 +19,11 @@ constexpr std::size_t grain = 4096;
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr Box empty_box{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};
 
+// The ends of a box are finite, so that none overlaps an empty one; where they are no numbers it reaches as far as numbers do.
+constexpr float largest = std::numeric_limits<float>::max();
+float low_end(double x) { return x > -double{largest} ? static_cast<float>(std::min(x, double{largest})) : -largest; }
+float high_end(double x) { return x < double{largest} ? static_cast<float>(std::max(x, -double{largest})) : largest; }
+
 struct Extent {
     Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 };
@@ -99,8 +104,8 @@ Box TriangleTree::box(const Vec3& low, const Vec3& high, double distance) const 
     Box box{};
     const double reach = distance > 0 ? distance + box_error_ : 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        box.low[k] = static_cast<float>(space_.at(k, low[k]) - origin_[k] - reach);
-        box.high[k] = static_cast<float>(space_.at(k, high[k]) - origin_[k] + reach);
+        box.low[k] = low_end(space_.at(k, low[k]) - origin_[k] - reach);
+        box.high[k] = high_end(space_.at(k, high[k]) - origin_[k] + reach);
     }
     return box;
 }
@@ -109,8 +114,8 @@ Box TriangleTree::widened(const Box& box, double distance) const {
     const auto by = static_cast<float>((distance + 2 * box_error_) * (1 + 1e-6));
     Box wide = box;
     for (std::size_t k = 0; k < 3; ++k) {
-        wide.low[k] = box.low[k] - by;
-        wide.high[k] = box.high[k] + by;
+        wide.low[k] = low_end(box.low[k] - by);
+        wide.high[k] = high_end(box.high[k] + by);
     }
     return wide;
 }
@@ -147,7 +152,7 @@ void TriangleTree::sort_triangles(std::span<const Triangle> triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
                 double sum = 0;
                 for (const std::uint32_t v : t) sum += space_.at(k, vertices_[v][k]) - extent.low[k];
-                cell[k] = static_cast<std::uint32_t>(std::clamp(sum * scale, 0.0, cells - 1.0));
+                cell[k] = sum * scale > 0 ? static_cast<std::uint32_t>(std::min(sum * scale, cells - 1.0)) : 0;
             }
             keys[i] = hilbert_place(cell, bits) << number_bits | i;
         }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "geometry/triangle_tree.h"
@@ -120,6 +121,31 @@ TEST(TriangleTree, FindsTheSamePairsWhereverPartsLie) {
             soup.triangles.push_back({first, first + 1, first + 2});
         }
         EXPECT_NEAR(static_cast<double>(pairs_of(soup)), 2.0 * static_cast<double>(one), 4) << apart;
+    }
+}
+
+// Boxes are in single precision, the numbers of files are not.
+TEST(TriangleTree, VisitsTrianglesThatAreThereAndNoOther) {
+    for (const double far : {1e3, 1e39, 1e300, 1.6e308}) {
+        for (std::size_t count = 1; count < 10; ++count) {
+            Soup soup;
+            for (std::size_t i = 0; i < count; ++i) {
+                const double x = i % 2 == 0 ? far : -far;
+                const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+                soup.vertices.insert(soup.vertices.end(), {{x, static_cast<double>(i), 0}, {0, x, 0}, {0, 0, 1}});
+                soup.triangles.push_back({first, first + 1, first + 2});
+            }
+            const TriangleTree tree(soup.vertices, soup.triangles);
+            std::vector<std::size_t> seen, all(tree.size());
+            std::iota(all.begin(), all.end(), std::size_t{0});
+            const auto see = [&](std::size_t i) { seen.push_back(i); };
+            const Box around = tree.box(soup.extent()[0], soup.extent()[1], 1);
+            tree.visit_triangles(around, see);
+            EXPECT_EQ(seen, all) << far;
+            seen.clear();
+            tree.visit_triangles(tree.widened(around, far), see);
+            EXPECT_EQ(seen, all) << far;
+        }
     }
 }
 
