@@ -177,7 +177,8 @@ void report_around_nothing(const ModelScope& scope, const OpenGroup& group, std:
     findings.push_back(std::move(finding));
 }
 
-void report_undecided_inside(const ModelScope& scope, const OpenGroup& group, std::vector<Finding>& findings) {
+/// Of surfaces that have one region, or the outside of a model that closes, on both sides those that no role decides about.
+void report_undecided(const ModelScope& scope, const OpenGroup& group, std::vector<Finding>& findings) {
     const BrepData& brep = scope.brep();
     std::vector<std::uint32_t> undecided;
     for (const std::uint32_t s : group.surfaces) {
@@ -185,10 +186,13 @@ void report_undecided_inside(const ModelScope& scope, const OpenGroup& group, st
     }
     if (undecided.empty()) return;
     const auto borders = free_borders(scope, lines_of(scope, undecided));
-    const bool many = undecided.size() > 1;
-    Finding finding = finding_of("B29", names_of(scope, undecided) + (many ? " lie inside " : " lies inside ") +
-                                            found_region_name(scope, group.region) + " with both sides" + free_border_text(scope, borders) +
-                                            "; no role says whether " + (many ? "they part" : "it parts") + " it: then it leaks there");
+    const bool outside = group.region == no_index, many = undecided.size() > 1;
+    if (outside && borders.empty()) return;  // nothing is open
+    Finding finding = finding_of(
+        "B29", names_of(scope, undecided) + (many ? " lie " : " lies ") +
+                   (outside ? std::string("outside of all regions") : "inside " + found_region_name(scope, group.region)) +
+                   " with both sides" + free_border_text(scope, borders) + "; no role says whether " + (many ? "they part " : "it parts ") +
+                   (outside ? "a region from the outside" : "it") + ": then it leaks there");
     name_surfaces(scope, undecided, finding);
     mark_borders(scope, borders, finding);
     findings.push_back(std::move(finding));
@@ -201,8 +205,8 @@ void check_openings(const ModelScope& scope, std::vector<Finding>& findings) {
     if (scope.model().found.region_of_side.empty()) return;
     const auto bends = meant_by_bends(scope);
     for (const OpenGroup& group : open_groups(scope)) {
-        if (group.region != no_index) report_undecided_inside(scope, group, findings);
-        else if (!group.closes) report_around_nothing(scope, group, bends, findings);
+        if (group.region != no_index || group.closes) report_undecided(scope, group, findings);
+        else report_around_nothing(scope, group, bends, findings);
     }
 }
 

@@ -87,7 +87,8 @@ constexpr std::array table = {
     of_model("B27", "a border of a surface lies on the surface itself without the same vertices; exact", check_intersections),
     of_model("B28", "triangles of one surface have single points in common that they do not share; exact", check_intersections),
     of_model("B29",
-             "no role and no region list says whether a surface parts anything: it has one region on both sides; or it closes around "
+             "no role and no region list says whether a surface parts anything: it has one region on both sides, or ends freely outside of "
+             "all; or it closes around "
              "nothing although it meets others at an angle, or all but closes",
              check_openings),
     of_model("B30",

@@ -94,6 +94,9 @@ std::vector<Piece> pieces_of(const BrepData::Surface& surface, const FaceEdges& 
             made.polygons.push_back(polygon);
         }
     }
+    for (std::size_t node = 0; node < owner.size(); ++node) {
+        if (owner[node] == no_index) pieces[0].surface.nodes.push_back(surface.nodes[node]);  // no polygon uses it
+    }
     return pieces;
 }
 

@@ -16,7 +16,8 @@ struct Piece {
 };
 
 /// The pieces of a surface that hang together by its adjacency, in the order of their first polygons. Repeats go with the
-/// polygon that they repeat, degenerate polygons with one that has most of their nodes. Cost: linear.
+/// polygon that they repeat, degenerate polygons with one that has most of their nodes; nodes that no polygon uses with the
+/// first piece. Cost: linear.
 std::vector<Piece> pieces_of(const BrepData::Surface& surface, const FaceEdges& face);
 
 /// Per polygon the number of its piece; gives how many there are, at least 1.

@@ -29,8 +29,20 @@ const std::string legacy_head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET P
 const std::string triangle_msh =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n";
 
+/// An array of a formatted file of Eclipse; values as they stand.
+std::string eclipse_array(std::string name, int count, const char* type, const std::string& values) {
+    name.resize(8, ' ');
+    std::string number = std::to_string(count);
+    number.insert(0, 12 - number.size(), ' ');
+    return " '" + name + "'" + number + " '" + type + "'\n" + values + (values.empty() ? "" : "\n");
+}
+const std::string coarsened_grid =
+    eclipse_array("DIMENS", 3, "INTE", " 1 1 1") + eclipse_array("COORDS", 7, "INTE", " 1 1 1 1 1 0 1") +
+    eclipse_array("CORNERS", 24, "REAL", " 0 0 10 10 0 10 0 20 10 10 20 10\n 0 0 15 10 0 15 0 20 15 10 20 15");
+
 std::vector<Case> cases() {
     return {
+        {"a.FGRID", coarsened_grid, "vtu", "the grouping of coarsened cells", "identity", "F150"},
         {"a.ts", "GOCAD TSurf 1\n" + gocad_head + "TFACE\nPVRTX 1 0 0 0 7\nPVRTX 2 1 0 0 8\nPVRTX 3 0 1 0 9\nTRGL 1 2 3\nEND\n", "vtp",
          "values", "substance", "F107"},
         {"b.ts", "GOCAD TSurf 1\n" + gocad_head + "TFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nTRGL 1 2 3\nSEG 1 2\nEND\n", "vtp",
@@ -101,6 +113,45 @@ TEST(WhatIsDropped, NothingOfSoundFiles) {
         write_file(folder / name, text);
         EXPECT_EQ(info(folder / name).at("loss"), nlohmann::json::array()) << name;
     }
+}
+
+TEST(WhatIsDropped, OfRestartFilesIsWhatIsNotOfCells) {
+    const TemporaryFolder folder;
+    write_file(folder / "a.grdecl", deck_head);
+    ASSERT_EQ(run_geomend({"convert", (folder / "a.grdecl").string(), "-o", (folder / "a.EGRID").string(), "--lossy"}).status, 0);
+    std::string head;
+    for (int i = 0; i < 100; ++i)
+        head += i == 8 || i == 11 ? " 3" : i == 2 || i == 9 || i == 10 || i == 64 || i == 65 ? " 1" : i == 66 ? " 2020" : " 0";
+    write_file(folder / "a.FUNRST", eclipse_array("SEQNUM", 1, "INTE", " 1") + eclipse_array("INTEHEAD", 100, "INTE", head) +
+                                        eclipse_array("IWEL", 3, "INTE", " 1 2 3") + eclipse_array("STARTSOL", 0, "INTE", "") +
+                                        eclipse_array("PRESSURE", 3, "REAL", " 100 200 300") + eclipse_array("ENDSOL", 0, "INTE", ""));
+    const auto told = info(folder / "a.FUNRST");
+    ASSERT_TRUE(told.contains("loss")) << told.dump();
+    EXPECT_NE(told["loss"].dump().find("IWEL"), std::string::npos) << told.dump();
+    const ProgramRun run = run_geomend({"convert", "--json", (folder / "a.FUNRST").string(), "-o", (folder / "o.vtu").string()});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("IWEL"), std::string::npos) << run.out;
+}
+
+// Tags of ROFF that nothing is known of are kept, and go back.
+TEST(WhatIsDropped, NothingOfRoffFiles) {
+    const TemporaryFolder folder;
+    write_file(folder / "a.grdecl", deck_head);
+    const auto file = [&](const char* name) { return (folder / name).string(); };
+    ASSERT_EQ(run_geomend({"convert", file("a.grdecl"), "-o", file("a.roffasc"), "--lossy"}).status, 0);
+    std::string text = read_file(folder / "a.roffasc");
+    const std::size_t end = text.find("tag eof");
+    ASSERT_NE(end, std::string::npos);
+    text.insert(end, "tag marvel\nint a 3\narray float data 2\n 1 2\nendtag\n");
+    write_file(folder / "b.roffasc", text);
+    EXPECT_EQ(info(folder / "b.roffasc").at("loss"), nlohmann::json::array());
+    ASSERT_EQ(run_geomend({"convert", file("b.roffasc"), "-o", file("c.roffasc")}).status, 0);
+    EXPECT_NE(read_file(folder / "c.roffasc").find("marvel"), std::string::npos);
+    // A target that cannot hold it says so.
+    const ProgramRun run = run_geomend({"convert", "--json", file("b.roffasc"), "-o", file("d.EGRID"), "--lossy"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("\"loss\""), std::string::npos);
+    EXPECT_NE(run.out.find("source format"), std::string::npos) << run.out;
 }
 
 // Readers of horizons refuse what they cannot take: nothing of such a file is left out.
