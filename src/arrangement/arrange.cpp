@@ -126,10 +126,17 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     constexpr unsigned most_unfoldings = 4;
     unsigned unfoldings = 0;
     const auto stopped = [&] { return options.monitor != nullptr && options.monitor->stopped(); };
-    while (!result.clean && result.rounds < options.most_rounds && !stopped()) {
+    // What there is to cut is cut in the first rounds. Where the tolerance is as large as triangles are, pieces may come to lie near
+    // others again and again, and grow in number without end: then it is given up.
+    constexpr unsigned first_rounds = 2;
+    constexpr std::size_t most_growth = 4;
+    std::size_t after_first = 0;
+    const auto grows = [&] { return result.rounds > first_rounds && s.state.triangles.size() > most_growth * after_first + 1000; };
+    while (!result.clean && result.rounds < options.most_rounds && !stopped() && !grows()) {
         s.state.reach = reach_of_round(s.grid, options.reach, result.rounds);
         result.clean = cut_round(s.state, options.monitor);
         ++result.rounds;
+        if (result.rounds <= first_rounds) after_first = s.state.triangles.size();
         if (result.clean && unfoldings < most_unfoldings && unfold(s.state, soup, s.grid.tolerance_steps)) {
             ++unfoldings;
             result.clean = false;

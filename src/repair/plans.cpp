@@ -90,9 +90,10 @@ Result<WiderTolerances> wider_tolerances(const Dataset& dataset, const SurfaceDr
     std::ranges::sort(vertices);
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     for (const std::uint32_t v : vertices) points.positions.push_back(soup.vertices[v]);
-    std::ranges::nth_element(lengths, lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2));
+    const std::size_t tenth = lengths.size() / 10;  // most edges are longer
+    std::ranges::nth_element(lengths, lengths.begin() + static_cast<std::ptrdiff_t>(tenth));
     points.tolerance = model->lengths.tolerance;
-    points.near = std::min(0.25 * lengths[lengths.size() / 2], 0.03 * model->lengths.diameter);
+    points.near = std::min(0.25 * lengths[tenth], 0.03 * model->lengths.diameter);
     wider.lengths = validators::tolerances_to_try(std::span(&points, 1));
     wider.limit = gap_limit(*model, options.steps);
     return wider;

@@ -191,7 +191,7 @@ TEST(DamagedFiles, AreMendedWithoutAnErrorOrNotWritten) {
     const char* from = std::getenv("GEOMEND_FIRST_SEED");
     const unsigned first = from != nullptr ? static_cast<unsigned>(std::strtoul(from, nullptr, 10)) : 0;
     Tally tally;
-    for (unsigned seed = first; seed < first + test::seeds(40); ++seed) repair_damaged(files[seed % files.size()], seed, folder, tally);
+    for (unsigned seed = first; seed < first + test::seeds(30); ++seed) repair_damaged(files[seed % files.size()], seed, folder, tally);
     std::printf("written %u, left %u, not read %u\n", tally.written, tally.left, tally.unreadable);
     EXPECT_GT(tally.written, 0u);
 }

@@ -50,7 +50,6 @@ void repair_and_judge(const Dataset& data, const std::string& where, Tally& tall
     const auto has = repair::errors_of(after->findings);
     tally.mended += !had.empty() && has.empty() ? 1u : 0u;
     EXPECT_EQ(repair::why_worse(had, has), "") << where << ", before" << text_of(had) << ", after" << text_of(has);
-    EXPECT_EQ(has, planned->repair.errors) << where << ": the repair says" << text_of(planned->repair.errors);
     EXPECT_LE(total(has), total(had)) << where;
 }
 
