@@ -274,10 +274,14 @@ void write(const Place& place, const std::string& path, const Dataset& dataset, 
     read_again(request.output, *plan.to, plan.options.empty() ? &dataset : nullptr, report->losses);
 }
 
-void mend(const Place& place, const std::string& path, const Plan& plan) {
+// Grids stay grids; surfaces go into the format that was chosen anyway, whether it can hold them or not.
+void mend(const Place& place, const std::string& path, const Dataset& dataset, const Plan& plan) {
+    const bool is_grid = std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<CornerPointGrid>(o); });
+    const Format& to = is_grid ? *format_by_name("grdecl") : *plan.to;
     RepairRequest request;
     request.files.inputs = {path};
-    request.files.output = (place.out() / "mended.grdecl").string();
+    request.files.output = output_path(place, to);
+    request.files.to = to.name;
     request.files.lossy = true;
     request.files.accept_unterminated = true;
     request.files.load.from = plan.from;
@@ -288,7 +292,7 @@ void mend(const Place& place, const std::string& path, const Plan& plan) {
     place.check_left();
     if (!report) return check_failure(report.why(), "repair");
     for (const Finding& f : report->file.findings) check_finding(f, "repair");
-    if (report->written) read_again(request.files.output, *format_by_name("grdecl"), nullptr, report->losses);
+    if (report->written) read_again(request.files.output, to, nullptr, report->losses);
 }
 
 }  // namespace
@@ -354,7 +358,7 @@ bool run_whole_path(std::string_view bytes) {
     judge(path, *dataset, plan);
     look(path, *dataset, plan);
     write(place, path, *dataset, plan);
-    if (plan.repair) mend(place, path, plan);
+    if (plan.repair) mend(place, path, *dataset, plan);
     return true;
 }
 

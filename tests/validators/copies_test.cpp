@@ -96,6 +96,13 @@ TEST_P(Copies, HaveTheFindingsOfOneEach) {
     for (const auto& [name, place] : layouts) EXPECT_EQ(found_in(copies_of(animal.model.data, 16, place)), times_as_many(one, 16)) << name;
 }
 
+TEST_P(Copies, OfWhichThereAreManyHaveTheFindingsOfOneEach) {
+    const Animal animal = GetParam().make();
+    const auto one = found_in(copies_of(animal.model.data, 1, [](std::uint32_t) { return Vec3{}; }));
+    const auto place = [](std::uint32_t c) { return c == 255 ? Vec3{1e6, 0, 0} : Vec3{40.0 * (c % 16), 40.0 * (c / 16), 0}; };
+    EXPECT_EQ(found_in(copies_of(animal.model.data, 256, place)), times_as_many(one, 256));
+}
+
 TEST_P(Copies, BesideASmallerOneAreJudgedAsAlone) {
     const Animal animal = GetParam().make();
     const auto one = found_in(copies_of(animal.model.data, 1, [](std::uint32_t) { return Vec3{}; }));
