@@ -23,6 +23,29 @@ double reach_at(const GapSearch& search, const Vec3& end, const BorderEdge& edge
     return own.found() ? own.along : middle.along;
 }
 
+/// How far a surface lies ahead of an edge where it lies farthest, between its ends: over a hinge that opens away from it.
+/// Looked for at eight places, and more closely around the farthest one of them. 0: nowhere.
+double reach_between(const GapSearch& search, const Vec3& from, const Vec3& to, const BorderEdge& edge, std::uint32_t patch,
+                     std::uint32_t on) {
+    const auto reach = [&](double t) {
+        const GapHit hit = search.ahead(plus(times(1 - t, from), times(t, to)), edge.outward, patch, on);
+        return hit.within ? hit.along : 0;
+    };
+    constexpr int places = 8, closer = 6;
+    double best = 0, at = 0.5;
+    for (int i = 1; i < places; ++i) {
+        const double t = static_cast<double>(i) / places, r = reach(t);
+        if (r > best) best = r, at = t;
+    }
+    for (double step = 0.5 / places; best > 0 && step > 0.5 / places / (1 << closer); step /= 2) {
+        for (const double t : {at - step, at + step}) {
+            const double r = reach(t);
+            if (r > best) best = r, at = t;
+        }
+    }
+    return best;
+}
+
 /// Per edge the line that its border goes to; edges of closed pieces that have nothing ahead go as far as the nearest one of their piece.
 std::vector<Offset> offsets_of(const TriangleSoup& soup, const FreeBorders& borders, const std::vector<Contact>& contacts,
                                const GapSearch& search, std::vector<GapHit>& hits, double beyond) {
@@ -42,8 +65,9 @@ std::vector<Offset> offsets_of(const TriangleSoup& soup, const FreeBorders& bord
                 if (!hit.found() && i + d < piece.size()) hit = hits[piece[i + d]];
             }
             Offset& offset = offsets[piece[i]];
-            const double from = reach_at(search, offset.from, e, contact.patch, hit),
-                         to = reach_at(search, offset.to, e, contact.patch, hit);
+            double from = reach_at(search, offset.from, e, contact.patch, hit), to = reach_at(search, offset.to, e, contact.patch, hit);
+            const double between = reach_between(search, offset.from, offset.to, e, contact.patch, hit.patch);
+            if (between > std::max(from, to) + beyond / 2) from = to = between;
             offset.from = plus(offset.from, times(from + beyond, e.outward));
             offset.to = plus(offset.to, times(to + beyond, e.outward));
             offset.moved = true;

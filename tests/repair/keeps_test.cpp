@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
+#include <filesystem>
 
 #include "made_boxes.h"
 #include "support/program.h"
@@ -175,6 +175,21 @@ TEST(Regions, ThatCellsPartAreStillPartedWithoutThem) {
     const auto run = run_geomend({"repair", folder / "in.msh", "-o", folder / "out.ml", "--lossy"});
     ASSERT_EQ(run.status, 0) << run.out << run.err;
     expect_volumes(folder / "out.ml", {1.0 / 6, 1.0 / 6});
+}
+
+TEST(Close, AnEdgeOverAConcaveHingeIsBroughtDownToItsFold) {
+    const TemporaryFolder folder;
+    // Euler 18: z = 0 for x <= 0, z = x for x >= 0; an edge of another surface stands over the fold as a chord.
+    Sheet hinge{"C", {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, 8, {}, [](const Vec3& p) { return Vec3{p[0], p[1], std::max(0.0, p[0])}; }};
+    const std::string chord = "GOCAD TSurf 1\nHEADER {\nname: V\n}\nTFACE\nVRTX 1 -1 0 0\nVRTX 2 1 0 1\nVRTX 3 0 0 8\nTRGL 1 2 3\nEND\n";
+    write_file(folder / "in.ts", tsurf_text(hinge) + chord);
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ts", "--steps", "close,cut,tails", "--max-gap", "0.7"});
+    ASSERT_EQ(run.status, 0) << run.out << run.err;
+    // V reaches down to the fold: all of the triangle between the chord and the hinge, of 0.5, is there now.
+    const nlohmann::json all = info(folder / "out.ts");
+    double area = 0;
+    for (const auto& object : all["objects"]) area += object["name"] == "V" ? object["area"].get<double>() : 0;
+    EXPECT_NEAR(area, 7.5 + 0.5, 1e-9);
 }
 
 TEST(Close, AGapLargerThanTheModelMovesNothingOutOfIt) {
