@@ -11,7 +11,8 @@ namespace geomend::topology {
 std::vector<std::vector<std::uint32_t>> cells_by_entity(const CellMesh& mesh) {
     std::vector<std::vector<std::uint32_t>> cells(mesh.entities.size());
     for (std::uint32_t c = 0; c < mesh.cell_entity.size() && c < mesh.cell_count(); ++c) {
-        if (mesh.cell_entity[c] < cells.size()) cells[mesh.cell_entity[c]].push_back(c);
+        const std::uint32_t e = mesh.cell_entity[c];
+        if (e < cells.size() && mesh.entities[e].dimension == dimension(mesh.types[c])) cells[e].push_back(c);
     }
     return cells;
 }

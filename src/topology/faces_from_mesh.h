@@ -9,7 +9,7 @@
 
 namespace geomend::topology {
 
-/// The cells of each entity of a mesh, in cell order.
+/// The cells of each entity of a mesh, in cell order; those of another dimension than the entity are none of its.
 std::vector<std::vector<std::uint32_t>> cells_by_entity(const CellMesh& mesh);
 
 /// The corners of a cell, without the further nodes of second-order types.

@@ -16,7 +16,7 @@ bool is_there(const Dataset& dataset, const StatedModel::Face& face) {
     if (face.object >= dataset.objects.size()) return false;
     if (const auto* surface = std::get_if<Surface>(&dataset.objects[face.object])) return face.part < part_count(*surface);
     const auto* mesh = std::get_if<CellMesh>(&dataset.objects[face.object]);
-    return mesh != nullptr && face.part < mesh->entities.size();
+    return mesh != nullptr && face.part < mesh->entities.size() && mesh->entities[face.part].dimension == 2;
 }
 
 /// Meshes without entities (MSH with a section of ours) fill the regions of the model that lists them by name.

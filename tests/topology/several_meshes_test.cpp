@@ -41,6 +41,39 @@ TEST(SeveralMeshes, GiveOneModelItsSurfacesLinesCornersAndRegions) {
     EXPECT_EQ(std::ranges::count(data.findings, "F113", &Finding::code), 0);
 }
 
+// A file may put a point or a line into the entity of a face: it is no polygon.
+TEST(SeveralMeshes, HavePolygonsOfThreeCornersAndMoreOnly) {
+    Dataset data;
+    CellMesh mesh = test::block_mesh("block", 0, false, 0);
+    const std::vector<std::uint32_t> point{0}, line{0, 1};
+    for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
+        if (mesh.entities[e].dimension != 2) continue;
+        mesh.add_cell(CellType::vertex, point);
+        mesh.add_cell(CellType::line, line);
+        mesh.cell_entity.insert(mesh.cell_entity.end(), 2, e);
+    }
+    data.objects.emplace_back(std::move(mesh));
+    topology::build_breps(data);
+    ASSERT_EQ(data.breps.size(), 1u);
+    ASSERT_EQ(data.breps[0]->surfaces.size(), 6u);
+    for (const auto& surface : data.breps[0]->surfaces) {
+        ASSERT_EQ(surface.polygons.size(), 1u);
+        EXPECT_EQ(surface.polygons[0].size(), 4u);
+    }
+}
+
+TEST(SeveralMeshes, HaveNoFaceOverALineOrACorner) {
+    for (const std::uint32_t entity : {0u, 1u}) {
+        Dataset data = test::model_over_two_meshes();
+        data.models[0].faces[2].part = entity;
+        topology::build_breps(data);
+        ASSERT_EQ(data.breps.size(), 1u);
+        for (const auto& surface : data.breps[0]->surfaces) {
+            for (std::size_t p = 0; p < surface.polygons.size(); ++p) EXPECT_EQ(surface.polygons[p].size(), 4u) << surface.name;
+        }
+    }
+}
+
 TEST(SeveralMeshes, AreJudgedAsOneModelWhateverTheirOrder) {
     for (const bool turned : {false, true}) {
         Dataset data = test::model_over_two_meshes();
