@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/text_cursor.h"
 #include "formats/gocad/array_codec.h"
 #include "formats/gocad/ascii_data_file.h"
 #include "formats/gocad/object_head.h"
@@ -67,11 +68,11 @@ ArrayWriting::ArrayWriting(const ObjectInfo& info, const std::array<std::uint32_
         else if (std::holds_alternative<std::vector<std::string>>(a.values)) lose("Gocad properties are numbers, not text");
         else if (is_flags(a)) (a.name == "gocad_region_flags" ? region_flags : flags) = &a;
         else if (a.components != 1 && storage_of_attribute(a) != ArrayStorage::rgba) lose("a property of a grid has one value per sample");
-        else attributes.push_back(a.name.empty() ? with_name(a) : &a);
+        else attributes.push_back(trimmed(a.name).empty() ? with_name(a) : &a);
     }
 }
 
-// A record without a name cannot be read.
+// A record without a name, or with blanks alone for one, cannot be read.
 const Attribute* ArrayWriting::with_name(const Attribute& a) {
     Attribute& copy = named_.emplace_back(a);
     const auto is_taken = [&](const Attribute& other) { return &other != &copy && other.name == copy.name; };
