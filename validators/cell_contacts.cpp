@@ -65,6 +65,11 @@ OuterFaces outer_faces(const CellScope& scope) {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
+/// Whether one of two faces has all corners of the other: triangles over either diagonal of a quadrangle, however bent it is.
+bool is_part_of(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+    return a.size() < b.size() ? std::ranges::includes(b, a) : std::ranges::includes(a, b);
+}
+
 /// Pairs of triangles of different cells that lie on each other from both sides, ascending. Faces whose nodes are the same within the
 /// tolerance match: that their nodes are not one is M27.
 std::vector<Pair> facing_pairs(const CellScope& scope, const OuterFaces& outer) {
@@ -97,8 +102,10 @@ std::vector<Pair> facing_pairs(const CellScope& scope, const OuterFaces& outer) 
             tree.visit_triangles(tree.box(low, high, tolerance), [&](std::size_t j) {
                 const OuterTriangle& other = outer.of[tree.number(j)];
                 if (j <= i || scope.faces()[own.face].cell == scope.faces()[other.face].cell) return;
-                if (dot(own.normal, other.normal) >= 0 || !lie_on_each_other(a, corners(tree.triangle(j)), tolerance)) return;
-                if (vertices_of(own.face) == vertices_of(other.face)) return;
+                if (dot(own.normal, other.normal) >= 0) return;
+                const auto mine = vertices_of(own.face), theirs = vertices_of(other.face);
+                if (mine == theirs) return;
+                if (!lie_on_each_other(a, corners(tree.triangle(j)), tolerance) && !is_part_of(mine, theirs)) return;
                 parts[part].push_back(std::minmax(tree.number(i), tree.number(j)));
             });
         }

@@ -106,7 +106,7 @@ double CellHulls::bend_of(std::uint32_t i) const {
         const Vec3 apart = minus(plus(minus(points[n[1]], points[n[0]]), times(0.5, v)), times(0.5, u));
         most = std::max(most, std::abs(dot(apart, normal)) / length);
     }
-    return most / 2;
+    return most;
 }
 
 std::vector<CellHulls::Tetrahedron> CellHulls::tetrahedra_of(std::uint32_t i, const Vec3& origin) const {

@@ -30,8 +30,8 @@ public:
 
 private:
     using Tetrahedron = std::array<Vec3, 4>;
-    /// By how much the faces of a cell with four corners are bent: the largest distance between the middle of one, on the
-    /// curved face through its corners, and the diagonals. Where its triangles lie beyond that face is no matter of the cell.
+    /// By how much the faces of a cell with four corners are bent: the largest distance between the diagonals of one. What lies between
+    /// them is the matter of how two cells split the face (M24), and no body that they have in common.
     double bend_of(std::uint32_t i) const;
     std::span<const VolumeFace> faces_of(std::uint32_t i) const {
         return scope_.faces().subspan(first_face_[i], first_face_[i + 1] - first_face_[i]);

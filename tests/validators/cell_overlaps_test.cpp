@@ -170,6 +170,30 @@ TEST(CellsInEachOther, WhatTrianglesDifferFromBentFacesIsNoOverlap) {
     EXPECT_TRUE(codes_of(beside_a_bent_face(0.5)).contains("M29"));
 }
 
+// A hexahedron against two tetrahedra over either diagonal of its bent top: their faces do not match, but none lies in another.
+TEST(CellsInEachOther, TetrahedraOverEitherDiagonalOfABentFaceAreNotInItsCell) {
+    using Nodes = std::vector<std::uint32_t>;
+    for (const double bend : {0.02, 0.2, -0.2}) {
+        for (const std::uint32_t turn : {0u, 1u}) {
+            CellMesh mesh;
+            for (std::uint32_t k = 0; k < 2; ++k) {
+                for (const auto& [x, y] : {std::pair{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}}) mesh.points.push_back({x, y, 1. * k});
+            }
+            mesh.points[6][2] += bend;
+            mesh.points.push_back({0.5, 0.5, 2});
+            mesh.add_cell(CellType::hexahedron, Nodes{0, 1, 2, 3, 4, 5, 6, 7});
+            const auto top = [&](std::uint32_t i) { return 4 + (i + turn) % 4; };
+            mesh.add_cell(CellType::tetrahedron, Nodes{top(0), top(1), top(2), 8});
+            mesh.add_cell(CellType::tetrahedron, Nodes{top(0), top(2), top(3), 8});
+            const Codes codes = codes_of(mesh);
+            EXPECT_TRUE(codes.contains("M24")) << bend << ' ' << turn;
+            EXPECT_FALSE(codes.contains("M29")) << bend << ' ' << turn;
+            mesh.points[8][2] = 0.5;  // into the hexahedron
+            EXPECT_TRUE(codes_of(mesh).contains("M29")) << bend << ' ' << turn;
+        }
+    }
+}
+
 /// Two blocks of one mesh with an array of regions.
 CellMesh blocks_with_regions(const std::string& name, double gap, std::int32_t second) {
     CellMesh mesh;
