@@ -22,33 +22,18 @@ namespace {
 
 using geomend::TriangleSoup;
 using geomend::Vec3;
-
-template <class Place>
-void add_sheet(TriangleSoup& soup, std::uint32_t n, const Place& place) {
-    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-    const std::uint32_t patch = soup.patches.empty() ? 0 : soup.patches.back() + 1;
-    for (std::uint32_t j = 0; j <= n; ++j) {
-        for (std::uint32_t i = 0; i <= n; ++i) soup.vertices.push_back(place(i / static_cast<double>(n), j / static_cast<double>(n)));
-    }
-    for (std::uint32_t j = 0; j < n; ++j) {
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t a = first + j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-            soup.triangles.insert(soup.triangles.end(), {{a, b, d}, {a, d, c}});
-            soup.patches.insert(soup.patches.end(), {patch, patch});
-        }
-    }
-}
+using geomend::test::add_sheet;
 
 /// Ten wavy horizons and two families of five wavy faults, all open and across each other: 20 surfaces of 2 n n triangles.
 TriangleSoup wavy_surfaces(std::uint32_t n) {
     TriangleSoup soup;
     for (int h = 0; h < 10; ++h) {
-        add_sheet(soup, n, [&](double u, double v) {
+        add_sheet(soup, n, n, [&](double u, double v) {
             return Vec3{1000 * u, 1000 * v, 90.0 * h + 50 + 12 * std::sin(6.1 * u + 0.7 * h) * std::cos(5.3 * v + 0.3 * h)};
         });
     }
     for (int f = 0; f < 10; ++f) {
-        add_sheet(soup, n, [&](double u, double v) {
+        add_sheet(soup, n, n, [&](double u, double v) {
             const double across = 100 + 190.0 * (f % 5) + 60 * (v - 0.5) + 15 * std::sin(7.3 * u + f) + 7 * std::sin(9.1 * v + 2 * f);
             const double along = -20 + 1040 * u, up = -20 + 1010 * v;
             return f < 5 ? Vec3{across, along, up} : Vec3{along, across, up};
@@ -108,26 +93,26 @@ std::vector<std::pair<const char*, TriangleSoup>> degenerate_soups() {
     const auto add = [&](const char* name) -> TriangleSoup& { return soups.emplace_back(name, TriangleSoup{}).second; };
     const auto flat = [](double u, double v) { return Vec3{1000 * u, 1000 * v, 0}; };
     TriangleSoup& twice = add("one sheet twice");
-    for (int k = 0; k < 2; ++k) add_sheet(twice, 70, flat);
+    for (int k = 0; k < 2; ++k) add_sheet(twice, 70, 70, flat);
     TriangleSoup& plane = add("two sheets in one plane, edges shifted");
-    add_sheet(plane, 70, flat);
-    add_sheet(plane, 70, [](double u, double v) { return Vec3{1000 * u + 3.1, 1000 * v + 5.7, 0}; });
+    add_sheet(plane, 70, 70, flat);
+    add_sheet(plane, 70, 70, [](double u, double v) { return Vec3{1000 * u + 3.1, 1000 * v + 5.7, 0}; });
     TriangleSoup& nearly = add("two sheets that dip 1e-6 against each other");
-    add_sheet(nearly, 70, flat);
-    add_sheet(nearly, 70, [](double u, double v) { return Vec3{1000 * u, 1000 * v, 1e-3 * (u - 0.5)}; });
+    add_sheet(nearly, 70, 70, flat);
+    add_sheet(nearly, 70, 70, [](double u, double v) { return Vec3{1000 * u, 1000 * v, 1e-3 * (u - 0.5)}; });
     TriangleSoup& star = add("50 sheets through one line");
     for (int k = 0; k < 50; ++k) {
         const double angle = 3.14159265358979 * k / 50;
-        add_sheet(star, 14, [&](double u, double v) {
+        add_sheet(star, 14, 14, [&](double u, double v) {
             return Vec3{1000 * (u - 0.5) * std::cos(angle), 1000 * (u - 0.5) * std::sin(angle), 1000 * v};
         });
     }
     TriangleSoup& needles = add("needles 1 : 10,000 across each other");
-    add_sheet(needles, 70, [](double u, double v) { return Vec3{1000 * u, 0.1 * v, 0.05 + 0.01 * std::sin(50 * u)}; });
-    add_sheet(needles, 70, [](double u, double v) { return Vec3{1000 * u, 0.05 + 0.01 * std::sin(40 * u), 0.1 * v}; });
+    add_sheet(needles, 70, 70, [](double u, double v) { return Vec3{1000 * u, 0.1 * v, 0.05 + 0.01 * std::sin(50 * u)}; });
+    add_sheet(needles, 70, 70, [](double u, double v) { return Vec3{1000 * u, 0.05 + 0.01 * std::sin(40 * u), 0.1 * v}; });
     TriangleSoup& flakes = add("triangles without area on a sheet");
-    add_sheet(flakes, 70, flat);
-    add_sheet(flakes, 70, [](double u, double) { return Vec3{1000 * u, 500 + 100 * u, 0}; });
+    add_sheet(flakes, 70, 70, flat);
+    add_sheet(flakes, 70, 70, [](double u, double) { return Vec3{1000 * u, 500 + 100 * u, 0}; });
     return soups;
 }
 

@@ -26,7 +26,10 @@ Vec3 unit(const Vec3& v) { return times(1 / std::sqrt(dot(v, v)), v); }
 class ControllerSearch {
 public:
     explicit ControllerSearch(const SurfaceModel& model)
-        : soup_(model.model.soup), interfaces_(interface_numbers(model)), tree_(boxes(soup_)), slack_(4 * model.lengths.tolerance) {}
+        : soup_(model.model.soup),
+          interfaces_(interface_numbers(model)),
+          tree_(triangle_boxes(soup_)),
+          slack_(4 * model.lengths.tolerance) {}
 
     /// How far from a point a controller lies along a direction, backwards below 0: the nearest one within reach.
     /// \param direction unit
@@ -72,21 +75,6 @@ private:
         const double off = closest_points(point, triangle).distance;
         if (off > beside) return std::nullopt;
         return Hit{off <= slack_ ? 0 : off, at};
-    }
-
-    static std::vector<BoxTree::Corners> boxes(const TriangleSoup& soup) {
-        std::vector<BoxTree::Corners> all;
-        for (const Triangle& t : soup.triangles) {
-            BoxTree::Corners box{soup.vertices[t[0]], soup.vertices[t[0]]};
-            for (const std::uint32_t v : t) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    box[0][k] = std::min(box[0][k], soup.vertices[v][k]);
-                    box[1][k] = std::max(box[1][k], soup.vertices[v][k]);
-                }
-            }
-            all.push_back(box);
-        }
-        return all;
     }
 
     const TriangleSoup& soup_;

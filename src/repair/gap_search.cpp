@@ -8,28 +8,13 @@
 #include "base/vectors.h"
 #include "geometry/closest_points.h"
 #include "model/objects.h"
+#include "repair/soup_measures.h"
 
 namespace geomend::repair {
 
 namespace {
 
 constexpr double sine_of_grazing = 0.1736;  // 10 degrees
-
-std::vector<BoxTree::Corners> boxes_of(const TriangleSoup& soup) {
-    std::vector<BoxTree::Corners> boxes;
-    boxes.reserve(soup.triangles.size());
-    for (const Triangle& t : soup.triangles) {
-        BoxTree::Corners box{soup.vertices[t[0]], soup.vertices[t[0]]};
-        for (const std::uint32_t v : t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                box[0][k] = std::min(box[0][k], soup.vertices[v][k]);
-                box[1][k] = std::max(box[1][k], soup.vertices[v][k]);
-            }
-        }
-        boxes.push_back(box);
-    }
-    return boxes;
-}
 
 BoxTree::Corners box_around(const Vec3& a, const Vec3& b, double margin) {
     BoxTree::Corners box;
@@ -42,7 +27,7 @@ BoxTree::Corners box_around(const Vec3& a, const Vec3& b, double margin) {
 
 }  // namespace
 
-GapSearch::GapSearch(const TriangleSoup& soup, double limit) : soup_(soup), limit_(limit), tree_(boxes_of(soup)) {}
+GapSearch::GapSearch(const TriangleSoup& soup, double limit) : soup_(soup), limit_(limit), tree_(triangle_boxes(soup)) {}
 
 GapHit GapSearch::ahead(const Vec3& from, const Vec3& direction, std::uint32_t own_patch, std::uint32_t only) const {
     GapHit best;

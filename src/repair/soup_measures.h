@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "base/vectors.h"
+#include "geometry/box_tree.h"
 #include "model/triangle_soup.h"
 
 namespace geomend::repair {
@@ -18,6 +21,23 @@ inline Vec3 triangle_normal(const TriangleSoup& soup, std::uint32_t t) {
 inline double triangle_area(const TriangleSoup& soup, std::uint32_t t) {
     const Vec3 n = triangle_normal(soup, t);
     return 0.5 * std::sqrt(dot(n, n));
+}
+
+/// The box along the axes around each triangle.
+inline std::vector<BoxTree::Corners> triangle_boxes(const TriangleSoup& soup) {
+    std::vector<BoxTree::Corners> boxes;
+    boxes.reserve(soup.triangles.size());
+    for (const Triangle& t : soup.triangles) {
+        BoxTree::Corners box{soup.vertices[t[0]], soup.vertices[t[0]]};
+        for (const std::uint32_t v : t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                box[0][k] = std::min(box[0][k], soup.vertices[v][k]);
+                box[1][k] = std::max(box[1][k], soup.vertices[v][k]);
+            }
+        }
+        boxes.push_back(box);
+    }
+    return boxes;
 }
 
 }  // namespace geomend::repair

@@ -9,29 +9,13 @@
 #include <set>
 
 #include "arrangement/arrange.h"
+#include "arrangement/sheets.h"
 #include "geometry/intersections.h"
 #include "geometry/vectors.h"
 
 namespace geomend::test {
 
 using arrangement::Arrangement;
-
-/// A lattice of nu x nv cells, two triangles each, at place(u, v) for u, v from 0 to 1, as a patch of its own.
-template <class Place>
-void add_sheet(TriangleSoup& soup, std::uint32_t nu, std::uint32_t nv, const Place& place) {
-    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-    const std::uint32_t patch = soup.patches.empty() ? 0 : soup.patches.back() + 1;
-    for (std::uint32_t j = 0; j <= nv; ++j) {
-        for (std::uint32_t i = 0; i <= nu; ++i) soup.vertices.push_back(place(i / static_cast<double>(nu), j / static_cast<double>(nv)));
-    }
-    for (std::uint32_t j = 0; j < nv; ++j) {
-        for (std::uint32_t i = 0; i < nu; ++i) {
-            const std::uint32_t a = first + j * (nu + 1) + i, b = a + 1, c = a + nu + 1, d = c + 1;
-            soup.triangles.insert(soup.triangles.end(), {{a, b, d}, {a, d, c}});
-            soup.patches.insert(soup.patches.end(), {patch, patch});
-        }
-    }
-}
 
 inline void add_patch(TriangleSoup& soup, std::vector<Vec3> points, const std::vector<Triangle>& triangles) {
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "arrangement/sheets.h"
 #include "base/vec3.h"
 #include "model/triangle_soup.h"
 
@@ -32,30 +33,13 @@ inline double roughness(double u, double v, std::uint64_t seed) {
     return sum;
 }
 
-/// A patch of 2 n n triangles at place(u, v).
-template <class Place>
-void add_rough_patch(TriangleSoup& soup, std::uint32_t n, const Place& place) {
-    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-    const std::uint32_t patch = soup.patches.empty() ? 0 : soup.patches.back() + 1;
-    for (std::uint32_t j = 0; j <= n; ++j) {
-        for (std::uint32_t i = 0; i <= n; ++i) soup.vertices.push_back(place(i / static_cast<double>(n), j / static_cast<double>(n)));
-    }
-    for (std::uint32_t j = 0; j < n; ++j) {
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t a = first + j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-            soup.triangles.insert(soup.triangles.end(), {{a, b, d}, {a, d, c}});
-            soup.patches.insert(soup.patches.end(), {patch, patch});
-        }
-    }
-}
-
 /// A topography of 2 n n triangles over 30 km with a relief of some 800 m, and five rough faults of 2 m m triangles each, two of
 /// them across the others, that stick out of it.
 inline TriangleSoup rough_faults_through_topography(std::uint32_t n, std::uint32_t m) {
     TriangleSoup soup;
-    add_rough_patch(soup, n, [](double u, double v) { return Vec3{30000 * u, 30000 * v, 400 * roughness(u, v, 1)}; });
+    add_sheet(soup, n, n, [](double u, double v) { return Vec3{30000 * u, 30000 * v, 400 * roughness(u, v, 1)}; });
     for (std::uint64_t f = 0; f < 5; ++f) {
-        add_rough_patch(soup, m, [&](double u, double v) {
+        add_sheet(soup, m, m, [&](double u, double v) {
             const double along = 1500 + 27000 * u, up = -9000 + 10500 * v;
             const double across = 4000 + 5500 * static_cast<double>(f % 3) + 0.4 * up + 300 * roughness(u, v, 7 + f);
             return f < 3 ? Vec3{across, along, up} : Vec3{along, across + 5000, up};
