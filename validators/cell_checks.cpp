@@ -7,8 +7,8 @@
 
 #include "geometry/cell_volume.h"
 #include "topology/near_weld.h"
+#include "validators/cell_findings.h"
 #include "validators/corner_frames.h"
-#include "validators/found_cells.h"
 #include "validators/model_scope.h"
 
 namespace geomend::validators {

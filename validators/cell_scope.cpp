@@ -9,7 +9,7 @@
 #include "geometry/measures.h"
 #include "model/cell_faces.h"
 #include "topology/weld.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_scope.h"
 
 namespace geomend::validators {

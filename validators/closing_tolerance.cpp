@@ -87,6 +87,7 @@ std::vector<double> tolerances_to_try(std::span<const BorderPoints> models) {
     std::ranges::stable_sort(rests, [](const Rest& a, const Rest& b) { return a.ratio() > b.ratio(); });
     if (rests.size() > most_tries) rests.resize(most_tries);
     std::vector<double> tolerances;
+    tolerances.reserve(rests.size());
     for (const Rest& rest : rests) tolerances.push_back(rest.from);
     std::ranges::sort(tolerances);
     return tolerances;

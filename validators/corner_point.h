@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 
 // The checks of corner-point grids, one function per code; the table that joins them is in registry.cpp. Each adds one
 // finding to the list, or none where all is well (C04 and C18 one for each of the two things that they tell apart, C23 and

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "validators/cell_findings.h"
 #include "validators/corner_point.h"
-#include "validators/found_cells.h"
 #include "validators/registry.h"
 
 // Records that no grid can follow: stated connections (C29), local grids in one place (C30), angles of radial grids (C31).

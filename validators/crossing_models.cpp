@@ -11,7 +11,7 @@
 #include "base/wording.h"
 #include "geometry/intersections.h"
 #include "geometry/vectors.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/polyline_join.h"
 
 namespace geomend::validators {

@@ -10,7 +10,7 @@
 
 #include "geometry/cell_volume.h"
 #include "geometry/intersections.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_checks.h"
 #include "validators/polyline_join.h"
 #include "validators/registry.h"

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "geometry/vectors.h"
+#include "validators/cell_findings.h"
 #include "validators/each_surface.h"
-#include "validators/found_cells.h"
 #include "validators/model_checks.h"
 #include "validators/surface_facing.h"
 

@@ -8,8 +8,8 @@
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
 #include "geometry/lattice_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/corner_frames.h"
-#include "validators/found_cells.h"
 #include "validators/object_checks.h"
 
 namespace geomend::validators {

@@ -5,7 +5,7 @@
 #include <string>
 #include <tuple>
 
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_checks.h"
 #include "validators/surface_facing.h"
 

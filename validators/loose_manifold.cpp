@@ -13,7 +13,7 @@
 #include "base/disjoint_sets.h"
 #include "base/wording.h"
 #include "topology/face_edges.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 
 namespace geomend::validators {
 
@@ -34,7 +34,8 @@ struct Wrong {
 
 bool parts_regions(const ModelScope& scope, std::uint32_t surface) {
     const auto& side = scope.model().found.region_of_side;
-    return !side.empty() && side[2 * surface] != side[2 * surface + 1];
+    const std::size_t front = 2 * std::size_t{surface};
+    return !side.empty() && side[front] != side[front + 1];
 }
 
 void find_edges(const ModelScope& scope, std::map<Part, Wrong>& wrong) {
@@ -64,17 +65,17 @@ void find_edges(const ModelScope& scope, std::map<Part, Wrong>& wrong) {
 }
 
 /// A corner of a polygon of an object, and the points before and after it.
-struct Around {
+struct CornerNeighbours {
     std::uint32_t point, before, after;
     std::uint64_t polygon;
 };
 
 /// Whether the polygons around one point hang together by the edges there.
-bool is_one_ring(std::span<const Around> around) {
+bool is_one_ring(std::span<const CornerNeighbours> around) {
     DisjointSets rings(around.size());
     for (std::uint32_t i = 0; i < around.size(); ++i) {
         for (std::uint32_t j = 0; j < i; ++j) {
-            const Around &a = around[i], &b = around[j];
+            const CornerNeighbours &a = around[i], &b = around[j];
             if (a.before == b.before || a.before == b.after || a.after == b.before || a.after == b.after) rings.join(i, j);
         }
     }
@@ -97,9 +98,10 @@ std::vector<std::uint32_t> numbers_of(const Surface& surface) {
 
 /// Corners at some points, of the polygons that have a point once only, by part and point.
 /// \param parts per polygon its part
-std::vector<std::pair<std::uint32_t, Around>> corners_at(const Surface& surface, const std::vector<std::uint32_t>& number,
-                                                         const std::vector<std::uint8_t>& wanted, std::span<const std::uint32_t> parts) {
-    std::vector<std::pair<std::uint32_t, Around>> corners;
+std::vector<std::pair<std::uint32_t, CornerNeighbours>> corners_at(const Surface& surface, const std::vector<std::uint32_t>& number,
+                                                                   const std::vector<std::uint8_t>& wanted,
+                                                                   std::span<const std::uint32_t> parts) {
+    std::vector<std::pair<std::uint32_t, CornerNeighbours>> corners;
     std::vector<std::uint32_t> ring;
     for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
         const auto polygon = surface.polygons[p];
@@ -189,7 +191,7 @@ void find_points(const ModelScope& scope, const std::vector<std::uint8_t>& betwe
     for (const auto& [s, p] : belongs) parts.push_back(s == no_index ? no_index : scope.brep().surfaces[s].source_part);
     const auto number = numbers_of(*source);
     const auto corners = corners_at(*source, number, points_of_polygons_at(scope, between, *source, surfaces, number), parts);
-    std::vector<Around> around;
+    std::vector<CornerNeighbours> around;
     for (std::size_t i = 0; i < corners.size();) {
         around.clear();
         std::size_t j = i;
@@ -198,13 +200,13 @@ void find_points(const ModelScope& scope, const std::vector<std::uint8_t>& betwe
         const std::uint32_t part = corners[i].first;
         i = j;
         if (is_one_ring(around)) continue;
-        const auto is_sound = [&](const Around& a) {
+        const auto is_sound = [&](const CornerNeighbours& a) {
             return belongs[a.polygon].first != no_index && parts_regions(scope, belongs[a.polygon].first);
         };
         if (std::ranges::all_of(around, is_sound)) continue;
         Wrong& here = wrong[{object, part}];
         here.points.insert(source->points[around[0].point]);
-        for (const Around& a : around) {
+        for (const CornerNeighbours& a : around) {
             if (belongs[a.polygon].first == no_index) continue;
             here.surfaces.insert(belongs[a.polygon].first);
             here.polygons.insert(belongs[a.polygon]);

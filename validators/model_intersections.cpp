@@ -9,7 +9,7 @@
 #include <unordered_set>
 
 #include "geometry/cell_volume.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_checks.h"
 #include "validators/polyline_join.h"
 #include "validators/triangle_overlap.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "topology/face_edges.h"
+#include "validators/cell_findings.h"
 #include "validators/each_surface.h"
-#include "validators/found_cells.h"
 #include "validators/loose_manifold.h"
 #include "validators/model_checks.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "geometry/vectors.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_checks.h"
 #include "validators/triangle_overlap.h"
 

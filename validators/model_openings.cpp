@@ -5,7 +5,7 @@
 
 #include "geometry/vectors.h"
 #include "topology/face_edges.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/free_borders.h"
 #include "validators/model_checks.h"
 

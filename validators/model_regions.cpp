@@ -5,8 +5,8 @@
 #include <set>
 
 #include "geometry/cell_volume.h"
+#include "validators/cell_findings.h"
 #include "validators/each_surface.h"
-#include "validators/found_cells.h"
 #include "validators/free_borders.h"
 #include "validators/model_checks.h"
 #include "validators/region_volumes.h"

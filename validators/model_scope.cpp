@@ -7,7 +7,7 @@
 #include "base/codes.h"
 #include "base/number_text.h"
 #include "geometry/cell_volume.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 
 namespace geomend::validators {
 

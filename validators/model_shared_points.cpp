@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <map>
 
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_checks.h"
 
 namespace geomend::validators {

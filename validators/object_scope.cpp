@@ -8,7 +8,7 @@
 
 #include "geometry/vectors.h"
 #include "topology/thickness.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_scope.h"
 
 namespace geomend::validators {

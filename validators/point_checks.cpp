@@ -5,7 +5,7 @@
 #include "base/disjoint_sets.h"
 #include "topology/near_weld.h"
 #include "topology/weld.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/object_checks.h"
 
 namespace geomend::validators {

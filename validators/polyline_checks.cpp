@@ -8,7 +8,7 @@
 #include "geometry/segment_tree.h"
 #include "geometry/vectors.h"
 #include "topology/weld.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/object_checks.h"
 
 namespace geomend::validators {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/parallel.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_scope.h"
 #include "validators/object_checks.h"
 

@@ -8,7 +8,7 @@
 #include "base/codes.h"
 #include "grid/transmissibility.h"
 #include "topology/brep_from_dataset.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/grid_scope.h"
 
 namespace geomend::validators {

@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
+#include "validators/cell_findings.h"
 #include "validators/cell_scope.h"
-#include "validators/found_cells.h"
 #include "validators/readiness.h"
 
 // What simulators need of a mesh beside sound cells: types they know, tags, names for the outside.

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/readiness.h"
 
 // What a black-oil simulator needs of a corner-point grid beside sound cells.

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "topology/brep_from_dataset.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/readiness.h"
 
 // Names that a target cannot take or tell apart, and regions that it has to fill.

@@ -85,6 +85,7 @@ topology::FoundRegions regions_of_pieces(const ModelScope& scope, std::vector<st
     const auto graph = topology::build_lines(parts, faces, {});
     const auto cones = topology::cone_volumes(parts, faces);
     std::vector<double> tolerances;
+    tolerances.reserve(source.size());
     for (const std::uint32_t s : source) tolerances.push_back(s < scope.model().tolerances.size() ? scope.model().tolerances[s] : 0);
     return topology::find_regions(parts, graph, cones, tolerances);
 }

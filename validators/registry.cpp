@@ -291,7 +291,7 @@ void run_all(const Scope& scope, const CheckOptions& options, void (*Check::*mem
 
 /// Whether the cells of a mesh are points and lines, so that they are judged as point sets and polylines.
 bool has_points_and_lines_only(const CellMesh& mesh) {
-    return topology::is_flat(mesh) && std::ranges::all_of(mesh.types, [](CellType type) { return dimension(type) < 2; });
+    return topology::has_no_volume_cells(mesh) && std::ranges::all_of(mesh.types, [](CellType type) { return dimension(type) < 2; });
 }
 
 Result<void> check_flat_parts(const CellMesh& mesh, const CheckOptions& options, std::vector<Finding>& findings) {

@@ -10,7 +10,7 @@
 #include "base/result.h"
 #include "model/dataset.h"
 #include "validators/cell_scope.h"
-#include "validators/choice.h"
+#include "validators/check_selection.h"
 #include "validators/closing_tolerance.h"
 #include "validators/grid_scope.h"
 #include "validators/model_scope.h"

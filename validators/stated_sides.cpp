@@ -6,7 +6,7 @@
 
 #include "base/wording.h"
 #include "geometry/vectors.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_checks.h"
 
 // What a file states of the sides of its regions and of its Universe, against its surfaces.

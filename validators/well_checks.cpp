@@ -4,7 +4,7 @@
 #include <string>
 
 #include "geometry/vectors.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 #include "validators/model_scope.h"
 #include "validators/object_checks.h"
 

@@ -36,7 +36,7 @@ struct Edit {
     EditResult result = {};
 
     std::string name(std::size_t i) const { return known_name(record.text(i)); }
-    bool fail(Trouble trouble) {
+    bool fail(OptionalFailure trouble) {
         result.trouble = std::move(trouble);
         return result.trouble.has_value();
     }

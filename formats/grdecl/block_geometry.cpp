@@ -159,7 +159,8 @@ Failure lacking(const Input& input, const std::string& what) {
 
 }  // namespace
 
-Trouble make_block_geometry(GridText& text, const Input& input, std::uint32_t layers, std::uint64_t& room, std::vector<Finding>& findings) {
+OptionalFailure make_block_geometry(GridText& text, const Input& input, std::uint32_t layers, std::uint64_t& room,
+                                    std::vector<Finding>& findings) {
     if (!text.pillars.empty() || !text.depths.empty() || !text.dims) return {};
     const Dims d{(*text.dims)[0], (*text.dims)[1], layers};
     text.radial = text.radial || (text.grid.cylindrical && (text.find("DR") != nullptr || text.find("DTHETA") != nullptr));

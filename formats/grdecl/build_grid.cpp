@@ -15,7 +15,7 @@ std::string cell_text(const Dims& d, std::size_t cell) {
     return "(" + std::to_string(cell % d[0] + 1) + "," + std::to_string(row % d[1] + 1) + "," + std::to_string(row / d[1] + 1) + ")";
 }
 
-Trouble set_activity(CornerPointGrid& grid, const std::vector<std::int32_t>& actnum, const Input& input) {
+OptionalFailure set_activity(CornerPointGrid& grid, const std::vector<std::int32_t>& actnum, const Input& input) {
     const std::size_t cells = grid.cell_count();
     for (std::size_t i = 0; i < actnum.size(); ++i) {
         if (actnum[i] < 0 || actnum[i] > 255)
@@ -102,7 +102,8 @@ void add_attribute(CornerPointGrid& grid, std::string name, std::vector<T>&& val
     if (dual) add(name + ":fracture", std::move(fracture));
 }
 
-Trouble take_depths(GridText& text, CornerPointGrid& grid, const Input& input, std::vector<Finding>& findings, std::vector<Loss>& losses) {
+OptionalFailure take_depths(GridText& text, CornerPointGrid& grid, const Input& input, std::vector<Finding>& findings,
+                            std::vector<Loss>& losses) {
     const std::size_t own = 8 * grid.cell_count();
     if (text.depths.empty() != text.pillars.empty()) {
         const char* there = text.depths.empty() ? "COORD" : "ZCORN";

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "base/vector_variant.h"
 #include "formats/grdecl/deck_text.h"
 #include "formats/grdecl/keywords.h"
 #include "model/dataset.h"
@@ -18,7 +18,7 @@ namespace geomend::grdecl {
 
 using Dims = std::array<std::uint32_t, 3>;
 /// A failure, or nothing.
-using Trouble = std::optional<Failure>;
+using OptionalFailure = std::optional<Failure>;
 
 /// Cells from first to last, counted from 0, both inclusive.
 struct CellBox {
@@ -34,7 +34,7 @@ struct CellBox {
 /// One value per cell (of the deck's layers: with two porosities twice those of the geometry).
 struct CellArray {
     std::string name;
-    std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::string>> values;
+    VectorVariant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::string>> values;
     Section section = Section::grid;
 };
 
@@ -81,15 +81,15 @@ inline std::uint64_t cells_of(const Dims& d) { return std::uint64_t{d[0]} * d[1]
 Finding finding(std::string code, Location where, std::string message, std::uint64_t count = 0);
 
 /// Item `i` as a number; `value` stays as it is where the item is defaulted. Failure F005 or F006.
-Trouble take_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value);
-Trouble take_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value);
+OptionalFailure take_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value);
+OptionalFailure take_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value);
 /// Item `i` as a number that must be given. Failure F012 where it is not.
-Trouble need_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value);
-Trouble need_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value);
+OptionalFailure need_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value);
+OptionalFailure need_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value);
 
 /// Six items I1 I2 J1 J2 K1 K2 from item `i` on into a box; items that are defaulted stay as they are.
 /// Failure F012 where it is empty or not within the dims (dims 0: not known).
-Trouble take_box(const Scanner& in, const Record& record, std::size_t i, const Dims& dims, CellBox& box);
+OptionalFailure take_box(const Scanner& in, const Record& record, std::size_t i, const Dims& dims, CellBox& box);
 
 /// The next record of a keyword, by item_counts(). A '/' that is missing after all items of an operation on
 /// arrays is taken as read, with a finding F147. Failure F004, F008, F012.
@@ -97,33 +97,33 @@ Result<Record> take_record(Scanner& in, std::string_view keyword, std::vector<Fi
 
 // ---- records of the grid's head, each with the scanner behind its keyword (head_records.cpp) ----
 
-Trouble read_map_axes(Scanner& in, GridText& g, std::vector<Finding>& findings);
-Trouble read_map_units(Scanner& in, GridText& g, std::vector<Finding>& findings);
-Trouble read_grid_unit(Scanner& in, GridText& g, std::vector<Finding>& findings);
-Trouble read_orientation(Scanner& in, GridText& g, std::vector<Finding>& findings);
-Trouble read_reservoirs(Scanner& in, GridText& g, std::vector<Finding>& findings);
-Trouble read_pinch(Scanner& in, GridText& g, std::vector<Finding>& findings);
-Trouble read_least_pore_volume(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_map_axes(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_map_units(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_grid_unit(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_orientation(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_reservoirs(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_pinch(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_least_pore_volume(Scanner& in, GridText& g, std::vector<Finding>& findings);
 
 // ---- lists (list_records.cpp) ----
 
 /// Calls `each` for the records of a list up to its lone '/'. A list that ends with the file, its last line with a
 /// line end, is taken with a finding F101.
 template <class Each>
-Trouble read_list(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, const Each& each);
-bool list_ends(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, Trouble& trouble);
+OptionalFailure read_list(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, const Each& each);
+bool list_ends(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, OptionalFailure& trouble);
 
-Trouble read_faults(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_faults(Scanner& in, GridText& g, std::vector<Finding>& findings);
 /// \param in_edit they stand in section EDIT
-Trouble read_fault_multipliers(Scanner& in, GridText& g, bool in_edit, std::vector<Finding>& findings);
+OptionalFailure read_fault_multipliers(Scanner& in, GridText& g, bool in_edit, std::vector<Finding>& findings);
 /// EDITNNC.
-Trouble read_connection_factors(Scanner& in, GridText& g, std::vector<Finding>& findings);
-Trouble read_connections(Scanner& in, GridText& g, std::vector<Finding>& findings, std::vector<Loss>& losses);
-Trouble read_region_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_connection_factors(Scanner& in, GridText& g, std::vector<Finding>& findings);
+OptionalFailure read_connections(Scanner& in, GridText& g, std::vector<Finding>& findings, std::vector<Loss>& losses);
+OptionalFailure read_region_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings);
 
 template <class Each>
-Trouble read_list(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, const Each& each) {
-    Trouble trouble;
+OptionalFailure read_list(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, const Each& each) {
+    OptionalFailure trouble;
     while (!list_ends(in, keyword, findings, trouble)) {
         auto record = take_record(in, keyword, findings);
         if (!record) return std::move(record).why();
@@ -135,7 +135,7 @@ Trouble read_list(Scanner& in, std::string_view keyword, std::vector<Finding>& f
 // ---- operations on arrays (array_edits.cpp) ----
 
 struct EditResult {
-    Trouble trouble;
+    OptionalFailure trouble;
     bool applied = true;  ///< false: an array that it needs is not there
     std::string missing;  ///< that array
 };
@@ -157,12 +157,13 @@ Result<CornerPointGrid> build_grid(GridText&& text, const Input& input, bool dua
 
 /// Pillars and corner depths from block sizes (DX DY DZ TOPS and their like), Cartesian or radial; takes those arrays
 /// out of the text. Nothing is done where there are none.
-Trouble make_block_geometry(GridText& text, const Input& input, std::uint32_t layers, std::uint64_t& room, std::vector<Finding>& findings);
+OptionalFailure make_block_geometry(GridText& text, const Input& input, std::uint32_t layers, std::uint64_t& room,
+                                    std::vector<Finding>& findings);
 
 /// The geometry of a local grid that has none of its own: its host's cells cut evenly. Sets host cells and activity.
-Trouble refine_host(CornerPointGrid& grid, const std::array<std::vector<std::uint32_t>, 3>& fine_cells,
-                    const std::array<std::vector<double>, 3>& fine_widths, const CornerPointGrid& host, const Input& input,
-                    std::uint64_t& room);
+OptionalFailure refine_host(CornerPointGrid& grid, const std::array<std::vector<std::uint32_t>, 3>& fine_cells,
+                            const std::array<std::vector<double>, 3>& fine_widths, const CornerPointGrid& host, const Input& input,
+                            std::uint64_t& room);
 
 /// Whether a local grid is what refine_host() makes of its host: its corners and activity then go without saying.
 bool is_refined_host(const CornerPointGrid& grid, const CornerPointGrid& host);

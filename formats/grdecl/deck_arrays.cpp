@@ -71,7 +71,7 @@ bool DeckReader::find_dims_ahead() {
     return true;
 }
 
-Trouble DeckReader::need_dims(const char* at, std::string_view name) {
+OptionalFailure DeckReader::need_dims(const char* at, std::string_view name) {
     if (grid().dims || (!probing_ && find_dims_ahead())) {
         grid().dims_used = true;
         return {};
@@ -82,7 +82,7 @@ Trouble DeckReader::need_dims(const char* at, std::string_view name) {
                           "--option dims=NX,NY,NZ, or read the deck that includes this file");
 }
 
-Trouble DeckReader::afford(std::uint64_t values, const char* at, std::string_view name) {
+OptionalFailure DeckReader::afford(std::uint64_t values, const char* at, std::string_view name) {
     if (values > room_) {
         return unreadable("F014", where(at),
                           std::string(name) + " asks for " + std::to_string(values) +
@@ -127,8 +127,8 @@ Failure DeckReader::array_failure(const ArrayScan& scan, std::string_view name, 
 /// The numbers of one record, with its '/'. Where they do not fit and the keyword has text beside it, that may be a
 /// remark, as simulators take it. \pre the scanner stands behind the keyword
 template <class T>
-Trouble DeckReader::numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short,
-                            std::uint64_t or_else) {
+OptionalFailure DeckReader::numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values,
+                                    bool may_be_short, std::uint64_t or_else) {
     const char* begin = in().at();
     auto failed = numbers_here(name, expected, defaults_allowed, values, may_be_short, or_else);
     if (!failed || failed->kind != FailureKind::unreadable || !go_behind_remark(begin)) return failed;
@@ -139,8 +139,8 @@ Trouble DeckReader::numbers(std::string_view name, std::uint64_t expected, bool 
 }
 
 template <class T>
-Trouble DeckReader::numbers_here(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values,
-                                 bool may_be_short, std::uint64_t or_else) {
+OptionalFailure DeckReader::numbers_here(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values,
+                                         bool may_be_short, std::uint64_t or_else) {
     const char* begin = in().at();
     const char* slash = find_slash(begin, in().end());
     if (slash == in().end()) {
@@ -170,17 +170,17 @@ Trouble DeckReader::numbers_here(std::string_view name, std::uint64_t expected, 
     return {};
 }
 
-template Trouble DeckReader::numbers(std::string_view, std::uint64_t, bool, std::vector<double>&, bool, std::uint64_t);
-template Trouble DeckReader::numbers(std::string_view, std::uint64_t, bool, std::vector<std::int32_t>&, bool, std::uint64_t);
+template OptionalFailure DeckReader::numbers(std::string_view, std::uint64_t, bool, std::vector<double>&, bool, std::uint64_t);
+template OptionalFailure DeckReader::numbers(std::string_view, std::uint64_t, bool, std::vector<std::int32_t>&, bool, std::uint64_t);
 
-Trouble DeckReader::coord() {
+OptionalFailure DeckReader::coord() {
     if (probing_) return unknown(word_at_, word_);
     if (auto failed = need_dims(word_at_, word_)) return failed;
     const Dims& d = *grid().dims;
     return numbers(word_, 6 * pillar_count(d) * grid().coordinate_sets, false, grid().pillars);
 }
 
-Trouble DeckReader::zcorn() {
+OptionalFailure DeckReader::zcorn() {
     if (probing_) return unknown(word_at_, word_);
     if (auto failed = need_dims(word_at_, word_)) return failed;
     const std::uint64_t expected = 8 * cells_of(*grid().dims);
@@ -188,7 +188,7 @@ Trouble DeckReader::zcorn() {
     return numbers(word_, expected, false, grid().depths, false, has_two_porosities() ? expected / 2 : 0);
 }
 
-Trouble DeckReader::vector_of_widths() {
+OptionalFailure DeckReader::vector_of_widths() {
     if (probing_) return unknown(word_at_, word_);
     if (auto failed = need_dims(word_at_, word_)) return failed;
     const std::size_t axis = axis_of(word_);
@@ -196,13 +196,13 @@ Trouble DeckReader::vector_of_widths() {
     return numbers(word_, (*grid().dims)[axis], false, grid().widths[axis]);
 }
 
-Trouble DeckReader::corner_tops() {
+OptionalFailure DeckReader::corner_tops() {
     if (probing_) return unknown(word_at_, word_);
     if (auto failed = need_dims(word_at_, word_)) return failed;
     return numbers(word_, pillar_count(*grid().dims), false, grid().corner_tops);
 }
 
-Trouble DeckReader::fine_cells() {
+OptionalFailure DeckReader::fine_cells() {
     if (probing_) return unknown(word_at_, word_);
     const std::size_t axis = axis_of(word_);
     if (current_ == 0) return unreadable("F012", where(word_at_), word_ + " stands outside CARFIN and ENDFIN");
@@ -224,7 +224,7 @@ Trouble DeckReader::fine_cells() {
     return {};
 }
 
-Trouble DeckReader::cell_array(std::string_view name, bool whole) {
+OptionalFailure DeckReader::cell_array(std::string_view name, bool whole) {
     if (probing_) return unknown(word_at_, word_);
     if (auto failed = need_dims(word_at_, name)) return failed;
     const CellBox box = box_.value_or(whole_grid());
@@ -256,7 +256,7 @@ Trouble DeckReader::cell_array(std::string_view name, bool whole) {
 
 /// Sizes of blocks for some layers only: those that are not there are like the one above. Defaults stand for no
 /// thickness, as OPM Flow takes them.
-Trouble DeckReader::block_sizes(std::string_view name, const CellBox& box, const char* at, std::vector<double>& values) {
+OptionalFailure DeckReader::block_sizes(std::string_view name, const CellBox& box, const char* at, std::vector<double>& values) {
     const std::uint64_t layer = (std::uint64_t{box.last[0]} - box.first[0] + 1) * (std::uint64_t{box.last[1]} - box.first[1] + 1);
     const auto unset = static_cast<std::uint64_t>(std::ranges::count(values, unset_real));
     const std::string of = std::to_string(box.count()) + " values of " + std::string(name);
@@ -281,7 +281,7 @@ Trouble DeckReader::block_sizes(std::string_view name, const CellBox& box, const
 
 /// Puts values of the current box where they belong. Elements that they leave out stay what they were.
 template <class T>
-Trouble DeckReader::store(std::string_view name, std::vector<T>&& values, const std::optional<CellKeyword>& row) {
+OptionalFailure DeckReader::store(std::string_view name, std::vector<T>&& values, const std::optional<CellKeyword>& row) {
     GridText& g = grid();
     CellArray* array = g.find(name);
     if (array == nullptr && g.arrays.size() >= 5000) return unreadable("F014", where(word_at_), "more than 5000 properties of cells");
@@ -322,12 +322,12 @@ Trouble DeckReader::store(std::string_view name, std::vector<T>&& values, const 
 }
 
 /// A keyword that is not known: with one value for each cell it is a property, else it is kept as it stands.
-Trouble DeckReader::unknown(const char* begin, const std::string& name) {
-    if (Trouble failed; section_ != Section::runspec && unknown_below_remark(name, failed)) return failed;
+OptionalFailure DeckReader::unknown(const char* begin, const std::string& name) {
+    if (OptionalFailure failed; section_ != Section::runspec && unknown_below_remark(name, failed)) return failed;
     if (in().skip() && section_ != Section::runspec) {
         const char c = *in().at();
         if ((c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == '*') {
-            Trouble failed;
+            OptionalFailure failed;
             if (unknown_numbers(name, failed)) return failed;
         } else if ((c == '\'' || c == '"') && !probing_) {
             if (unknown_words(name)) return {};
@@ -337,7 +337,7 @@ Trouble DeckReader::unknown(const char* begin, const std::string& name) {
     return keep(begin, name, false);
 }
 
-bool DeckReader::unknown_numbers(const std::string& name, Trouble& failed) {
+bool DeckReader::unknown_numbers(const std::string& name, OptionalFailure& failed) {
     const char* start = in().at();
     const char* slash = find_slash(start, in().end());
     if (slash == in().end()) return false;

@@ -14,7 +14,7 @@ namespace {
 
 std::string text_of(const Dims& d) { return std::to_string(d[0]) + " x " + std::to_string(d[1]) + " x " + std::to_string(d[2]); }
 
-Trouble take_dims(const Scanner& in, const Record& record, Dims& dims) {
+OptionalFailure take_dims(const Scanner& in, const Record& record, Dims& dims) {
     for (std::size_t a = 0; a < 3; ++a) {
         std::int64_t n = 1;
         if (auto failed = take_whole(in, record, a, "a number of cells", n)) return failed;
@@ -89,7 +89,7 @@ DeckReader::Handler DeckReader::handler_of(std::string_view name) {
     return row == rows.end() ? nullptr : row->handler;
 }
 
-Trouble DeckReader::set_dims(const Dims& dims, std::string_view keyword, const char* at) {
+OptionalFailure DeckReader::set_dims(const Dims& dims, std::string_view keyword, const char* at) {
     GridText& g = grid();
     const bool first = !g.dims_stated;
     const bool differs = g.dims && *g.dims != dims;
@@ -119,7 +119,7 @@ Result<Record> DeckReader::own_record() {
     return again;
 }
 
-Trouble DeckReader::specgrid() {
+OptionalFailure DeckReader::specgrid() {
     const char* at = word_at_;
     auto record = own_record();
     if (!record) return std::move(record).why();
@@ -142,7 +142,7 @@ Trouble DeckReader::specgrid() {
     return set_dims(dims, word_, at);
 }
 
-Trouble DeckReader::dimens() {
+OptionalFailure DeckReader::dimens() {
     const char* at = word_at_;
     auto record = own_record();
     if (!record) return std::move(record).why();
@@ -156,7 +156,7 @@ CellBox DeckReader::whole_grid() const {
     return {{0, 0, 0}, {d[0] - 1, d[1] - 1, d[2] - 1}};
 }
 
-Trouble DeckReader::box() {
+OptionalFailure DeckReader::box() {
     const char* at = word_at_;
     auto record = own_record();
     if (!record) return std::move(record).why();
@@ -168,14 +168,14 @@ Trouble DeckReader::box() {
     return {};
 }
 
-Trouble DeckReader::end_box() {
+OptionalFailure DeckReader::end_box() {
     box_.reset();
     return {};
 }
 
-Trouble DeckReader::faults() { return read_faults(in(), grid(), findings_); }
+OptionalFailure DeckReader::faults() { return read_faults(in(), grid(), findings_); }
 
-Trouble DeckReader::multflt() {
+OptionalFailure DeckReader::multflt() {
     const char* begin = word_at_;
     if (section_ != Section::none && section_ != Section::grid) {  // it stays in its section
         auto failed = read_fault_multipliers(in(), grid(), true, findings_);
@@ -185,26 +185,26 @@ Trouble DeckReader::multflt() {
     return read_fault_multipliers(in(), grid(), false, findings_);
 }
 
-Trouble DeckReader::editnnc() {
+OptionalFailure DeckReader::editnnc() {
     const char* begin = word_at_;
-    if (probing_) return read_list(in(), word_, findings_, [](const Record&) -> Trouble { return {}; });
+    if (probing_) return read_list(in(), word_, findings_, [](const Record&) -> OptionalFailure { return {}; });
     if (auto failed = need_dims(begin, word_)) return failed;
     auto failed = read_connection_factors(in(), grid(), findings_);
     if (!failed) keep_text(begin, in().at());
     return failed;
 }
 
-Trouble DeckReader::nnc() {
+OptionalFailure DeckReader::nnc() {
     if (probing_) {
-        return read_list(in(), word_, findings_, [](const Record&) -> Trouble { return {}; });
+        return read_list(in(), word_, findings_, [](const Record&) -> OptionalFailure { return {}; });
     }
     if (auto failed = need_dims(word_at_, word_)) return failed;
     return read_connections(in(), grid(), findings_, losses_);
 }
 
-Trouble DeckReader::multregt() { return read_region_multipliers(in(), grid(), findings_); }
+OptionalFailure DeckReader::multregt() { return read_region_multipliers(in(), grid(), findings_); }
 
-Trouble DeckReader::header() {
+OptionalFailure DeckReader::header() {
     GridText& g = grid();
     if (word_ == "MAPAXES") return read_map_axes(in(), g, findings_);
     if (word_ == "MAPUNITS") return read_map_units(in(), g, findings_);
@@ -215,7 +215,7 @@ Trouble DeckReader::header() {
     return read_least_pore_volume(in(), g, findings_);
 }
 
-Trouble DeckReader::radius() {
+OptionalFailure DeckReader::radius() {
     auto record = own_record();
     if (!record) return std::move(record).why();
     double value = 0;
@@ -225,31 +225,31 @@ Trouble DeckReader::radius() {
     return {};
 }
 
-Trouble DeckReader::radial() {
+OptionalFailure DeckReader::radial() {
     grid().radial = true;
     grid().spider = word_ == "SPIDER";
     return {};
 }
 
-Trouble DeckReader::unit_system() {
+OptionalFailure DeckReader::unit_system() {
     unit_system_ = word_;
     return {};
 }
 
-Trouble DeckReader::porosity() {
+OptionalFailure DeckReader::porosity() {
     if (word_ == "DUALPERM") porosity_ = CornerPointGrid::Porosity::dual_permeability;
     else if (porosity_ == CornerPointGrid::Porosity::single) porosity_ = CornerPointGrid::Porosity::dual_porosity;
     return {};
 }
 
-Trouble DeckReader::title() {
+OptionalFailure DeckReader::title() {
     in().skip_line();
     in().skip_line();
     keep_text(word_at_, in().at());
     return {};
 }
 
-Trouble DeckReader::gdfile() {
+OptionalFailure DeckReader::gdfile() {
     auto record = own_record();
     if (!record) return std::move(record).why();
     grid().geometry_file = std::string(trimmed(record->text(0)));
@@ -257,7 +257,7 @@ Trouble DeckReader::gdfile() {
     return {};
 }
 
-Trouble DeckReader::import_file() {
+OptionalFailure DeckReader::import_file() {
     auto record = own_record();
     if (!record) return std::move(record).why();
     if (probing_) return {};
@@ -270,15 +270,15 @@ Trouble DeckReader::import_file() {
     return {};
 }
 
-Trouble DeckReader::edits() {
+OptionalFailure DeckReader::edits() {
     const char* begin = word_at_;
     const std::string keyword = word_;
     if (probing_) {
-        return read_list(in(), keyword, findings_, [](const Record&) -> Trouble { return {}; });
+        return read_list(in(), keyword, findings_, [](const Record&) -> OptionalFailure { return {}; });
     }
     if (auto failed = need_dims(begin, keyword)) return failed;
     CellBox box = box_.value_or(whole_grid());
-    return read_list(in(), keyword, findings_, [&](const Record& record) -> Trouble {
+    return read_list(in(), keyword, findings_, [&](const Record& record) -> OptionalFailure {
         if (stopped()) return failure(FailureKind::cancelled, "F022", {input_->name()}, "reading was stopped");
         EditResult result = apply_edit(in(), keyword, record, grid(), box, section_, room_, findings_);
         if (result.trouble) return std::move(result.trouble);
@@ -294,7 +294,7 @@ Trouble DeckReader::edits() {
     });
 }
 
-Trouble DeckReader::carfin() {
+OptionalFailure DeckReader::carfin() {
     const char* at = word_at_;
     auto record = own_record();
     if (!record) return std::move(record).why();
@@ -338,7 +338,7 @@ Trouble DeckReader::carfin() {
 }
 
 /// Local grids of rings around a well are kept as text, up to their ENDFIN.
-Trouble DeckReader::radial_refinement() {
+OptionalFailure DeckReader::radial_refinement() {
     const char* begin = word_at_;
     while (in().skip()) {
         const Item next = in().item();
@@ -351,7 +351,7 @@ Trouble DeckReader::radial_refinement() {
     return unreadable("F004", where(begin), "expected ENDFIN after " + word_ + ", found the end of the file");
 }
 
-Trouble DeckReader::refine() {
+OptionalFailure DeckReader::refine() {
     auto record = own_record();
     if (!record) return std::move(record).why();
     if (probing_) return {};
@@ -365,7 +365,7 @@ Trouble DeckReader::refine() {
     return unreadable("F007", where(record->begin), "expected a local grid that is there, found " + shown(record->text(0)));
 }
 
-Trouble DeckReader::end_fin() {
+OptionalFailure DeckReader::end_fin() {
     current_ = 0;
     box_.reset();
     return {};

@@ -48,7 +48,7 @@ DeckReader::DeckReader(const Input& input, const ReadOptions& options) : input_(
     grids_.front().grid.info.name = std::move(stem);
 }
 
-Trouble DeckReader::set_options() {
+OptionalFailure DeckReader::set_options() {
     const auto wrong = [](const std::string& message) { return failure(FailureKind::usage, "F018", {}, message); };
     for (const auto& [key, value] : options_->options) {
         if (key == "dims") {
@@ -114,7 +114,7 @@ void DeckReader::take_remark() {
     }
 }
 
-Trouble DeckReader::run() {
+OptionalFailure DeckReader::run() {
     while (!frames_.empty() && !ended_) {
         if (stopped()) return failure(FailureKind::cancelled, "F022", {input_->name()}, "reading was stopped");
         if (kept_as_text(section_)) {
@@ -133,7 +133,7 @@ Trouble DeckReader::run() {
     return {};
 }
 
-Trouble DeckReader::keyword(const Item& word) {
+OptionalFailure DeckReader::keyword(const Item& word) {
     if (!word.quoted && word.text == "/") {
         if (stray_slashes_++ == 0) first_stray_slash_ = where(word.at);
         return {};
@@ -201,7 +201,7 @@ void DeckReader::enter(Section s) {
 }
 
 /// Text of sections that do not concern the grid: up to the line of the next section, END, or the end of the file.
-Trouble DeckReader::section_text() {
+OptionalFailure DeckReader::section_text() {
     const char* begin = in().at();
     const char* end = in().end();
     const char* line = begin;
@@ -231,10 +231,10 @@ Trouble DeckReader::section_text() {
     return {};
 }
 
-Trouble DeckReader::paths() {
+OptionalFailure DeckReader::paths() {
     if (section_ == Section::runspec) keep_text(word_at_, in().at());
     const char* begin = in().at();
-    auto failed = read_list(in(), "PATHS", findings_, [&](const Record& record) -> Trouble {
+    auto failed = read_list(in(), "PATHS", findings_, [&](const Record& record) -> OptionalFailure {
         std::string path(trimmed(record.text(1)));
         std::ranges::replace(path, '\\', '/');
         aliases_[std::string(trimmed(record.text(0)))] = std::move(path);
@@ -244,7 +244,7 @@ Trouble DeckReader::paths() {
     return failed;
 }
 
-Trouble DeckReader::include() {
+OptionalFailure DeckReader::include() {
     in().skip();
     const char* at = in().at();
     Item path;
@@ -269,7 +269,7 @@ Trouble DeckReader::include() {
 }
 
 /// How PFLOTRAN includes: the name of a file, without a '/' behind it, beside the file that names it.
-Trouble DeckReader::external_file() {
+OptionalFailure DeckReader::external_file() {
     in().skip();
     const char* at = in().at();
     std::string_view name = in().rest_of_line();
@@ -281,7 +281,7 @@ Trouble DeckReader::external_file() {
     return open_include(name, at);
 }
 
-Trouble DeckReader::open_include(std::string_view written, const char* at) {
+OptionalFailure DeckReader::open_include(std::string_view written, const char* at) {
     if (frames_.size() >= deepest_include || ++includes_ > most_includes)
         return unreadable("F014", where(at), "files include each other too deeply, or too many of them");
     std::string name(written);
@@ -325,7 +325,7 @@ Trouble DeckReader::open_include(std::string_view written, const char* at) {
     return {};
 }
 
-Trouble DeckReader::skip_block(std::string_view word) {
+OptionalFailure DeckReader::skip_block(std::string_view word) {
     const char* begin = in().at();
     while (in().skip()) {
         const Item next = in().item();
@@ -355,7 +355,7 @@ void DeckReader::keep_text(const char* begin, const char* end) {
 }
 
 /// Keeps a keyword and the records that seem to be its own.
-Trouble DeckReader::keep(const char* begin, std::string_view name, bool known) {
+OptionalFailure DeckReader::keep(const char* begin, std::string_view name, bool known) {
     bool first = true;
     const char* end = in().at();
     while (in().data_follows(first, is_known)) {
@@ -376,7 +376,7 @@ Trouble DeckReader::keep(const char* begin, std::string_view name, bool known) {
 }
 
 /// Properties that simulators do not know stand in a file of their own beside ours.
-Trouble DeckReader::companion_properties() {
+OptionalFailure DeckReader::companion_properties() {
     const std::string base = input_->base_name();
     if (base.empty() || base.ends_with(".properties.grdecl")) return {};
     const std::string name = fs::path(base).stem().string() + ".properties.grdecl";

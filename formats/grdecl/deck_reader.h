@@ -30,76 +30,76 @@ private:
     };
 
     // deck_reader.cpp
-    Trouble set_options();
+    OptionalFailure set_options();
     void take_remark();
     void take_line_remark();  // line_remarks.cpp
     bool go_behind_remark(const char* begin);
     void note_remark(const char* at);
-    Trouble run();
-    Trouble keyword(const Item& word);
-    Trouble section_text();
-    Trouble include();
-    Trouble external_file();
-    Trouble open_include(std::string_view path, const char* at);
-    Trouble paths();
-    Trouble skip_block(std::string_view word);
-    Trouble keep(const char* begin, std::string_view name, bool is_known);
+    OptionalFailure run();
+    OptionalFailure keyword(const Item& word);
+    OptionalFailure section_text();
+    OptionalFailure include();
+    OptionalFailure external_file();
+    OptionalFailure open_include(std::string_view path, const char* at);
+    OptionalFailure paths();
+    OptionalFailure skip_block(std::string_view word);
+    OptionalFailure keep(const char* begin, std::string_view name, bool is_known);
     void keep_text(const char* begin, const char* end);
     void enter(Section s);
     void note_unread(const char* at, const std::string& word);
-    Trouble companion_properties();
+    OptionalFailure companion_properties();
 
     // deck_keywords.cpp: one function for each keyword that says something of a grid
-    using Handler = Trouble (DeckReader::*)();
+    using Handler = OptionalFailure (DeckReader::*)();
     static Handler handler_of(std::string_view name);
-    Trouble specgrid();
-    Trouble dimens();
-    Trouble coord();
-    Trouble zcorn();
-    Trouble box();
-    Trouble end_box();
-    Trouble faults();
-    Trouble multflt();
-    Trouble nnc();
-    Trouble editnnc();
-    Trouble multregt();
-    Trouble header();
-    Trouble vector_of_widths();
-    Trouble corner_tops();
-    Trouble radius();
-    Trouble fine_cells();
-    Trouble carfin();
-    Trouble refine();
-    Trouble end_fin();
-    Trouble gdfile();
-    Trouble import_file();
-    Trouble edits();
-    Trouble title();
-    Trouble unit_system();
-    Trouble porosity();
-    Trouble radial();
-    Trouble radial_refinement();
-    Trouble set_dims(const Dims& dims, std::string_view keyword, const char* at);
+    OptionalFailure specgrid();
+    OptionalFailure dimens();
+    OptionalFailure coord();
+    OptionalFailure zcorn();
+    OptionalFailure box();
+    OptionalFailure end_box();
+    OptionalFailure faults();
+    OptionalFailure multflt();
+    OptionalFailure nnc();
+    OptionalFailure editnnc();
+    OptionalFailure multregt();
+    OptionalFailure header();
+    OptionalFailure vector_of_widths();
+    OptionalFailure corner_tops();
+    OptionalFailure radius();
+    OptionalFailure fine_cells();
+    OptionalFailure carfin();
+    OptionalFailure refine();
+    OptionalFailure end_fin();
+    OptionalFailure gdfile();
+    OptionalFailure import_file();
+    OptionalFailure edits();
+    OptionalFailure title();
+    OptionalFailure unit_system();
+    OptionalFailure porosity();
+    OptionalFailure radial();
+    OptionalFailure radial_refinement();
+    OptionalFailure set_dims(const Dims& dims, std::string_view keyword, const char* at);
 
     // deck_arrays.cpp
-    Trouble need_dims(const char* at, std::string_view name);
+    OptionalFailure need_dims(const char* at, std::string_view name);
     bool find_dims_ahead();
-    Trouble cell_array(std::string_view name, bool whole);
-    Trouble unknown(const char* begin, const std::string& name);
-    bool unknown_numbers(const std::string& name, Trouble& failed);
+    OptionalFailure cell_array(std::string_view name, bool whole);
+    OptionalFailure unknown(const char* begin, const std::string& name);
+    bool unknown_numbers(const std::string& name, OptionalFailure& failed);
     bool unknown_words(const std::string& name);
-    bool unknown_below_remark(const std::string& name, Trouble& failed);  // line_remarks.cpp
+    bool unknown_below_remark(const std::string& name, OptionalFailure& failed);  // line_remarks.cpp
     template <class T>
-    Trouble numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short = false,
-                    std::uint64_t or_else = 0);
+    OptionalFailure numbers(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values,
+                            bool may_be_short = false, std::uint64_t or_else = 0);
     template <class T>
-    Trouble numbers_here(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values, bool may_be_short,
-                         std::uint64_t or_else);
+    OptionalFailure numbers_here(std::string_view name, std::uint64_t expected, bool defaults_allowed, std::vector<T>& values,
+                                 bool may_be_short, std::uint64_t or_else);
     Result<Record> own_record();
     template <class T>
-    Trouble store(std::string_view name, std::vector<T>&& values, const std::optional<CellKeyword>& row);
-    Trouble block_sizes(std::string_view name, const CellBox& box, const char* at, std::vector<double>& values);
-    Trouble afford(std::uint64_t values, const char* at, std::string_view name);
+    OptionalFailure store(std::string_view name, std::vector<T>&& values, const std::optional<CellKeyword>& row);
+    OptionalFailure block_sizes(std::string_view name, const CellBox& box, const char* at, std::vector<double>& values);
+    OptionalFailure afford(std::uint64_t values, const char* at, std::string_view name);
     Failure array_failure(const ArrayScan& scan, std::string_view name, std::string_view text, std::uint64_t expected,
                           const char* slash) const;
 

@@ -18,7 +18,7 @@ Failure bad_word(const Scanner& in, const Record& record, std::size_t i, const s
 
 }  // namespace
 
-Trouble read_map_axes(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+OptionalFailure read_map_axes(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     auto record = take_record(in, "MAPAXES", findings);
     if (!record) return std::move(record).why();
     std::array<double, 6> axes{};
@@ -30,14 +30,14 @@ Trouble read_map_axes(Scanner& in, GridText& g, std::vector<Finding>& findings) 
     return {};
 }
 
-Trouble read_map_units(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+OptionalFailure read_map_units(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     auto record = take_record(in, "MAPUNITS", findings);
     if (!record) return std::move(record).why();
     g.grid.map_unit = take_word(in, *record, 0, "the unit of MAPUNITS", findings);
     return {};
 }
 
-Trouble read_grid_unit(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+OptionalFailure read_grid_unit(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     auto record = take_record(in, "GRIDUNIT", findings);
     if (!record) return std::move(record).why();
     const std::string unit =
@@ -49,7 +49,7 @@ Trouble read_grid_unit(Scanner& in, GridText& g, std::vector<Finding>& findings)
     return {};
 }
 
-Trouble read_orientation(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+OptionalFailure read_orientation(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     auto record = take_record(in, "GDORIENT", findings);
     if (!record) return std::move(record).why();
     const std::array<std::string, 5> usual = {"INC", "INC", "INC", "DOWN", "RIGHT"};
@@ -60,7 +60,7 @@ Trouble read_orientation(Scanner& in, GridText& g, std::vector<Finding>& finding
     return {};
 }
 
-Trouble read_reservoirs(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+OptionalFailure read_reservoirs(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     g.grid.reservoirs.clear();
     const std::uint32_t layers = g.dims ? (*g.dims)[2] : 0;
     while (g.grid.reservoirs.size() < g.coordinate_sets) {
@@ -84,13 +84,13 @@ Trouble read_reservoirs(Scanner& in, GridText& g, std::vector<Finding>& findings
     return {};
 }
 
-Trouble read_pinch(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+OptionalFailure read_pinch(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     auto record = take_record(in, "PINCH", findings);
     if (!record) return std::move(record).why();
     CornerPointGrid::Pinch pinch;
     if (auto failed = take_real(in, *record, 0, "a thickness", pinch.threshold)) return failed;
     if (auto failed = take_real(in, *record, 2, "the largest gap", pinch.largest_gap)) return failed;
-    const auto choose = [&](std::size_t i, const char* no, const char* yes, bool& value) -> Trouble {
+    const auto choose = [&](std::size_t i, const char* no, const char* yes, bool& value) -> OptionalFailure {
         if (!record->given(i)) return {};
         const std::string text = take_word(in, *record, i, "a word of PINCH", findings);
         if (text != no && text != yes) return bad_word(in, *record, i, std::string(no) + " or " + yes);
@@ -104,7 +104,7 @@ Trouble read_pinch(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     return {};
 }
 
-Trouble read_least_pore_volume(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+OptionalFailure read_least_pore_volume(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     auto record = take_record(in, "MINPV", findings);
     if (!record) return std::move(record).why();
     double volume = 1e-6;

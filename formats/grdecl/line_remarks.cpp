@@ -118,7 +118,7 @@ bool DeckReader::go_behind_remark(const char* begin) {
 }
 
 /// Values on the lines below an unknown keyword with text beside it: whether they were taken as a property.
-bool DeckReader::unknown_below_remark(const std::string& name, Trouble& failed) {
+bool DeckReader::unknown_below_remark(const std::string& name, OptionalFailure& failed) {
     const char* begin = in().at();
     const std::string_view line = in().rest_of_line();
     const std::vector<std::string_view> words = words_of(line, 16);

@@ -28,7 +28,7 @@ std::optional<CellFace> face_of(std::string_view text) {
     return static_cast<CellFace>(2 * (axis % 3) + (minus ? 0 : 1));
 }
 
-Trouble take_fault_box(const Scanner& in, const Record& record, Fault::Box& box, std::vector<Finding>& findings) {
+OptionalFailure take_fault_box(const Scanner& in, const Record& record, Fault::Box& box, std::vector<Finding>& findings) {
     constexpr std::array<std::string_view, 6> names = {"I1", "I2", "J1", "J2", "K1", "K2"};
     for (std::size_t n = 0; n < 6; ++n) {
         std::int64_t value = 0;
@@ -48,7 +48,7 @@ Trouble take_fault_box(const Scanner& in, const Record& record, Fault::Box& box,
     return {};
 }
 
-Trouble take_cell(const Scanner& in, const Record& record, std::size_t i, const Dims& dims, std::uint64_t& cell) {
+OptionalFailure take_cell(const Scanner& in, const Record& record, std::size_t i, const Dims& dims, std::uint64_t& cell) {
     constexpr std::array<std::string_view, 3> names = {"I", "J", "K"};
     std::array<std::uint64_t, 3> ijk{};
     for (std::size_t a = 0; a < 3; ++a) {
@@ -67,7 +67,7 @@ Trouble take_cell(const Scanner& in, const Record& record, std::size_t i, const 
 
 }  // namespace
 
-bool list_ends(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, Trouble& trouble) {
+bool list_ends(Scanner& in, std::string_view keyword, std::vector<Finding>& findings, OptionalFailure& trouble) {
     if (in.take_slash()) return true;
     if (std::string_view word; in.word_alone_follows(word) && is_known(word)) {
         if (std::ranges::find(findings, "F147", &Finding::code) == findings.end())
@@ -84,10 +84,10 @@ bool list_ends(Scanner& in, std::string_view keyword, std::vector<Finding>& find
     return true;
 }
 
-Trouble read_faults(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+OptionalFailure read_faults(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     std::unordered_map<std::string, std::size_t> known;
     for (std::size_t f = 0; f < g.grid.faults.size(); ++f) known.emplace(g.grid.faults[f].name, f);
-    return read_list(in, "FAULTS", findings, [&](const Record& record) -> Trouble {
+    return read_list(in, "FAULTS", findings, [&](const Record& record) -> OptionalFailure {
         if (!record.given(0)) return unreadable("F012", in.location(record.begin), "expected the name of a fault");
         Fault::Box box{};
         if (auto failed = take_fault_box(in, record, box, findings)) return failed;
@@ -99,11 +99,11 @@ Trouble read_faults(Scanner& in, GridText& g, std::vector<Finding>& findings) {
     });
 }
 
-Trouble read_fault_multipliers(Scanner& in, GridText& g, bool in_edit, std::vector<Finding>& findings) {
+OptionalFailure read_fault_multipliers(Scanner& in, GridText& g, bool in_edit, std::vector<Finding>& findings) {
     const auto set = [&](Fault& fault, double value) { (in_edit ? fault.edit_multiplier : fault.multiplier) = value; };
     std::unordered_map<std::string, std::size_t> known;
     for (std::size_t f = 0; f < g.grid.faults.size(); ++f) known.emplace(g.grid.faults[f].name, f);
-    return read_list(in, "MULTFLT", findings, [&](const Record& record) -> Trouble {
+    return read_list(in, "MULTFLT", findings, [&](const Record& record) -> OptionalFailure {
         if (!record.given(0)) return unreadable("F012", in.location(record.begin), "expected the name of a fault");
         double value = 1;
         if (auto failed = take_real(in, record, 1, "a multiplier", value)) return failed;
@@ -128,10 +128,10 @@ Trouble read_fault_multipliers(Scanner& in, GridText& g, bool in_edit, std::vect
     });
 }
 
-Trouble read_connections(Scanner& in, GridText& g, std::vector<Finding>& findings, std::vector<Loss>& losses) {
+OptionalFailure read_connections(Scanner& in, GridText& g, std::vector<Finding>& findings, std::vector<Loss>& losses) {
     std::uint64_t more = 0;
     Location first_more;
-    auto failed = read_list(in, "NNC", findings, [&](const Record& record) -> Trouble {
+    auto failed = read_list(in, "NNC", findings, [&](const Record& record) -> OptionalFailure {
         CornerPointGrid::Connection c;
         if (auto wrong = take_cell(in, record, 0, *g.dims, c.first)) return wrong;
         if (auto wrong = take_cell(in, record, 3, *g.dims, c.second)) return wrong;
@@ -153,8 +153,8 @@ Trouble read_connections(Scanner& in, GridText& g, std::vector<Finding>& finding
     return failed;
 }
 
-Trouble read_connection_factors(Scanner& in, GridText& g, std::vector<Finding>& findings) {
-    return read_list(in, "EDITNNC", findings, [&](const Record& record) -> Trouble {
+OptionalFailure read_connection_factors(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    return read_list(in, "EDITNNC", findings, [&](const Record& record) -> OptionalFailure {
         CornerPointGrid::ConnectionFactor c;
         if (auto wrong = take_cell(in, record, 0, *g.dims, c.first)) return wrong;
         if (auto wrong = take_cell(in, record, 3, *g.dims, c.second)) return wrong;
@@ -164,8 +164,8 @@ Trouble read_connection_factors(Scanner& in, GridText& g, std::vector<Finding>& 
     });
 }
 
-Trouble read_region_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings) {
-    return read_list(in, "MULTREGT", findings, [&](const Record& record) -> Trouble {
+OptionalFailure read_region_multipliers(Scanner& in, GridText& g, std::vector<Finding>& findings) {
+    return read_list(in, "MULTREGT", findings, [&](const Record& record) -> OptionalFailure {
         CornerPointGrid::RegionMultiplier m;
         std::int64_t from = 0, to = 0;
         if (auto failed = take_whole(in, record, 0, "a region", from)) return failed;

@@ -80,9 +80,9 @@ void cut_depths(CornerPointGrid& grid, const CornerPointGrid& host, const Cuts& 
 
 }  // namespace
 
-Trouble refine_host(CornerPointGrid& grid, const std::array<std::vector<std::uint32_t>, 3>& fine_cells,
-                    const std::array<std::vector<double>, 3>& fine_widths, const CornerPointGrid& host, const Input& input,
-                    std::uint64_t& room) {
+OptionalFailure refine_host(CornerPointGrid& grid, const std::array<std::vector<std::uint32_t>, 3>& fine_cells,
+                            const std::array<std::vector<double>, 3>& fine_widths, const CornerPointGrid& host, const Input& input,
+                            std::uint64_t& room) {
     const CornerPointGrid::Host& box = *grid.host;
     std::array<Cuts, 3> cuts;
     const std::uint64_t made = 10 * cells_of(grid.dims) + 6 * pillar_count(grid.dims);

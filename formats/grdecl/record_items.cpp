@@ -29,7 +29,7 @@ Result<Record> take_record(Scanner& in, std::string_view keyword, std::vector<Fi
     return record;
 }
 
-Trouble take_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value) {
+OptionalFailure take_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value) {
     if (!record.given(i)) return {};
     const NumberStatus status = record.items[i].quoted ? NumberStatus::malformed : parse_real(record.text(i), value);
     if (status == NumberStatus::ok && std::isfinite(value)) return {};
@@ -38,24 +38,24 @@ Trouble take_real(const Scanner& in, const Record& record, std::size_t i, std::s
                       "expected " + std::string(what) + (malformed ? "" : " as a finite number") + ", found " + shown(record.text(i)));
 }
 
-Trouble take_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value) {
+OptionalFailure take_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value) {
     if (!record.given(i)) return {};
     if (!record.items[i].quoted && parse_integer(record.text(i), value) == NumberStatus::ok) return {};
     return unreadable("F005", in.location(record.items[i].at),
                       "expected " + std::string(what) + " (a whole number), found " + shown(record.text(i)));
 }
 
-Trouble need_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value) {
+OptionalFailure need_real(const Scanner& in, const Record& record, std::size_t i, std::string_view what, double& value) {
     if (!record.given(i)) return missing_item(in, record, what);
     return take_real(in, record, i, what, value);
 }
 
-Trouble need_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value) {
+OptionalFailure need_whole(const Scanner& in, const Record& record, std::size_t i, std::string_view what, std::int64_t& value) {
     if (!record.given(i)) return missing_item(in, record, what);
     return take_whole(in, record, i, what, value);
 }
 
-Trouble take_box(const Scanner& in, const Record& record, std::size_t i, const Dims& dims, CellBox& box) {
+OptionalFailure take_box(const Scanner& in, const Record& record, std::size_t i, const Dims& dims, CellBox& box) {
     constexpr std::array<std::string_view, 6> names = {"I1", "I2", "J1", "J2", "K1", "K2"};
     for (std::size_t n = 0; n < 6; ++n) {
         std::uint32_t& end = n % 2 == 0 ? box.first[n / 2] : box.last[n / 2];

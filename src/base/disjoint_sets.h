@@ -30,7 +30,7 @@ public:
     }
     /// The root of each number. Linear.
     std::vector<std::uint32_t> roots() && {
-        for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = parent_[parent_[i]];  // roots come first
+        for (std::uint32_t& parent : parent_) parent = parent_[parent];  // roots come first
         return std::move(parent_);
     }
 

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/vector_variant.h"
+
 namespace geomend {
 
 /// What the values of an attribute stand on. `pillar` is for corner-point grids.
@@ -16,9 +18,9 @@ enum class AttributeLocation : std::uint8_t { point, edge, polygon, cell, pillar
 
 /// The values, in the type that the file stores. Text formats without a type give double.
 using AttributeValues =
-    std::variant<std::vector<double>, std::vector<float>, std::vector<std::int8_t>, std::vector<std::uint8_t>, std::vector<std::int16_t>,
-                 std::vector<std::uint16_t>, std::vector<std::int32_t>, std::vector<std::uint32_t>, std::vector<std::int64_t>,
-                 std::vector<std::uint64_t>, std::vector<std::string>>;
+    VectorVariant<std::vector<double>, std::vector<float>, std::vector<std::int8_t>, std::vector<std::uint8_t>, std::vector<std::int16_t>,
+                  std::vector<std::uint16_t>, std::vector<std::int32_t>, std::vector<std::uint32_t>, std::vector<std::int64_t>,
+                  std::vector<std::uint64_t>, std::vector<std::string>>;
 
 /// How the values of a cell attribute stand on the corners of each cell, corner after corner: surfaces that differ at
 /// points which they share, and data of elements' nodes in MSH.

@@ -117,7 +117,7 @@ void to_tagged_meshes(Dataset& dataset, const Format& target) {
 
 bool is_flat_mesh(const Object& object) {
     const auto* mesh = std::get_if<CellMesh>(&object);
-    return mesh != nullptr && topology::is_flat(*mesh);
+    return mesh != nullptr && topology::has_no_volume_cells(*mesh);
 }
 
 // Takes meshes of points, lines and faces apart into surfaces, polylines and point sets.

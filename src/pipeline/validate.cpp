@@ -26,7 +26,7 @@ bool has_checks(const Object& object) {
 
 // Whether the reader had to leave something out, because a companion file is missing, say.
 bool lacks_a_part(const Dataset& dataset) {
-    return std::ranges::any_of(dataset.findings, [](const Finding& f) { return validators::always_told(f.code); });
+    return std::ranges::any_of(dataset.findings, [](const Finding& f) { return validators::always_reported(f.code); });
 }
 
 // One finding for each kind of object of which some hold nothing to judge.

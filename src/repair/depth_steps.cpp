@@ -4,7 +4,7 @@
 
 #include "base/wording.h"
 #include "repair/grid_steps.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 
 // Steps that move corner depths. Columns are independent of each other.
 

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "repair/grid_steps.h"
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 
 // The rows of a grid in the opposite order: J counts the other way, so that what was left-handed becomes right-handed.
 // No cell moves; all that is said of cells goes with them.

@@ -248,7 +248,7 @@ private:
 
 }  // namespace
 
-bool is_flat(const CellMesh& mesh) {
+bool has_no_volume_cells(const CellMesh& mesh) {
     if (mesh.cell_count() == 0) return false;
     return std::ranges::none_of(mesh.types, [](CellType t) { return dimension(t) > 2 || is_second_order(t); });
 }

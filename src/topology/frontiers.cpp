@@ -27,9 +27,9 @@ struct Leaf {
 };
 
 /// Order of half-planes around the axis a -> b, counter-clockwise from that of `reference`.
-class Around {
+class RadialOrder {
 public:
-    Around(const Vec3& a, const Vec3& b, const Vec3& reference) : a_(a), b_(b), reference_(reference) {}
+    RadialOrder(const Vec3& a, const Vec3& b, const Vec3& reference) : a_(a), b_(b), reference_(reference) {}
 
     /// 0 the reference's own direction, 1 less than half a turn, 2 opposite, 3 more.
     int half(const Vec3& p) const {
@@ -82,9 +82,9 @@ std::uint32_t longest_edge(const BrepData& brep, const LineGraph& graph, std::ui
 }
 
 /// Which polygons of a surface belong to a part that shares no edge with the one that has most; asked for when needed.
-class LesserParts {
+class MinorPieces {
 public:
-    explicit LesserParts(const BrepData& brep) : brep_(brep), of_surface_(brep.surfaces.size()) {}
+    explicit MinorPieces(const BrepData& brep) : brep_(brep), of_surface_(brep.surfaces.size()) {}
 
     bool contains(std::uint32_t surface, std::uint32_t polygon) {
         if (!of_surface_[surface]) of_surface_[surface] = find(brep_.surfaces[surface]);
@@ -125,7 +125,7 @@ private:
 /// Lists the sides that face each other around a line. False when two polygons coincide. Around the free border of a part that
 /// does not hang together with its surface none are listed: a stray triangle would make a leak of the surface.
 bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const PolygonEdges> all_edges, std::uint32_t line,
-                 std::span<const double> tolerances, LesserParts& lesser, std::vector<FoundRegions::Join>& joins) {
+                 std::span<const double> tolerances, MinorPieces& lesser, std::vector<FoundRegions::Join>& joins) {
     const auto uses = graph.edge_uses(graph.edges[longest_edge(brep, graph, line)]);
     const Vec3& a = brep.vertices[uses[0].low];
     const Vec3& b = brep.vertices[uses[0].high];
@@ -142,7 +142,7 @@ bool join_around(const BrepData& brep, const LineGraph& graph, std::span<const P
         leaves.push_back({brep.vertices[tip.value], use.surface, use.direction > 0});
     }
     if (leaves.empty()) return true;
-    const Around around(a, b, leaves[0].tip);
+    const RadialOrder around(a, b, leaves[0].tip);
     std::stable_sort(leaves.begin(), leaves.end(), [&](const Leaf& x, const Leaf& y) { return around.compare(x.tip, y.tip) < 0; });
     for (std::size_t i = 0; leaves.size() > 1 && i < leaves.size(); ++i) {
         const Vec3 &p = leaves[i].tip, &q = leaves[(i + 1) % leaves.size()].tip;
@@ -294,7 +294,7 @@ FoundRegions find_regions(const BrepData& brep, const LineGraph& graph, std::spa
     DisjointSets sides(2 * brep.surfaces.size()), groups(brep.surfaces.size());
     std::vector<PolygonEdges> all_edges;
     for (const auto& surface : brep.surfaces) all_edges.emplace_back(surface.polygons);
-    LesserParts lesser(brep);
+    MinorPieces lesser(brep);
     for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
         if (!join_around(brep, graph, all_edges, l, tolerances, lesser, found.joins)) found.uncertain_lines.emplace_back(l);
         std::uint32_t first = no_index;

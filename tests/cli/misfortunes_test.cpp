@@ -46,8 +46,31 @@ bool has_the_sizes_of(const Contents& files, const Contents& good) {
                               [](const auto& a, const auto& b) { return a.first == b.first && a.second.size() == b.second.size(); });
 }
 
+// A report says so where a file was not judged for want of memory.
+bool names_memory(const Contents& files, const Written& output) {
+    return files.size() == 1 && files.contains(output.name) && files.at(output.name).find("not enough memory") != std::string::npos;
+}
+
 // Sanitisers want to be the first library themselves.
 bool can_be_arranged() { return run_in_trouble({"--version"}, {.misfortune = "memory -1 none"}) == 0; }
+
+TEST(Misfortunes, OneFailedAllocationLeavesTheOlderOutputOrAllOfTheNewOne) {
+    if (!can_be_arranged()) GTEST_SKIP() << "no library can be loaded before the others here";
+    constexpr long places = 10;
+    for (const Written& written : all_outputs()) {
+        const Written output = in_one_thread(written);
+        const long calls = calls_of("memory", output);
+        for (long place = 0; place < places; ++place) {
+            const long number = (2 * place + 1) * calls / (2 * places);
+            int status = 0;
+            const auto left = over_an_older_one(output, {.misfortune = misfortune("memory", number, output)}, status);
+            const std::string what = output.name + ": allocation " + std::to_string(number) + " of " + std::to_string(calls);
+            EXPECT_TRUE(status == 0 || status == 4 || status == 5) << what << ": status " << status;
+            EXPECT_TRUE((status != 0 && (left == untouched(output) || names_memory(left, output))) || has_the_sizes_of(left, output.good))
+                << what;
+        }
+    }
+}
 
 TEST(Misfortunes, OneWriteThatFailsLeavesTheOlderOutput) {
     if (!can_be_arranged()) GTEST_SKIP() << "no library can be loaded before the others here";

@@ -94,10 +94,10 @@ TEST(FlatObjects, KeepEveryPointOfASingleObjectAndFindItsLines) {
 
 TEST(FlatObjects, AreNotMadeOfVolumes) {
     CellMesh m = mesh();
-    EXPECT_TRUE(is_flat(m));
+    EXPECT_TRUE(has_no_volume_cells(m));
     add(m, CellType::tetrahedron, {0, 1, 2, 3}, no_index);
-    EXPECT_FALSE(is_flat(m));
-    EXPECT_FALSE(is_flat(CellMesh{}));
+    EXPECT_FALSE(has_no_volume_cells(m));
+    EXPECT_FALSE(has_no_volume_cells(CellMesh{}));
 }
 
 }  // namespace

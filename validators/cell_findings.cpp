@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "validators/found_cells.h"
+#include "validators/cell_findings.h"
 
 #include <cstdio>
 

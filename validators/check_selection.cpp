@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "validators/choice.h"
+#include "validators/check_selection.h"
 
 #include <algorithm>
 #include <string>
@@ -46,7 +46,7 @@ bool stands_for(std::string_view word, std::string_view code) {
     return fits(word, code);
 }
 
-bool always_told(std::string_view code) { return code.starts_with("F0") || code == "M09"; }
+bool always_reported(std::string_view code) { return code.starts_with("F0") || code == "M09"; }
 
 std::string_view nearest_code(std::string_view word) {
     std::vector<std::string_view> codes;
@@ -64,7 +64,7 @@ Result<void> known_codes(const CheckOptions& options) {
     }
     for (const std::string& word : options.skip) {
         const CodeInfo* row = find_code(word);
-        if (row != nullptr && always_told(row->code))
+        if (row != nullptr && always_reported(row->code))
             return failure(FailureKind::usage, "F018", {},
                            "--skip " + word + ": it says that " + std::string(row->meaning) +
                                ". Then nothing is judged, and the report must say so: it cannot be left out");
@@ -72,10 +72,10 @@ Result<void> known_codes(const CheckOptions& options) {
     return {};
 }
 
-bool skipped(const CheckOptions& options, std::string_view code) { return !always_told(code) && names(options.skip, code); }
+bool skipped(const CheckOptions& options, std::string_view code) { return !always_reported(code) && names(options.skip, code); }
 
 bool wanted(const CheckOptions& options, std::string_view code) {
-    return always_told(code) || ((options.only.empty() || names(options.only, code)) && !skipped(options, code));
+    return always_reported(code) || ((options.only.empty() || names(options.only, code)) && !skipped(options, code));
 }
 
 bool leaves_checks_out(const CheckOptions& options, const Dataset& dataset) {
@@ -102,7 +102,8 @@ bool leaves_checks_out(const CheckOptions& options, const Dataset& dataset) {
 }
 
 bool judges_anything(const CheckOptions& options) {
-    return std::ranges::any_of(all_checks(), [&](const Check& check) { return !always_told(check.code) && wanted(options, check.code); });
+    return std::ranges::any_of(all_checks(),
+                               [&](const Check& check) { return !always_reported(check.code) && wanted(options, check.code); });
 }
 
 }  // namespace geomend::validators

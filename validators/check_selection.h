@@ -17,7 +17,7 @@ bool stands_for(std::string_view word, std::string_view code);
 
 /// Findings that nobody can leave out: a file could not be read or written, or the work was not done (F001 to F099), or
 /// coordinates do not allow to judge anything (M09). Without them a report would call valid what it has not seen.
-bool always_told(std::string_view code);
+bool always_reported(std::string_view code);
 
 /// Failure (usage) where a word of `only` or `skip` stands for no code, with the code that is most like it; where a code is
 /// named to be skipped that is always told; and where there is no such target.
