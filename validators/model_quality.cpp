@@ -63,18 +63,21 @@ void check_folds(const ModelScope& scope, std::vector<Finding>& findings) {
         const auto& surface = scope.brep().surfaces[s];
         if (!surface.polygons.all_triangles()) return std::nullopt;
         // By the directions in which the two triangles leave their edge, whatever sense they are wound in.
-        const auto leaving = [&](std::uint32_t p, const Vec3& from, const Vec3& to) {
-            const VertexId tip = topology::far_vertex(scope.brep(), surface, p, from, to);
-            return across(minus(scope.brep().vertices[tip.value], from), minus(to, from));
+        const auto& corners = surface.polygons.corners;
+        const auto leaving = [&](std::uint32_t p, std::uint32_t from, std::uint32_t to) {
+            std::size_t tip = 3 * std::size_t{p};
+            while (corners[tip] == from || corners[tip] == to) ++tip;
+            const Vec3& base = scope.vertex_of_node(surface, from);
+            return across(minus(scope.vertex_of_node(surface, corners[tip]), base), minus(scope.vertex_of_node(surface, to), base));
         };
         std::vector<std::uint32_t> folded;
         double worst = 0;
         for (std::uint32_t c = 0; c < surface.neighbours.size(); ++c) {
             const std::uint32_t p = c / 3, q = surface.neighbours[c];
             if (q == no_index || q < p) continue;
-            const Vec3& from = scope.vertex_of_node(surface, surface.polygons.corners[c]);
-            const Vec3& to = scope.vertex_of_node(surface, surface.polygons.corners[c % 3 == 2 ? c - 2 : c + 1]);
+            const std::uint32_t from = corners[c], to = corners[c % 3 == 2 ? c - 2 : c + 1];
             const Vec3 a = leaving(p, from, to), b = leaving(q, from, to);
+            if (dot(a, b) <= 0) continue;
             const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
             if (!(cosine > limit)) continue;
             worst = std::max(worst, cosine);

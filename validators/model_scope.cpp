@@ -168,7 +168,11 @@ void ModelScope::find_twin_nodes() {
 }
 
 const TriangleTree& ModelScope::tree() const {
-    if (!tree_) tree_ = std::make_unique<TriangleTree>(brep().vertices, triangles_);
+    if (!tree_) {
+        std::vector<std::uint32_t> surfaces;
+        for (std::uint32_t s = 0; s < brep().surfaces.size(); ++s) surfaces.resize(first_triangle(s + 1), s);
+        tree_ = std::make_unique<TriangleTree>(brep().vertices, triangles_, 0, surfaces);
+    }
     return *tree_;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "geometry/near_misses.h"
+#include "geometry/near_triangles.h"
 #include "geometry/surface_distance.h"
 #include "geometry/surface_walk.h"
 #include "geometry/vectors.h"
@@ -19,11 +20,9 @@ namespace geomend {
 
 namespace {
 
-constexpr std::size_t fours_per_block = 4;    // the triangles whose vertices and edges look about together
-constexpr std::size_t blocks_per_chunk = 64;  // what one thread does at a time
-constexpr std::uint32_t mixed = 0xffffffff;   // four triangles of more than one group
+constexpr std::size_t chunk_level = 4, chunk_size = 1024;  // what one thread does at a time: the triangles of a node of this level
 // Beyond these everything is near everything.
-constexpr std::size_t most_pairs_per_chunk = 300 * 4 * fours_per_block * blocks_per_chunk, most_walks = 1000;
+constexpr std::size_t most_pairs_per_chunk = 150 * chunk_size, most_walks = 1000;
 
 /// A place where the distance between two groups is smallest.
 struct Place {
@@ -35,65 +34,59 @@ struct Place {
 class PlaceSearch {
 public:
     /// \param near of each group
-    PlaceSearch(const SurfaceDistance& soup, std::span<const std::uint32_t> four_groups, std::span<const double> near,
-                std::vector<Place>& places)
-        : soup_(soup), four_groups_(four_groups), near_of_(near), around_(soup.tree()), places_(places) {}
+    PlaceSearch(const SurfaceDistance& soup, std::span<const double> near, std::vector<Place>& places)
+        : soup_(soup), near_of_(near), places_(places) {}
 
-    /// False when there are too many triangles near those of the chunk.
-    bool run(std::size_t block) {
-        const auto& fours = soup_.tree().levels().front();
-        const std::size_t first = block * fours_per_block, last = std::min(fours.size(), first + fours_per_block);
-        std::uint32_t own = four_groups_[first];
-        for (std::size_t four = first; four != last; ++four) own = four_groups_[four] == own ? own : mixed;
-        double farthest = 0;
-        for (std::size_t i = 4 * first; i < std::min(4 * last, soup_.tree().size()); ++i)
-            farthest = std::max(farthest, near_of_[soup_.group(static_cast<std::uint32_t>(i))]);
-        around_.collect(soup_.tree().widened(outer_box(fours, first, last), farthest),
-                        [&](std::size_t four) { return own == mixed || four_groups_[four] != own; });
-        if (around_.empty() || !(farthest > 0)) return true;
-        for (std::size_t i = 4 * first; i < std::min(4 * last, soup_.tree().size()); ++i) {
-            const auto t = static_cast<std::uint32_t>(i);
+    void run(const NearTriangles& all) {
+        for (std::uint32_t i = 0; i < all.size(); ++i) {
+            if (all.at(i).empty()) continue;
+            const std::uint32_t t = all.first() + i;
             near_ = near_of_[soup_.group(t)];
-            if (!(near_ > 0)) continue;
-            find_others(t);
-            pairs_ += others_.size();
-            if (pairs_ > most_pairs_per_chunk) return false;
-            for (std::size_t k = 0; k < 3 && !others_.empty(); ++k) {
-                look_about(t, soup_.triangle(t)[k]);
-                look_along(t, k);
-            }
+            take_near(t, all.at(i));
+            look_from(t, others_);
+            for (const std::uint32_t other : others_) look_from(other, std::span(&t, 1));
         }
-        return true;
     }
 
 private:
     const SurfaceDistance& soup_;
-    const std::span<const std::uint32_t> four_groups_;
     const std::span<const double> near_of_;
     double near_ = 0;  ///< of the triangle at hand
-    Neighbourhood around_;
     std::vector<Place>& places_;
-    std::size_t pairs_ = 0;              ///< that were looked at
-    std::vector<std::uint32_t> others_;  ///< triangles of other groups near the one at hand
+    std::vector<std::uint32_t> others_;  ///< near the one at hand
     std::vector<Vec3> ways_;
 
-    /// Those that share a vertex with the triangle come closer to it wherever one starts.
-    void find_others(std::uint32_t t) {
+    /// From the vertices and edges of a triangle to others, none of which shares a vertex with it: those come closer to it wherever
+    /// one starts.
+    void look_from(std::uint32_t t, std::span<const std::uint32_t> others) {
+        if (others.empty()) return;
+        for (std::size_t k = 0; k < 3; ++k) {
+            look_about(t, soup_.triangle(t)[k], others);
+            look_along(t, k, others);
+        }
+    }
+
+    /// Leaves out those that lie beyond the plane of a triangle, farther from it than near_ by more than rounding.
+    void take_near(std::uint32_t t, std::span<const std::uint32_t> others) {
         others_.clear();
-        const std::uint32_t own = soup_.group(t);
-        around_.visit_triangles(
-            soup_.tree().widened(box_of(t), near_), [&](std::size_t four) { return four_groups_[four] != own; },
-            [&](std::size_t i) {
-                const auto other = static_cast<std::uint32_t>(i);
-                const std::uint32_t group = soup_.group(other);
-                if (group != own && near_of_[group] == near_ && !share_a_vertex(t, other)) others_.push_back(other);
-            });
+        const std::array<Vec3, 3> own = soup_.corners(t);
+        const Vec3 u = minus(own[1], own[0]), v = minus(own[2], own[0]), normal = cross(u, v);
+        const double limit = near_ * std::sqrt(dot(normal, normal)) * (1 + 1e-12), rounding = 1e-14 * (dot(u, u) + dot(v, v));
+        for (const std::uint32_t other : others) {
+            double lowest = HUGE_VAL, highest = -HUGE_VAL, reach = 0;
+            for (const std::uint32_t vertex : soup_.triangle(other)) {
+                const Vec3 way = minus(soup_.position(vertex), own[0]);
+                const double height = dot(normal, way);
+                lowest = std::min(lowest, height);
+                highest = std::max(highest, height);
+                reach = std::max(reach, std::abs(way[0]) + std::abs(way[1]) + std::abs(way[2]));
+            }
+            const double beyond = limit + rounding * reach;
+            if (lowest <= beyond && highest >= -beyond) others_.push_back(other);
+        }
     }
+
     Box box_of(std::uint32_t t) const { return soup_.tree().levels().front()[t / 4].box(t % 4); }
-    bool share_a_vertex(std::uint32_t a, std::uint32_t b) const {
-        const Triangle& v = soup_.triangle(a);
-        return soup_.has(b, v[0]) || soup_.has(b, v[1]) || soup_.has(b, v[2]);
-    }
     bool overlaps(std::uint32_t t, const Box& box) const {
         const Box own = box_of(t);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -147,11 +140,11 @@ private:
 
     // ---- a vertex, and whatever of another group is closest to it there
 
-    void look_about(std::uint32_t t, std::uint32_t vertex) {
+    void look_about(std::uint32_t t, std::uint32_t vertex, std::span<const std::uint32_t> others) {
         const Vec3& point = soup_.position(vertex);
         const std::uint32_t own = soup_.group(t);
         Turn turn = Turn::unknown;
-        for (const std::uint32_t other : others_) {
+        for (const std::uint32_t other : others) {
             if (soup_.tree().is_farther(point, other, near_)) continue;
             if (!is_first_at(t, vertex, vertex, turn)) return;
             if (has_all_ahead(other, point)) continue;
@@ -186,7 +179,7 @@ private:
 
     // ---- the insides of two edges; each two are met once, from the lower group
 
-    void look_along(std::uint32_t t, std::size_t k) {
+    void look_along(std::uint32_t t, std::size_t k, std::span<const std::uint32_t> others) {
         const std::uint32_t p = soup_.triangle(t)[k], q = soup_.triangle(t)[(k + 1) % 3], own = soup_.group(t);
         Vec3 low{}, high{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -195,7 +188,7 @@ private:
         }
         const Box box = soup_.tree().box(low, high, near_);
         Turn turn = Turn::unknown;
-        for (const std::uint32_t other : others_) {
+        for (const std::uint32_t other : others) {
             if (soup_.group(other) < own || !overlaps(other, box)) continue;
             if (!is_first_at(t, p, q, turn)) return;
             if (has_all_ahead(other, soup_.position(p))) continue;
@@ -235,17 +228,15 @@ public:
 
     /// False when stopped.
     bool find_places(const Monitor* monitor) {
-        const std::size_t fours = soup_.tree().levels().front().size();
-        const std::vector<std::uint32_t> groups = groups_of_fours(fours);
-        const std::size_t blocks = (fours + fours_per_block - 1) / fours_per_block;
-        std::vector<std::vector<Place>> parts((blocks + blocks_per_chunk - 1) / blocks_per_chunk);
+        const std::size_t level = std::min(chunk_level, soup_.tree().levels().size() - 1);
+        const NodeGroups groups(soup_, level + 1);
+        std::vector<std::vector<Place>> parts(soup_.tree().levels()[level].size());
         std::vector<std::uint8_t> crowded(parts.size(), 0);
         parallel_for_each_index(parts.size(), [&](std::size_t part) {
             if (monitor != nullptr && monitor->stopped()) return;
-            PlaceSearch search(soup_, groups, near_of_, parts[part]);
-            const std::size_t last = std::min(blocks, (part + 1) * blocks_per_chunk);
-            for (std::size_t block = part * blocks_per_chunk; block != last && crowded[part] == 0; ++block)
-                crowded[part] = search.run(block) ? 0 : 1;
+            NearTriangles near(soup_, groups, near_of_);
+            crowded[part] = near.collect(level, part, most_pairs_per_chunk) ? 0 : 1;
+            PlaceSearch(soup_, near_of_, parts[part]).run(near);
         });
         for (std::size_t part = 0; part < parts.size(); ++part) {
             if (crowded[part] != 0) note_groups(part);
@@ -296,21 +287,11 @@ private:
     std::vector<std::uint32_t> cut_short_;
 
     void note_groups(std::size_t part) {
-        const std::size_t size = 4 * fours_per_block * blocks_per_chunk, last = std::min(soup_.tree().size(), (part + 1) * size);
-        for (std::size_t i = part * size; i < last; ++i) {
+        const std::size_t last = std::min(soup_.tree().size(), (part + 1) * chunk_size);
+        for (std::size_t i = part * chunk_size; i < last; ++i) {
             const std::uint32_t group = soup_.group(static_cast<std::uint32_t>(i));
             if (cut_short_.empty() || cut_short_.back() != group) cut_short_.push_back(group);
         }
-    }
-
-    std::vector<std::uint32_t> groups_of_fours(std::size_t count) const {
-        std::vector<std::uint32_t> groups(count);
-        for (std::size_t i = 0; i < soup_.tree().size(); ++i) {
-            const std::uint32_t group = soup_.group(static_cast<std::uint32_t>(i));
-            if (i % 4 == 0) groups[i / 4] = group;
-            if (groups[i / 4] != group) groups[i / 4] = mixed;
-        }
-        return groups;
     }
 
     ClosePair pair_at(const Place& place) const {

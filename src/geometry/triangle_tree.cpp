@@ -63,6 +63,16 @@ void radix_sort(std::vector<std::uint64_t>& keys, unsigned first_bit) {
     }
 }
 
+/// Puts keys of one group side by side within each run of some.
+template <class Group>
+void part_by_groups(std::span<std::uint64_t> keys, const Group& group) {
+    constexpr std::size_t run = 256;  // a node of the tree
+    parallel_blocks((keys.size() + run - 1) / run, 16, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i != to; ++i)
+            std::ranges::stable_sort(keys.subspan(run * i, std::min(run, keys.size() - run * i)), std::less{}, group);
+    });
+}
+
 bool degenerate(std::span<const Vec3> vertices, const Triangle& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || in_line(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
 }
@@ -83,20 +93,18 @@ void FourBoxes::set(std::size_t k, const Box& box) {
     }
 }
 
+Box FourBoxes::empty_box() { return geomend::empty_box; }
+
 Box FourBoxes::around() const {
-    Box all = empty_box;
+    Box all = geomend::empty_box;
     for (std::size_t k = 0; k < 4; ++k) enclose(all, box(k));
     return all;
 }
 
-Box outer_box(std::span<const FourBoxes> fours, std::size_t first, std::size_t last) {
-    Box all = empty_box;
-    for (std::size_t i = first; i != last; ++i) enclose(all, fours[i].around());
-    return all;
-}
-
-TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles, double margin) : vertices_(vertices) {
-    sort_triangles(triangles);
+TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles, double margin,
+                           std::span<const std::uint32_t> groups)
+    : vertices_(vertices) {
+    sort_triangles(triangles, groups);
     make_boxes(margin);
 }
 
@@ -120,7 +128,7 @@ Box TriangleTree::widened(const Box& box, double distance) const {
     return wide;
 }
 
-void TriangleTree::sort_triangles(std::span<const Triangle> triangles) {
+void TriangleTree::sort_triangles(std::span<const Triangle> triangles, std::span<const std::uint32_t> groups) {
     const std::size_t count = triangles.size();
     if (count == 0) return;
     Extent extent = extent_of(vertices_);
@@ -160,6 +168,7 @@ void TriangleTree::sort_triangles(std::span<const Triangle> triangles) {
     radix_sort(keys, number_bits);
     const std::uint64_t number_mask = (std::uint64_t{1} << number_bits) - 1;
     while (!keys.empty() && keys.back() >> 63 != 0) keys.pop_back();
+    if (!groups.empty()) part_by_groups(keys, [&](std::uint64_t key) { return groups[key & number_mask]; });
     order_.resize(keys.size());
     triangles_.resize(keys.size());
     parallel_blocks(keys.size(), grain, [&](std::size_t from, std::size_t to) {
@@ -191,15 +200,6 @@ void TriangleTree::make_boxes(double margin) {
         const std::vector<FourBoxes>& below = levels_.back();
         make_level(below.size(), [&](std::size_t i) { return below[i].around(); });
     }
-}
-
-void Neighbourhood::add(std::size_t four) {
-    if (fours_.size() % 4 == 0) {
-        FourBoxes& empty = boxes_.emplace_back();
-        for (std::size_t k = 0; k < 4; ++k) empty.set(k, empty_box);
-    }
-    boxes_.back().set(fours_.size() % 4, tree_.levels().front()[four].around());
-    fours_.push_back(four);
 }
 
 }  // namespace geomend

@@ -28,6 +28,8 @@ struct Box {
 struct FourBoxes {
     std::array<std::array<float, 4>, 3> low, high;
 
+    /// A box that overlaps nothing.
+    static Box empty_box();
     Box box(std::size_t k) const { return {{low[0][k], low[1][k], low[2][k]}, {high[0][k], high[1][k], high[2][k]}}; }
     void set(std::size_t k, const Box& box);
     /// The smallest box around them.
@@ -59,9 +61,6 @@ void visit_bits(unsigned bits, const Visit& visit) {
     for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-/// The smallest box around fours first to last - 1.
-Box outer_box(std::span<const FourBoxes> fours, std::size_t first, std::size_t last);
-
 /// A search tree over the triangles of a soup: they are put in the order of a Hilbert curve through their centres, and boxes
 /// are put around each four, each four fours, and so on (a packed R-tree). Degenerate triangles (equal vertex numbers, or
 /// positions in line) are left out. Long empty stretches cost nothing: parts may lie
@@ -69,7 +68,9 @@ Box outer_box(std::span<const FourBoxes> fours, std::size_t first, std::size_t l
 class TriangleTree {
 public:
     /// \param margin boxes are so much wider that triangles within this distance of each other have boxes that overlap
-    TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles, double margin = 0);
+    /// \param groups of the triangles (their surfaces), or none: of triangles near each other those of one group are side by side
+    TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles, double margin = 0,
+                 std::span<const std::uint32_t> groups = {});
 
     std::size_t size() const { return order_.size(); }
     /// Number, in the given soup, of the i-th triangle in the tree's order.
@@ -148,7 +149,7 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<std::vector<FourBoxes>> levels_;
 
-    void sort_triangles(std::span<const Triangle> triangles);
+    void sort_triangles(std::span<const Triangle> triangles, std::span<const std::uint32_t> groups);
     void make_boxes(double margin);
 
     template <class Visit>
@@ -156,44 +157,6 @@ private:
         if (level == target) return visit(i);
         visit_bits(levels_[level][i].overlapping(box), [&](std::size_t k) { visit_below(level - 1, 4 * i + k, target, box, visit); });
     }
-};
-
-/// The triangles near one place, for many questions that need only these: fours whose outer boxes are copied side by side.
-class Neighbourhood {
-public:
-    explicit Neighbourhood(const TriangleTree& tree) : tree_(tree) {}
-
-    /// Takes the fours whose outer box overlaps the given one and for which keep(four) holds.
-    template <class Keep>
-    void collect(const Box& box, const Keep& keep) {
-        fours_.clear();
-        boxes_.clear();
-        tree_.visit_fours(box, [&](std::size_t four) {
-            if (keep(four)) add(four);
-        });
-    }
-    bool empty() const { return fours_.empty(); }
-
-    /// Calls visit(i) for each triangle in the tree's order, ascending, whose box overlaps the given one and that is in one of the
-    /// fours taken for which keep(four) holds.
-    template <class Keep, class Visit>
-    void visit_triangles(const Box& box, const Keep& keep, const Visit& visit) const {
-        const std::vector<FourBoxes>& triangles = tree_.levels().front();
-        for (std::size_t group = 0; group < boxes_.size(); ++group) {
-            visit_bits(boxes_[group].overlapping(box), [&](std::size_t k) {
-                const std::size_t four = fours_[4 * group + k];
-                if (!keep(four)) return;
-                visit_bits(triangles[four].overlapping(box), [&](std::size_t m) { visit(4 * four + m); });
-            });
-        }
-    }
-
-private:
-    const TriangleTree& tree_;
-    std::vector<std::size_t> fours_;
-    std::vector<FourBoxes> boxes_;  ///< outer boxes of the fours, four by four
-
-    void add(std::size_t four);
 };
 
 }  // namespace geomend

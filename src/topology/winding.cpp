@@ -7,16 +7,42 @@
 
 namespace geomend::topology {
 
+namespace {
+
+/// Whether a polygon goes along the edge between two nodes from the first to the second.
+bool goes_along(const Polygons& polygons, std::uint32_t polygon, std::uint32_t from, std::uint32_t to) {
+    const auto nodes = polygons[polygon];
+    std::uint32_t before = nodes.back();
+    for (const std::uint32_t node : nodes) {
+        if (before == from && node == to) return true;
+        before = node;
+    }
+    return false;
+}
+
+/// Whether no polygon is wound as its neighbour across any edge, as in most surfaces.
+bool is_coherent(const BrepData::Surface& surface) {
+    for (std::uint32_t p = 0; p < surface.polygons.size(); ++p) {
+        const auto nodes = surface.polygons[p];
+        const std::size_t first = surface.polygons.first_corner(p);
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const std::uint32_t q = surface.neighbours[first + k];  // asked once, from the lower of the two
+            if (q == no_index || q < p) continue;
+            if (goes_along(surface.polygons, q, nodes[k], nodes[k + 1 == nodes.size() ? 0 : k + 1])) return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
 Winding winding_of(const BrepData::Surface& surface) {
+    if (is_coherent(surface)) return {};
     const PolygonEdges edges(surface.polygons);
     const std::size_t count = surface.polygons.size();
     std::vector<std::int8_t> sign(count, 0);
     const auto same_way = [&](std::size_t corner, std::uint32_t q) {
-        const std::uint32_t from = edges.start_node(corner), to = edges.end_node(corner);
-        for (std::size_t c = surface.polygons.first_corner(q); c < surface.polygons.first_corner(q + 1); ++c) {
-            if (edges.start_node(c) == from && edges.end_node(c) == to) return true;
-        }
-        return false;
+        return goes_along(surface.polygons, q, edges.start_node(corner), edges.end_node(corner));
     };
     Winding result;
     std::vector<std::uint32_t> piece;
