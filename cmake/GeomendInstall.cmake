@@ -16,5 +16,5 @@ install(EXPORT geomendTargets NAMESPACE geomend:: DESTINATION ${CMAKE_INSTALL_LI
 configure_package_config_file(cmake/geomendConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/geomendConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/geomend)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/geomendConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/geomendConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/geomendConfigVersion.cmake
+install(FILES cmake/FindTetGen.cmake ${CMAKE_CURRENT_BINARY_DIR}/geomendConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/geomendConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/geomend)

@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "volume/tetrahedra.h"
 
 namespace {
 
@@ -21,7 +23,8 @@ ExitStatus usage(const std::string& message) {
 }
 
 ExitStatus run(int argc, char** argv) {
-    CLI::App program("Converts, checks and repairs geological models: Gocad, VTK, Gmsh, corner-point grids, horizon grids", "geomend");
+    CLI::App program("Converts, checks, repairs and meshes geological models: Gocad, VTK, Gmsh, corner-point grids, horizon grids",
+                     "geomend");
     program.set_version_flag("-V,--version", "geomend " GEOMEND_VERSION);
     program.require_subcommand(1);
     program.footer(
@@ -32,6 +35,7 @@ ExitStatus run(int argc, char** argv) {
     geomend::cli::add_convert(program, status);
     geomend::cli::add_validate(program, status);
     geomend::cli::add_repair(program, status);
+    geomend::cli::add_mesh(program, status);
     geomend::cli::add_formats(program, status);
     geomend::cli::add_checks(program, status);
     geomend::cli::add_completion(program, status);
@@ -74,6 +78,8 @@ int main(int argc, char** argv) {
     std::set_terminate(end_at_once);
     geomend::cli::stop_on_signals();
     try {
+        if (argc > 1 && argv[1] == std::string_view(geomend::volumes::worker_word))
+            return geomend::volumes::tetrahedra_worker(std::vector<std::string>(argv + 2, argv + argc));
         return static_cast<int>(run(argc, argv));
     } catch (const std::bad_alloc&) {
         std::fputs("geomend: out of memory\n", stderr);

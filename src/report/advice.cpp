@@ -95,6 +95,7 @@ constexpr std::array advice = {
     Advice{"F023", "raise the limit"},
     Advice{"F024", "give them with --option dims=NX,NY,NZ, or read the whole deck"},
     Advice{"F025", "report it with the file; the other files were checked all the same"},
+    Advice{"F026", "mend the model with geomend repair, or fill it with --ratio 0 or a larger --size"},
     Advice{"F101", "--accept-unterminated, after checking that nothing is missing"},
     Advice{"F103", "remove the element"},
     Advice{"F104", "remove one of the two"},

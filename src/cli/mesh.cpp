@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/mesh.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "base/wording.h"
+#include "base/worker.h"
+#include "cli/check_arguments.h"
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
+namespace geomend::cli {
+
+namespace {
+
+struct MeshOptions : CommonOptions {
+    std::vector<std::string> inputs;
+    std::string output;
+    double size = 0, ratio = 1.4, seconds = 120, megabytes = 0;
+    bool lossy = false;
+};
+
+/// One line for each region: what it holds, or why it is empty.
+std::string region_lines(const MeshReport& report, bool all_tries) {
+    std::string text;
+    std::uint64_t cells = 0;
+    for (const auto& r : report.regions) {
+        text += "  region " + geomend::quoted(r.name) + ": ";
+        if (r.filled()) {
+            text += counted(r.cells, "tetrahedron", "tetrahedra") + ", volume " + short_number(r.volume) + ", least dihedral angle " +
+                    rounded(r.least_dihedral) + " degrees (" + r.rung + ", " + rounded(r.seconds) + " s)\n";
+        } else {
+            text += "not filled\n";
+        }
+        cells += r.cells;
+        if (!all_tries && r.filled()) continue;
+        for (const std::string& why : r.why_not) text += "    " + why + '\n';
+    }
+    if (report.is_written)
+        text += counted(cells, "cell", "cells") + " in " + counted(report.regions.size(), "region", "regions") + " written\n";
+    return text;
+}
+
+void tell_losses(const MeshReport& report, bool verbose) {
+    for (const Loss& loss : report.written.losses) {
+        if (loss.loss_class == LossClass::style && !verbose) continue;
+        std::fprintf(stderr, "lost (%s): %s%s%s\n", to_string(loss.loss_class), loss.entity.c_str(), loss.entity.empty() ? "" : ": ",
+                     loss.what.c_str());
+    }
+}
+
+ExitStatus run(const MeshOptions& o) {
+    auto options = format_options(o.options);
+    if (!options) return report(options.why());
+    if (o.json && o.output == "-")
+        return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
+    const ThreadBudget budget(o.threads);
+    const Monitor monitor = make_monitor(o);
+    auto checks = check_options(o, {}, &monitor);
+    if (!checks) return report(checks.why());
+    MeshRequest request;
+    request.files.inputs = o.inputs;
+    request.files.output = o.output;
+    request.files.to = o.to;
+    request.files.lossy = o.lossy;
+    request.files.accept_unterminated = o.accept_unterminated;
+    request.files.load = {o.from, std::move(*options), &monitor};
+    request.checks = std::move(*checks);
+    request.fill.size = o.size;
+    request.fill.ratio = o.ratio;
+    request.fill.limits.seconds = o.seconds;
+    request.fill.limits.memory_bytes = o.megabytes > 0 && o.megabytes < 1e12 ? static_cast<std::uint64_t>(o.megabytes * 1e6) : 0;
+    request.fill.monitor = &monitor;
+    const auto made = mesh(request);
+    if (!made) return report(made.why());
+    end_progress();
+    ExitStatus status = made->is_written ? ExitStatus::done : ExitStatus::invalid_result;
+    if (o.json) return worse(status, print(mesh_json(*made)));
+    report(made->errors, false);
+    if (!o.quiet) {
+        tell_losses(*made, o.verbose);
+        const std::string text = region_lines(*made, o.verbose);
+        if (o.output == "-") std::fputs(text.c_str(), stderr);
+        else status = worse(status, print(text));
+    }
+    if (!made->errors.empty()) std::fputs("geomend: the model has errors: nothing was written; geomend repair may mend them\n", stderr);
+    else if (!made->is_written) std::fputs("geomend: not all regions could be filled: nothing was written\n", stderr);
+    return status;
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& program, ExitStatus& status) {
+    auto* command = program.add_subcommand("mesh", "Fill the regions of a sealed model with tetrahedra");
+    auto o = std::make_shared<MeshOptions>();
+    command->add_option("IN", o->inputs, "Input files, taken as one model; - is standard input")->required();
+    command->add_option("-o,--output", o->output, "Output file; - is standard output")->required()->type_name("OUT");
+    command
+        ->add_option("--size", o->size,
+                     "Edges of cells inside of regions, as far as surfaces allow (default: the median edge of the triangles around each)")
+        ->type_name("L")
+        ->check(is_length());
+    command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
+        ->type_name("R")
+        ->check(CLI::Range(0.0, 1e6));
+    command->add_option("--time-limit", o->seconds, "Most time for one try to fill a region; 0 is no limit (default 120)")
+        ->type_name("SECONDS")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--memory-limit", o->megabytes, "Most memory for it; 0 is no limit (default)")
+        ->type_name("MB")
+        ->check(CLI::NonNegativeNumber);
+    command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
+    add_common_options(*command, *o, true);
+    command->callback([o, &status] { status = run(*o); });
+}
+
+}  // namespace geomend::cli

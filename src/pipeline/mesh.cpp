@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/mesh.h"
+
+#include <algorithm>
+
+#include "base/wording.h"
+#include "exchange/model_from_brep.h"
+#include "pipeline/command_options.h"
+#include "pipeline/json_parts.h"
+#include "pipeline/validate.h"
+#include "topology/brep_from_dataset.h"
+#include "topology/lengths.h"
+
+namespace geomend {
+
+namespace {
+
+Failure cannot_fill(const std::string& file, const std::string& why) { return failure(FailureKind::cannot_hold, "F026", {file}, why); }
+
+/// Errors of the model, which is not filled where there are any.
+Result<std::vector<Finding>> errors_of(const Dataset& dataset, const MeshRequest& request) {
+    auto judged = validate(request.files.inputs.front(), dataset, request.checks);
+    if (!judged) return std::move(judged).why();
+    std::erase_if(judged->findings, [](const Finding& f) { return f.severity != Severity::error; });
+    return std::move(judged->findings);
+}
+
+/// The one model of a Dataset that has regions.
+Result<topology::JudgedModel> model_to_fill(const Dataset& dataset, const MeshRequest& request) {
+    const std::string& file = request.files.inputs.front();
+    const auto lengths = validators::lengths_of(dataset, request.checks);
+    auto models = topology::models_to_judge(dataset, topology::model_sources(dataset, lengths));
+    if (!models) return std::move(models).why();
+    std::erase_if(*models, [](const topology::JudgedModel& m) { return m.found.regions.empty(); });
+    if (models->empty()) return cannot_fill(file, "no surfaces close around a region: there is nothing to fill");
+    if (models->size() > 1) return cannot_fill(file, std::to_string(models->size()) + " models with regions: fill them one by one");
+    return std::move(models->front());
+}
+
+/// The filled model, and beside it what was not a part of it.
+Result<void> put_in_place(Dataset& dataset, BrepData filled) {
+    std::vector<std::uint8_t> is_part(dataset.objects.size(), 0);
+    for (const auto& surface : filled.surfaces) {
+        if (surface.source_object < is_part.size()) is_part[surface.source_object] = 1;
+    }
+    for (const auto& region : filled.regions) {
+        if (region.source_object < is_part.size()) is_part[region.source_object] = 1;
+    }
+    auto brep = Brep::make(std::move(filled));
+    if (!brep) return std::move(brep).why();
+    Dataset made = exchange::tagged_model(*brep, dataset.losses);
+    for (std::size_t o = 0; o < dataset.objects.size(); ++o) {
+        if (is_part[o] == 0) made.objects.push_back(std::move(dataset.objects[o]));
+    }
+    dataset.objects = std::move(made.objects);
+    dataset.models = std::move(made.models);
+    dataset.breps.clear();
+    dataset.findings.clear();
+    return {};
+}
+
+void list_face_sets(const BrepData& brep, MeshReport& report) {
+    for (const auto& surface : brep.surfaces) {
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (!surface.regions[side].valid()) continue;
+            report.face_sets.push_back({surface.name, surface.role, side == 0 ? "back" : "front", surface.polygons.size()});
+        }
+    }
+}
+
+Result<void> fill(Dataset& dataset, const MeshRequest& request, MeshReport& report) {
+    auto errors = errors_of(dataset, request);
+    if (!errors) return std::move(errors).why();
+    report.errors = std::move(*errors);
+    if (!report.errors.empty()) return cannot_fill(request.files.inputs.front(), "the model has errors");
+    auto model = model_to_fill(dataset, request);
+    if (!model) return std::move(model).why();
+    auto filled = volumes::fill_regions(*model, request.fill);
+    if (!filled) return std::move(filled).why();
+    report.regions = std::move(filled->regions);
+    list_face_sets(filled->brep, report);
+    if (!std::ranges::all_of(report.regions, &volumes::FilledRegion::filled))
+        return cannot_fill(request.files.inputs.front(), "not all regions could be filled");
+    return put_in_place(dataset, std::move(filled->brep));
+}
+
+}  // namespace
+
+Result<MeshReport> mesh(const MeshRequest& request) {
+    MeshReport report;
+    bool judged = false;
+    auto converted = convert(request.files, [&](Dataset& dataset, const Format&) {
+        auto done = fill(dataset, request, report);
+        judged = !report.errors.empty() || (!done && !report.regions.empty());
+        return done;
+    });
+    if (!converted) {
+        if (judged) return report;
+        return std::move(converted).why();
+    }
+    report.written = std::move(*converted);
+    report.is_written = true;
+    return report;
+}
+
+std::vector<MeshBlock> blocks_of(const MeshReport& report) {
+    std::vector<MeshBlock> blocks;
+    std::uint64_t first = 0;
+    for (const auto& region : report.regions) {
+        blocks.push_back({region.name, CellType::tetrahedron, first, region.cells});
+        first += region.cells;
+    }
+    return blocks;
+}
+
+std::string mesh_json(const MeshReport& report) {
+    Json regions = Json::array(), blocks = Json::array(), sets = Json::array();
+    double least = 180;
+    for (const auto& r : report.regions) {
+        Json region{{"name", r.name},
+                    {"volume", r.volume},
+                    {"surface_volume", r.surface_volume},
+                    {"cells", {{"tetrahedron", r.cells}}},
+                    {"new_vertices", r.new_vertices},
+                    {"rung", r.rung},
+                    {"seconds", r.seconds},
+                    {"min_dihedral", r.least_dihedral}};
+        if (!r.why_not.empty()) region["why_not"] = r.why_not;
+        regions.push_back(std::move(region));
+        if (r.filled()) least = std::min(least, r.least_dihedral);
+    }
+    for (const MeshBlock& b : blocks_of(report))
+        blocks.push_back({{"region", b.region}, {"type", to_string(b.type)}, {"first", b.first}, {"count", b.count}});
+    for (const MeshFaceSet& s : report.face_sets)
+        sets.push_back({{"name", s.name}, {"role", to_string(s.role)}, {"side", s.side}, {"count", s.count}});
+    Json all{
+        {"written", report.is_written}, {"regions", std::move(regions)}, {"blocks", std::move(blocks)}, {"face_sets", std::move(sets)}};
+    if (report.is_written) {
+        all["quality"] = {{"min_dihedral", least}};
+        all["loss"] = losses_json(report.written.losses);
+    }
+    Json errors = Json::array();
+    for (const Finding& f : report.errors) errors.push_back(finding_json(f));
+    all["errors"] = std::move(errors);
+    return json_text(all);
+}
+
+}  // namespace geomend

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/convert.h"
+#include "validators/registry.h"
+#include "volume/fill.h"
+
+namespace geomend {
+
+/// What the user wants of a mesh.
+struct MeshRequest {
+    ConvertRequest files;
+    validators::CheckOptions checks;  ///< by which the model is judged before it is filled
+    volumes::FillOptions fill;
+};
+
+/// A block of cells in the file: those of one region and type.
+struct MeshBlock {
+    std::string region;
+    CellType type = CellType::tetrahedron;
+    std::uint64_t first = 0, count = 0;
+};
+
+/// The triangles on one side of a surface, each a face of a cell.
+struct MeshFaceSet {
+    std::string name;
+    FeatureRole role = FeatureRole::unknown;
+    const char* side = "";  ///< front or back
+    std::uint64_t count = 0;
+};
+
+/// What came of it.
+struct MeshReport {
+    ConvertReport written;
+    std::vector<Finding> errors;  ///< of the model, for which it was not filled
+    std::vector<volumes::FilledRegion> regions;
+    std::vector<MeshFaceSet> face_sets;
+    bool is_written = false;
+};
+
+/// Reads all inputs as one model, checks it, fills its regions with tetrahedra and writes surfaces and cells. Nothing is written
+/// where the model has errors or a region was not filled: the report says which, why and where.
+/// Failure as of convert() and volumes::fill_regions(); (cannot_hold, F026) where there is not one model.
+Result<MeshReport> mesh(const MeshRequest& request);
+
+/// The blocks of a filled model, in the order of its regions.
+std::vector<MeshBlock> blocks_of(const MeshReport& report);
+
+/// What INTERFACE states of `mesh --json`.
+std::string mesh_json(const MeshReport& report);
+
+}  // namespace geomend

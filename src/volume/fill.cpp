@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "volume/fill.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "base/number_text.h"
+#include "base/parallel.h"
+#include "volume/region_cells.h"
+#include "volume/region_facets.h"
+
+namespace geomend::volumes {
+
+namespace {
+
+/// One way to fill a region.
+struct Rung {
+    const char* name;
+    std::string switches;
+    VertexOrder order;
+};
+
+std::string number(double value) {
+    std::string text;
+    append_number(text, value);
+    return text;
+}
+
+/// The volume of a regular tetrahedron.
+double volume_of_edge(double edge) { return edge * edge * edge / (6 * std::sqrt(2.0)); }
+
+std::vector<Rung> rungs_for(const RegionFacets& facets, const FillOptions& options) {
+    const double edge = options.size > 0 ? options.size : facets.median_edge;
+    const std::string most = edge > 0 ? "a" + number(volume_of_edge(edge)) : std::string();
+    std::vector<Rung> rungs;
+    if (options.ratio > 0) {
+        const std::string good = "QpYMT1e-14q" + number(options.ratio) + most;
+        rungs.push_back({"tetgen pYqa", good, {}});
+        for (std::uint32_t shuffle = 1; shuffle <= 2; ++shuffle) rungs.push_back({"tetgen pYqa, shuffled", good, {shuffle}});
+    }
+    const std::string any = "QpYMT1e-14";
+    rungs.push_back({"tetgen pY", any, {}});
+    for (std::uint32_t shuffle = 1; shuffle <= 5; ++shuffle) rungs.push_back({"tetgen pY, shuffled", any, {shuffle}});
+    return rungs;
+}
+
+struct OneRegion {
+    RegionCells cells;
+    std::optional<Failure> stopped;
+};
+
+OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, FilledRegion& report) {
+    OneRegion result;
+    const auto begin = std::chrono::steady_clock::now();
+    for (const Rung& rung : rungs_for(facets, options)) {
+        auto all = tetrahedra_of(facets, rung.switches, rung.order, options.limits, options.monitor);
+        if (!all && all.why().kind == FailureKind::cancelled) {
+            result.stopped = all.why();
+            return result;
+        }
+        auto cells = all ? cells_of_region(facets, std::move(*all)) : Result<RegionCells>(all.why());
+        if (!cells) {
+            report.why_not.push_back(std::string(rung.name) + ": " + cells.why().error.message);
+            continue;
+        }
+        report.rung = rung.name;
+        result.cells = std::move(*cells);
+        break;
+    }
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    report.cells = result.cells.cells.size();
+    report.new_vertices = result.cells.new_vertices.size();
+    report.volume = result.cells.volume;
+    report.surface_volume = facets.volume;
+    report.least_dihedral = report.filled() ? result.cells.least_dihedral : 0;
+    return result;
+}
+
+/// Puts cells into a region; new vertices become vertices of the model.
+void put_in(BrepData& brep, const RegionFacets& facets, RegionCells cells) {
+    BrepData::Region& region = brep.regions[facets.region];
+    region.nodes.clear();
+    for (const std::uint32_t v : facets.vertices) region.nodes.push_back(VertexId(v));
+    for (const Vec3& p : cells.new_vertices) {
+        region.nodes.push_back(VertexId(brep.vertices.size()));
+        brep.vertices.push_back(p);
+    }
+    region.cell_types.assign(cells.cells.size(), CellType::tetrahedron);
+    region.cell_offsets = {0};
+    region.cell_nodes.clear();
+    for (const auto& c : cells.cells) {
+        region.cell_nodes.insert(region.cell_nodes.end(), c.begin(), c.end());
+        region.cell_offsets.push_back(region.cell_nodes.size());
+    }
+    region.volume = cells.volume;
+    region.volume_known = true;
+}
+
+/// What cells had is gone with them.
+void empty_regions(BrepData& brep) {
+    for (BrepData::Region& region : brep.regions) {
+        region.nodes.clear();
+        region.cell_types.clear();
+        region.cell_offsets = {0};
+        region.cell_nodes.clear();
+        region.cell_faces.clear();
+        region.face_offsets.clear();
+        region.face_nodes.clear();
+        std::erase_if(region.attributes, [](const Attribute& a) { return a.location != AttributeLocation::object; });
+    }
+    brep.vertex_attributes.clear();
+}
+
+}  // namespace
+
+Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOptions& options) {
+    auto facets = facets_of_regions(model);
+    if (!facets) return std::move(facets).why();
+    Filled filled{*model.brep, {}};
+    for (const auto& region : filled.brep.regions) {
+        filled.regions.emplace_back().name = region.name;
+    }
+    std::vector<std::size_t> order(facets->size());  // the largest first
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return (*facets)[i].triangles.size(); });
+    std::vector<OneRegion> results(facets->size());
+    parallel_for_each_index(order.size(), [&](std::size_t i) {
+        const RegionFacets& region = (*facets)[order[i]];
+        results[order[i]] = fill_one(region, options, filled.regions[region.region]);
+    });
+    empty_regions(filled.brep);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (results[i].stopped) return *results[i].stopped;
+        put_in(filled.brep, (*facets)[i], std::move(results[i].cells));
+    }
+    return filled;
+}
+
+}  // namespace geomend::volumes

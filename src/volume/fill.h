@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/monitor.h"
+#include "base/result.h"
+#include "topology/assemble.h"
+#include "volume/tetrahedra.h"
+
+namespace geomend::volumes {
+
+struct FillOptions {
+    double size = 0;     ///< edges of cells inside, as far as surfaces allow; 0: the median edge of the triangles around each region
+    double ratio = 1.4;  ///< most radius of the sphere around a cell by its shortest edge, as far as surfaces allow; 0: any
+    ChildLimits limits;  ///< for each try
+    const Monitor* monitor = nullptr;
+};
+
+/// How a region was filled.
+struct FilledRegion {
+    std::string name;
+    std::uint64_t cells = 0, new_vertices = 0;
+    double volume = 0;                 ///< of its cells
+    double surface_volume = 0;         ///< enclosed by its surfaces
+    double least_dihedral = 0;         ///< degrees
+    std::string rung;                  ///< the method that served; empty: none did
+    std::vector<std::string> why_not;  ///< why those before it did not
+    double seconds = 0;                ///< on the wall
+    bool filled() const { return !rung.empty(); }
+};
+
+struct Filled {
+    BrepData brep;                      ///< the model with tetrahedra in its regions; those that were not filled are empty
+    std::vector<FilledRegion> regions;  ///< as those of the boundary representation
+};
+
+/// Fills all regions of a sealed model with tetrahedra. Surfaces stay as they are: each of their triangles is a face of one cell on
+/// either side that is in a region. Cells that regions held before give way. Each region is tried with good shapes first, then with any.
+/// Failure as of facets_of_regions(), or (cancelled). Regions that nothing fills are told in `regions`. Results do not depend on the
+/// number of threads. Cost: that of TetGen; regions side by side.
+Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOptions& options);
+
+}  // namespace geomend::volumes

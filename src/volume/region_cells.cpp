@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "volume/region_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "base/disjoint_sets.h"
+#include "base/vectors.h"
+#include "base/wording.h"
+#include "geometry/predicates.h"
+
+namespace geomend::volumes {
+
+namespace {
+
+Failure not_filled(const std::string& why) { return failure(FailureKind::limit, "F026", {}, why); }
+
+std::string place(const Vec3& p) { return "(" + short_number(p[0]) + ", " + short_number(p[1]) + ", " + short_number(p[2]) + ")"; }
+
+Triangle sorted(Triangle t) {
+    std::ranges::sort(t);
+    return t;
+}
+
+/// A face of a cell: the one opposite to its corner.
+struct CellFace {
+    Triangle vertices;  ///< ascending
+    std::uint32_t cell, corner;
+};
+
+std::vector<CellFace> faces_of(std::span<const std::array<std::uint32_t, 4>> cells) {
+    std::vector<CellFace> faces;
+    faces.reserve(4 * cells.size());
+    for (std::uint32_t c = 0; c < cells.size(); ++c) {
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const auto& v = cells[c];
+            faces.push_back({sorted({v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]}), c, k});
+        }
+    }
+    std::ranges::sort(
+        faces, [](const CellFace& a, const CellFace& b) { return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell; });
+    return faces;
+}
+
+class RegionSearch {
+public:
+    RegionSearch(const RegionFacets& facets, Tetrahedra all) : facets_(facets), all_(std::move(all)), sets_(all_.cells.size()) {}
+
+    Result<RegionCells> run() {
+        if (auto turned = turn_cells(); !turned) return std::move(turned).why();
+        if (auto joined = join_cells(); !joined) return std::move(joined).why();
+        return take_inside();
+    }
+
+private:
+    const RegionFacets& facets_;
+    Tetrahedra all_;
+    DisjointSets sets_;                                   ///< of cells between which no facet lies
+    std::vector<std::pair<std::uint32_t, bool>> beside_;  ///< cells at facets, and whether the region is on their side
+
+    const Vec3& position(std::uint32_t v) const {
+        const std::size_t known = facets_.positions.size();
+        return v < known ? facets_.positions[v] : all_.new_vertices[v - known];
+    }
+    std::string place_of_facet(std::uint32_t f) const { return place(facets_.positions[facets_.triangles[f][0]]); }
+
+    Result<void> turn_cells() {
+        for (auto& c : all_.cells) {
+            const int sign = orientation(position(c[0]), position(c[1]), position(c[2]), position(c[3]));
+            if (sign == 0) return not_filled("a cell has no volume, at " + place(position(c[0])));
+            if (sign < 0) std::swap(c[2], c[3]);
+        }
+        return {};
+    }
+
+    Result<void> join_cells() {
+        const auto faces = faces_of(all_.cells);
+        std::vector<std::pair<Triangle, std::uint32_t>> facets;
+        for (std::uint32_t f = 0; f < facets_.triangles.size(); ++f) facets.emplace_back(sorted(facets_.triangles[f]), f);
+        std::ranges::sort(facets);
+        auto facet = facets.begin();
+        for (std::size_t i = 0; i < faces.size();) {
+            std::size_t end = i + 1;
+            while (end < faces.size() && faces[end].vertices == faces[i].vertices) ++end;
+            const std::span<const CellFace> same(faces.data() + i, end - i);
+            i = end;
+            if (same.size() > 2) return not_filled("more than two cells share a face, at " + place(position(same[0].vertices[0])));
+            if (facet != facets.end() && facet->first < same[0].vertices) break;  // one that is no face
+            if (facet == facets.end() || facet->first != same[0].vertices) {
+                if (same.size() == 2) sets_.join(same[0].cell, same[1].cell);
+                continue;
+            }
+            if (auto seen = look_beside(facet->second, same); !seen) return seen;
+            ++facet;
+        }
+        if (facet != facets.end()) return not_filled("a triangle is no face of a cell, at " + place_of_facet(facet->second));
+        return {};
+    }
+
+    /// Which cells at a facet are of the region: those on the sides where it lies.
+    Result<void> look_beside(std::uint32_t f, std::span<const CellFace> cells) {
+        const Triangle& t = facets_.triangles[f];
+        unsigned found = 0;
+        for (const CellFace& face : cells) {
+            const Vec3& apex = position(all_.cells[face.cell][face.corner]);
+            const int sign = orientation(facets_.positions[t[0]], facets_.positions[t[1]], facets_.positions[t[2]], apex);
+            const unsigned side = sign > 0 ? in_front : behind;
+            if ((found & side) != 0) return not_filled("two cells lie on one side of a triangle, at " + place_of_facet(f));
+            found |= side;
+            beside_.emplace_back(face.cell, (facets_.sides[f] & side) != 0);
+        }
+        if ((facets_.sides[f] & ~found) != 0) return not_filled("no cell lies beside a triangle, at " + place_of_facet(f));
+        return {};
+    }
+
+    Result<RegionCells> take_inside() {
+        const auto root = std::move(sets_).roots();
+        enum : std::uint8_t { unknown, inside, outside };
+        std::vector<std::uint8_t> where(root.size(), unknown);
+        for (const auto& [cell, is_inside] : beside_) {
+            std::uint8_t& known = where[root[cell]];
+            const std::uint8_t now = is_inside ? inside : outside;
+            if (known != unknown && known != now)
+                return not_filled("cells inside and outside of it hang together, at " + place(position(all_.cells[cell][0])));
+            known = now;
+        }
+        RegionCells region;
+        for (std::size_t c = 0; c < all_.cells.size(); ++c) {
+            if (where[root[c]] == inside) region.cells.push_back(all_.cells[c]);
+        }
+        measure(region);
+        if (!(std::abs(region.volume - facets_.volume) <= 1e-9 * std::abs(facets_.volume)))
+            return not_filled("cells have a volume of " + short_number(region.volume) + " where surfaces enclose " +
+                              short_number(facets_.volume));
+        take_vertices(region);
+        return region;
+    }
+
+    void measure(RegionCells& region) const {
+        double six = 0, cosine = -1;
+        for (const auto& c : region.cells) {
+            const std::array<Vec3, 4> p{position(c[0]), position(c[1]), position(c[2]), position(c[3])};
+            six += six_volumes(p[0], p[1], p[2], p[3]);
+            cosine = std::max(cosine, largest_cosine(p));
+        }
+        region.volume = six / 6;
+        region.least_dihedral = 180 / std::numbers::pi * std::acos(std::min(cosine, 1.0));
+    }
+
+    /// The cosine of the least angle between two faces of a tetrahedron.
+    static double largest_cosine(const std::array<Vec3, 4>& p) {
+        std::array<Vec3, 4> normal{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Vec3 &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4];
+            const Vec3 n = cross(minus(b, a), minus(c, a));
+            const double away = dot(n, minus(p[k], a)) > 0 ? -1 : 1;
+            normal[k] = times(away / std::sqrt(dot(n, n)), n);
+        }
+        double largest = -1;
+        for (std::size_t k = 0; k < 4; ++k) {
+            for (std::size_t m = k + 1; m < 4; ++m) largest = std::max(largest, -dot(normal[k], normal[m]));
+        }
+        return largest;
+    }
+
+    /// New vertices that the cells use, in the order of their numbers.
+    void take_vertices(RegionCells& region) const {
+        const auto known = static_cast<std::uint32_t>(facets_.positions.size());
+        std::vector<std::uint32_t> number(all_.new_vertices.size(), no_index);
+        for (const auto& c : region.cells) {
+            for (const std::uint32_t v : c) {
+                if (v >= known) number[v - known] = 0;
+            }
+        }
+        for (std::size_t i = 0; i < number.size(); ++i) {
+            if (number[i] == no_index) continue;
+            number[i] = known + static_cast<std::uint32_t>(region.new_vertices.size());
+            region.new_vertices.push_back(all_.new_vertices[i]);
+        }
+        for (auto& c : region.cells) {
+            for (std::uint32_t& v : c) v = v < known ? v : number[v - known];
+        }
+    }
+};
+
+}  // namespace
+
+Result<RegionCells> cells_of_region(const RegionFacets& facets, Tetrahedra all) { return RegionSearch(facets, std::move(all)).run(); }
+
+}  // namespace geomend::volumes

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <tetgen.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include "base/input.h"
+#include "base/worker.h"
+#include "volume/tetrahedra.h"
+#include "volume/worker_message.h"
+
+namespace geomend::volumes {
+
+namespace {
+
+void fill_input(const WorkerFacets& facets, tetgenio& in) {
+    in.firstnumber = 0;
+    in.numberofpoints = static_cast<int>(facets.positions.size());
+    in.pointlist = new REAL[3 * facets.positions.size()];
+    for (std::size_t i = 0; i < facets.positions.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) in.pointlist[3 * i + k] = facets.positions[i][k];
+    }
+    in.numberoffacets = static_cast<int>(facets.triangles.size());
+    in.facetlist = new tetgenio::facet[facets.triangles.size()];
+    for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
+        tetgenio::facet& facet = in.facetlist[t];
+        tetgenio::init(&facet);
+        facet.numberofpolygons = 1;
+        facet.polygonlist = new tetgenio::polygon[1];
+        tetgenio::init(facet.polygonlist);
+        facet.polygonlist[0].numberofvertices = 3;
+        facet.polygonlist[0].vertexlist = new int[3];
+        for (std::size_t k = 0; k < 3; ++k) facet.polygonlist[0].vertexlist[k] = static_cast<int>(facets.triangles[t][k]);
+    }
+}
+
+Tetrahedra taken(const tetgenio& out, std::size_t known_vertices) {
+    Tetrahedra all;
+    for (std::size_t i = known_vertices; i < static_cast<std::size_t>(out.numberofpoints); ++i)
+        all.new_vertices.push_back({out.pointlist[3 * i], out.pointlist[3 * i + 1], out.pointlist[3 * i + 2]});
+    const auto corners = static_cast<std::size_t>(out.numberofcorners);
+    for (std::size_t t = 0; t < static_cast<std::size_t>(out.numberoftetrahedra); ++t) {
+        std::array<std::uint32_t, 4>& cell = all.cells.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k) cell[k] = static_cast<std::uint32_t>(out.tetrahedronlist[corners * t + k]);
+    }
+    return all;
+}
+
+/// The reasons for which TetGen ends itself, by the numbers that it throws.
+const char* reason(int number) {
+    switch (number) {
+        case 1:
+            return "it ran out of memory";
+        case 2:
+            return "it met a fault of its own";
+        case 3:
+            return "two triangles cross";
+        case 4:
+        case 5:
+            return "points or triangles are too near to each other";
+        default:
+            return "it refused the triangles";
+    }
+}
+
+bool write_whole(int descriptor, const std::string& bytes) {
+    for (std::size_t at = 0; at < bytes.size();) {
+        const ssize_t n = ::write(descriptor, bytes.data() + at, bytes.size() - at);
+        if (n <= 0) return false;
+        at += static_cast<std::size_t>(n);
+    }
+    return true;
+}
+
+}  // namespace
+
+int tetrahedra_worker(const std::vector<std::string>& arguments) {
+    if (arguments.size() != 4) return 1;
+    OwnLimits limits;
+    limits.parent = std::atol(arguments[1].c_str());
+    limits.memory_bytes = std::strtoull(arguments[2].c_str(), nullptr, 10);
+    become_worker(limits);
+    const int result = ::dup(STDOUT_FILENO);  // TetGen prints to standard output
+    ::dup2(STDERR_FILENO, STDOUT_FILENO);
+    auto input = Input::open(arguments[3]);
+    if (!input) return 1;
+    const auto facets = worker_facets(input->bytes());
+    if (!facets) return 1;
+    try {
+        tetgenbehavior behaviour;
+        std::string switches = arguments[0];
+        if (!behaviour.parse_commandline(switches.data())) return 1;
+        tetgenio in, out;
+        fill_input(*facets, in);
+        ::tetrahedralize(&behaviour, &in, &out);
+        return write_whole(result, worker_answer(taken(out, facets->positions.size()))) ? 0 : 1;
+    } catch (int number) {
+        std::fprintf(stderr, "\n%s", reason(number));
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "\n%s", reason(1));
+    }
+    return 1;
+}
+
+}  // namespace geomend::volumes

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "volume/tetrahedra.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <numeric>
+#include <random>
+
+#include "base/vectors.h"
+#include "base/wording.h"
+#include "base/worker.h"
+#include "volume/worker_message.h"
+
+namespace geomend::volumes {
+
+namespace {
+
+Failure gave_up(const std::string& why) { return failure(FailureKind::limit, "F026", {}, why); }
+
+/// A file in memory, which a child process opens by the number of this process.
+class MemoryFile {
+public:
+    explicit MemoryFile(const std::string& bytes) : descriptor_(::memfd_create("facets", MFD_CLOEXEC)) {
+        for (std::size_t at = 0; descriptor_ >= 0 && at < bytes.size();) {
+            const ssize_t n = ::write(descriptor_, bytes.data() + at, bytes.size() - at);
+            if (n > 0) at += static_cast<std::size_t>(n);
+            else {
+                ::close(descriptor_);
+                descriptor_ = -1;
+            }
+        }
+    }
+    ~MemoryFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+
+    bool ok() const { return descriptor_ >= 0; }
+    std::string path() const { return "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(descriptor_); }
+
+private:
+    int descriptor_;
+};
+
+std::vector<std::uint32_t> ordered(std::size_t count, VertexOrder order) {
+    std::vector<std::uint32_t> vertices(count);
+    std::iota(vertices.begin(), vertices.end(), 0);
+    if (order.shuffle == 0) return vertices;
+    std::mt19937 random(order.shuffle);
+    for (std::size_t i = count; i > 1; --i) std::swap(vertices[i - 1], vertices[random() % i]);
+    return vertices;
+}
+
+std::string last_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text.substr(text.rfind('\n') + 1);
+}
+
+Failure failure_of(const WorkerEnd& end, const ChildLimits& limits) {
+    switch (end.how) {
+        case WorkerEnd::How::stopped:
+            return failure(FailureKind::cancelled, "F022", {}, "stopped");
+        case WorkerEnd::How::timed_out:
+            return gave_up("TetGen did not end in " + rounded(limits.seconds) + " s");
+        case WorkerEnd::How::too_much_output:
+            return gave_up("TetGen made too many cells");
+        case WorkerEnd::How::signalled:
+            return gave_up("TetGen crashed: " + signal_text(end.number));
+        case WorkerEnd::How::exited:
+            break;
+    }
+    const std::string why = last_line(end.last_words);
+    return gave_up("TetGen gave up: " + (why.empty() ? "status " + std::to_string(end.number) : why));
+}
+
+}  // namespace
+
+Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const std::string& switches, VertexOrder order, const ChildLimits& limits,
+                                 const Monitor* monitor) {
+    // Near the origin TetGen's lengths keep their digits.
+    const Vec3 origin = facets.positions.front();
+    const auto vertices = ordered(facets.positions.size(), order);
+    std::vector<Vec3> positions;
+    std::vector<std::uint32_t> number(vertices.size());
+    for (const std::uint32_t v : vertices) {
+        number[v] = static_cast<std::uint32_t>(positions.size());
+        positions.push_back(minus(facets.positions[v], origin));
+    }
+    std::vector<Triangle> triangles = facets.triangles;
+    for (Triangle& t : triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
+    const MemoryFile file(worker_question(positions, triangles));
+    if (!file.ok()) return failure(FailureKind::limit, "F023", {}, "not enough memory for what TetGen is to fill");
+    WorkerJob job;
+    job.command = limits.program.empty() ? std::vector<std::string>{this_program()} : limits.program;
+    job.command.insert(job.command.end(),
+                       {worker_word, switches, std::to_string(::getpid()), std::to_string(limits.memory_bytes), file.path()});
+    job.seconds = limits.seconds;
+    job.most_output = std::size_t{1} << 31;
+    auto end = run_worker(job, monitor);
+    if (!end) return std::move(end).why();
+    if (end->how != WorkerEnd::How::exited || end->number != 0) return failure_of(*end, limits);
+    auto all = worker_tetrahedra(end->output, positions.size());
+    if (!all) return gave_up("TetGen's answer is damaged");
+    for (Vec3& p : all->new_vertices) p = plus(p, origin);
+    for (auto& cell : all->cells) {
+        for (std::uint32_t& v : cell) v = v < vertices.size() ? vertices[v] : v;
+    }
+    return std::move(*all);
+}
+
+}  // namespace geomend::volumes

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "volume/tetrahedra.h"
+
+// What parent and child say to each other, as bytes: counts, then arrays, in the machine's own order.
+
+namespace geomend::volumes {
+
+/// What the child is given.
+struct WorkerFacets {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+};
+
+std::string worker_question(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+/// Nothing where sizes or vertex numbers do not fit.
+std::optional<WorkerFacets> worker_facets(std::string_view bytes);
+
+std::string worker_answer(const Tetrahedra& all);
+/// The answer to a question with so many vertices. Nothing where sizes or numbers do not fit, or a position is not finite.
+std::optional<Tetrahedra> worker_tetrahedra(std::string_view bytes, std::size_t known_vertices);
+
+}  // namespace geomend::volumes

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "support/program.h"
+#include "support/real_data.h"
+#include "support/temporary_folder.h"
+
+// The command mesh as a user runs it.
+
+namespace geomend {
+namespace {
+
+using nlohmann::json;
+using test::run_geomend;
+using test::TemporaryFolder;
+
+std::string sample(const std::string& name) { return std::string(GEOMEND_SOURCE_DIR) + "/samples/" + name; }
+
+json mesh(const std::string& in, const std::string& out, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"mesh", in, "-o", out, "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return json::parse(run_geomend(arguments).out, nullptr, false);
+}
+
+std::map<std::string, double> volumes(const json& info) {
+    std::map<std::string, double> all;
+    if (!info.contains("brep")) return all;
+    for (const json& r : info["brep"]["region_volumes"]) all[r["name"]] = r["volume"];
+    return all;
+}
+
+TEST(Mesh, FillsASampleInEveryFormatThatHoldsCells) {
+    const TemporaryFolder folder;
+    const auto before = volumes(test::info(sample("layered_box.ml")));
+    ASSERT_EQ(before.size(), 6u);
+    for (const char* extension : {".vtu", ".msh", ".vtm", ".vtk"}) {
+        const std::string out = folder / (std::string("out") + extension);
+        const json report = mesh(sample("layered_box.ml"), out);
+        ASSERT_TRUE(report.is_object() && report["written"] == true) << extension;
+        double sum = 0;
+        std::uint64_t cells = 0;
+        for (const json& region : report["regions"]) {
+            sum += region["volume"].get<double>();
+            cells += region["cells"]["tetrahedron"].get<std::uint64_t>();
+            EXPECT_NEAR(region["volume"].get<double>(), before.at(region["name"]), 1e-9 * before.at(region["name"]));
+        }
+        EXPECT_NEAR(sum, 8e8, 1e-9 * 8e8) << extension;
+        EXPECT_EQ(report["blocks"].back()["first"].get<std::uint64_t>() + report["blocks"].back()["count"].get<std::uint64_t>(), cells);
+        const json info = test::info(out);
+        for (const auto& [name, volume] : volumes(info)) EXPECT_NEAR(volume, before.at(name), 1e-9 * volume) << extension << ' ' << name;
+        std::uint64_t read = 0;
+        for (const json& object : info["objects"]) {
+            if (object["counts"].contains("cell_types")) read += object["counts"]["cell_types"].value("tetrahedron", std::uint64_t{0});
+        }
+        EXPECT_EQ(read, cells) << extension;
+        EXPECT_EQ(run_geomend({"validate", out}).status, 0) << extension;
+    }
+}
+
+TEST(Mesh, GivesTheSameBytesForAnyNumberOfThreads) {
+    const TemporaryFolder folder;
+    for (const char* threads : {"1", "2"}) {
+        ASSERT_EQ(
+            run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / (std::string(threads) + ".msh"), "--threads", threads}).status,
+            0);
+    }
+    EXPECT_EQ(test::read_file(folder / "1.msh"), test::read_file(folder / "2.msh"));
+}
+
+TEST(Mesh, AModelWithErrorsIsNotFilledAndAnOlderOutputStays) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.vtu";
+    test::write_file(out, "old");
+    const auto run = run_geomend({"mesh", sample("layered_box_gap.ml"), "-o", out});
+    EXPECT_EQ(run.status, 6) << run.err;
+    EXPECT_NE(run.err.find("geomend repair"), std::string::npos) << run.err;
+    EXPECT_EQ(test::read_file(out), "old");
+    const json report = mesh(sample("layered_box_gap.ml"), out);
+    EXPECT_EQ(report["written"], false);
+    EXPECT_FALSE(report["errors"].empty());
+    EXPECT_EQ(test::read_file(out), "old");
+}
+
+TEST(Mesh, ATryThatHitsItsLimitLeavesTheOlderOutputAndNamesRegionsAndReason) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.vtu";
+    test::write_file(out, "old");
+    const auto run = run_geomend({"mesh", sample("layered_box.ml"), "-o", out, "--time-limit", "0.0001"});
+    EXPECT_EQ(run.status, 6);
+    EXPECT_NE(run.out.find("did not end"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("'west_1'"), std::string::npos) << run.out;
+    EXPECT_EQ(test::read_file(out), "old");
+}
+
+TEST(Mesh, ATargetWithoutCellsRefusesThem) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.ml"}).status, 4);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.ml"));
+}
+
+TEST(Mesh, SurfacesWithoutARegionAreRefused) {
+    const TemporaryFolder folder;
+    const auto run = run_geomend({"mesh", sample("open_layers.ts"), "-o", folder / "out.vtu"});
+    EXPECT_NE(run.status, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.vtu"));
+}
+
+TEST(Mesh, SealedRealModelsAreFilledToTheVolumesOfTheirSurfaces) {
+    const TemporaryFolder folder;
+    for (const char* name : {"gocad/modelA1.ml", "gocad/CloudSpin_fixed.ml", "gocad/modelA4.ml", "gocad/split_cube.ml"}) {
+        const auto real = test::real_data(name);
+        if (!real) GTEST_SKIP() << "no real data";
+        const std::string out = folder / "out.vtu";
+        const auto before = volumes(test::info(*real));
+        const json report = mesh(real->string(), out);
+        ASSERT_TRUE(report.is_object() && report["written"] == true) << name << report.dump(1);
+        EXPECT_EQ(report["regions"].size(), before.size());
+        for (const json& region : report["regions"])
+            EXPECT_NEAR(region["volume"].get<double>(), before.at(region["name"]), 1e-9 * before.at(region["name"])) << name;
+        EXPECT_EQ(run_geomend({"validate", out}).status, 0) << name;
+    }
+}
+
+}  // namespace
+}  // namespace geomend
