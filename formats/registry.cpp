@@ -10,6 +10,7 @@
 #include "formats/gocad/gocad.h"
 #include "formats/grdecl/grdecl.h"
 #include "formats/horizon/horizon.h"
+#include "formats/ringmesh/ringmesh.h"
 #include "formats/roff/roff.h"
 #include "formats/surfaces/surfaces.h"
 #include "formats/vtk/vtk.h"
@@ -21,7 +22,7 @@ namespace {
 std::vector<Format> gather() {
     std::vector<Format> all;
     for (const auto rows : {gocad::formats(), vtk::formats(), gmsh::formats(), horizon::formats(), grdecl::formats(), eclipse::formats(),
-                            roff::formats(), surfaces::formats()}) {
+                            roff::formats(), surfaces::formats(), ringmesh::formats()}) {
         all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;

@@ -10,10 +10,11 @@
 #include <cerrno>
 #include <cstring>
 #include <mutex>
-#include <new>
 #include <set>
 #include <system_error>
 #include <utility>
+
+#include "base/inflate.h"
 
 namespace geomend {
 
@@ -76,57 +77,6 @@ Result<std::string> read_all(int fd, const std::string& name) {
     return bytes;
 }
 
-bool is_gzip(std::string_view bytes) { return bytes.size() >= 3 && bytes[0] == '\x1f' && bytes[1] == '\x8b' && bytes[2] == '\x08'; }
-
-struct Inflater {
-    z_stream stream{};
-    bool ready = ::inflateInit2(&stream, 15 + 16) == Z_OK;
-    Inflater() = default;
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
-    ~Inflater() {
-        if (ready) ::inflateEnd(&stream);
-    }
-};
-
-// Several gzip members one after the other are one stream (RFC 1952, 2.2).
-Result<std::string> inflate_all(std::string_view packed, const std::string& name) {
-    Inflater inflater;
-    if (!inflater.ready) throw std::bad_alloc();
-    z_stream& z = inflater.stream;
-    std::string out;
-    std::size_t used = 0;
-    std::size_t taken = 0;
-    bool member_ended = false;
-    while (taken < packed.size() || !member_ended) {
-        if (out.size() - used < chunk) out.resize(out.size() + out.size() / 2 + chunk);
-        const std::size_t offer = std::min<std::size_t>(packed.size() - taken, std::size_t{1} << 30);
-        z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + taken));
-        z.avail_in = static_cast<uInt>(offer);
-        const std::size_t room = std::min<std::size_t>(out.size() - used, std::size_t{1} << 30);
-        z.next_out = reinterpret_cast<Bytef*>(out.data() + used);
-        z.avail_out = static_cast<uInt>(room);
-        const int status = ::inflate(&z, Z_NO_FLUSH);
-        const std::size_t produced = room - z.avail_out;
-        const std::size_t consumed = offer - z.avail_in;
-        used += produced;
-        taken += consumed;
-        if (used > largest_inflated) return unreadable("F014", {name}, "the compressed data grow beyond 16 GiB");
-        member_ended = status == Z_STREAM_END;
-        if (member_ended) {
-            if (!is_gzip(packed.substr(taken))) break;
-            ::inflateReset(&z);
-            member_ended = false;
-        } else if (status != Z_OK || (produced == 0 && consumed == 0)) {
-            const std::string what =
-                status == Z_OK || status == Z_BUF_ERROR ? "end early" : (z.msg != nullptr ? z.msg : "cannot be inflated");
-            return unreadable("F015", {name, 0, 0, static_cast<std::int64_t>(taken)}, "the gzip data are damaged: " + what);
-        }
-    }
-    out.resize(used);
-    return out;
-}
-
 }  // namespace
 
 Result<Input> Input::open(const std::string& path) {
@@ -158,7 +108,7 @@ Result<Input> Input::open(const std::string& path) {
     }
     input.stored_size_ = input.bytes_.size();
     if (is_gzip(input.bytes_)) {
-        auto inflated = inflate_all(input.bytes_, input.name_);
+        auto inflated = inflate_gzip(input.bytes_, input.name_, largest_inflated);
         if (!inflated) return std::move(inflated).why();
         auto unpacked = std::make_shared<Storage>();
         unpacked->buffer = std::move(*inflated);

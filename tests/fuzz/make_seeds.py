@@ -13,7 +13,7 @@ target = corpus / 'whole_path'
 program = pathlib.Path(sys.argv[1]).resolve()
 
 # Leading bytes that choose for the target of a reader, and the extensions that tell the formats apart.
-readers = {'eclipse': 1, 'gmsh': 0, 'gocad': 0, 'grdecl': 1, 'horizon': 2, 'roff': 0, 'surface': 1, 'vtk_legacy': 0, 'vtk_xml': 0}
+readers = {'eclipse': 1, 'gmsh': 0, 'gocad': 0, 'grdecl': 1, 'horizon': 2, 'ringmesh': 1, 'roff': 0, 'surface': 1, 'vtk_legacy': 0, 'vtk_xml': 0}
 extensions = {'bgrdecl': '.bgrdecl', 'egrid': '.egrid', 'fegrid': '.fegrid', 'fgrid': '.fgrid', 'finit': '.finit', 'funrst': '.funrst',
               'grid': '.grid', 'init': '.init', 'long_count': '.egrid', 'unrst': '.unrst', 'deck': '.data', 'cps3': '.cps3',
               'cps3_lines': '.cps3lines', 'irap_grid': '.irap', 'irap_grid_binary': '.gri', 'irap_grid_binary_little': '.gri',
@@ -140,6 +140,8 @@ def pack(name, files):
 def pack_readers():
     for folder, skip in readers.items():
         for path in sorted((corpus / folder).iterdir()):
+            if path.suffix == '.pack':  # files of an archive: the archive itself is beside it
+                continue
             extension = '' if path.suffix else extensions.get(path.name, '.grdecl')
             pack(f'{folder}_{path.name}', [(path.name + extension, path.read_bytes()[skip:])])
 

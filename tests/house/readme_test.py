@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The README's table of formats says what the program says, its picture and its links are there.
+"""The table of formats in docs/formats.md says what the program says; pictures and links of it and of the README are there.
 
 usage: readme_test.py PROGRAM            compares
        readme_test.py PROGRAM --print    prints the table as it should be
@@ -31,12 +31,16 @@ def main(program, mode=""):
     if mode == "--print":
         print(wanted, end="")
         return
-    with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as file:
-        readme = file.read()
-    wrong = [] if wanted in readme else [f"the table of formats should be:\n{wanted}"]
-    for target in re.findall(r"\]\(([^)#]+)\)", readme):
-        if "://" not in target and not os.path.exists(os.path.join(ROOT, target)):
-            wrong.append(f"{target} is linked, but not there")
+    wrong = []
+    for page in ("README.md", "docs/formats.md"):
+        path = os.path.join(ROOT, page)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        if page != "README.md" and wanted not in text:
+            wrong.append(f"the table of {page} should be:\n{wanted}")
+        for target in re.findall(r"\]\(([^)#]+)\)", text):
+            if "://" not in target and not os.path.exists(os.path.join(os.path.dirname(path), target)):
+                wrong.append(f"{target} is linked in {page}, but not there")
     if wrong:
         sys.exit("\n".join(wrong))
 
