@@ -81,7 +81,9 @@ Json pairs_json(const Pairs& pairs) {
 Pairs pairs_from(const Json& j, const char* key) {
     Pairs pairs;
     for_each_member(j, key, [&](const Json& one) {
-        if (one.is_array() && one.size() == 2) pairs.emplace_back(text_from(one[0]), text_from(one[1]));
+        if (!one.is_array() || one.size() != 2) return;
+        std::string name = text_from(one[0]);
+        if (!name.empty()) pairs.emplace_back(std::move(name), text_from(one[1]));
     });
     return pairs;
 }

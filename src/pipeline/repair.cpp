@@ -243,12 +243,28 @@ Result<FoundBefore> found_before(const std::string& path, const Dataset& dataset
     return before;
 }
 
-// Regions that cells part, with no surface between them, are parted by one from now on: the cells go.
+// Regions that cells part, with no surface between them, are parted by one from now on: the cells go. What a model stated of their
+// sides does not know these surfaces.
 void add_region_surfaces(Dataset& dataset) {
-    for (Object& object : dataset.objects) {
-        auto* mesh = std::get_if<CellMesh>(&object);
-        if (mesh != nullptr && !mesh->entities.empty()) topology::add_region_surfaces(*mesh);
+    for (std::uint32_t o = 0; o < dataset.objects.size(); ++o) {
+        auto* mesh = std::get_if<CellMesh>(&dataset.objects[o]);
+        if (mesh == nullptr || mesh->entities.empty() || topology::add_region_surfaces(*mesh) == 0) continue;
+        std::erase_if(dataset.models, [&](const StatedModel& model) {
+            const bool is_of_it = std::ranges::any_of(model.faces, [&](const StatedModel::Face& face) { return face.object == o; });
+            if (is_of_it)
+                add_loss(dataset.losses, {LossClass::identity, model.name, "sides of regions, layers and fault blocks as stated",
+                                          "they leave out surfaces around the cells", 1});
+            return is_of_it;
+        });
     }
+}
+
+// Whether the regions of meshes go into a format by the surfaces around them alone: it is these that have to be sound then.
+bool leaves_cells_behind(const Dataset& dataset, const Format& target) {
+    return target.wants == WriterWants::faced_model && std::ranges::any_of(dataset.objects, [](const Object& object) {
+               const auto* mesh = std::get_if<CellMesh>(&object);
+               return mesh != nullptr && !mesh->entities.empty();
+           });
 }
 
 Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& request, RepairReport& report) {
@@ -260,7 +276,7 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     if (!before) return std::move(before).why();
     report.valid_before = count_by_severity(before->judged()).error == 0;
     report.recipe = request.recipe;
-    const bool cells_only = !grids && mend_cells(dataset, before->judged(), request, report);
+    const bool cells_only = !grids && mend_cells(dataset, before->judged(), request, report) && !leaves_cells_behind(dataset, target);
     if (!grids && !cells_only && !report.file.steps.empty()) {  // what is left to mend in the surfaces
         before = found_before(path, dataset, grids, request.checks);
         if (!before) return std::move(before).why();

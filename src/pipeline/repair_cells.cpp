@@ -28,6 +28,17 @@ bool has_volume(const CellMesh& mesh) {
     return false;
 }
 
+// Whether something is to be mended in the cells. A mesh that is inside out as a whole is sound alone (M35 is a note), but not beside
+// others: some formats hold them all in one mesh.
+bool finds_of_cells(std::span<const Finding> before, const Dataset& dataset) {
+    const auto meshes = std::ranges::count_if(dataset.objects, [](const Object& object) {
+        const auto* mesh = std::get_if<CellMesh>(&object);
+        return mesh != nullptr && has_volume(*mesh);
+    });
+    return std::ranges::any_of(
+        before, [&](const Finding& f) { return is_of_cells(f) && (f.severity != Severity::info || (f.code == "M35" && meshes > 1)); });
+}
+
 bool asks_for_surfaces(std::span<const Finding> before, const repair::Recipe& recipe) {
     if (!recipe.edits.empty() || recipe.box || recipe.automatic_box || recipe.max_gap) return true;
     if (!recipe.steps.empty()) return std::ranges::any_of(recipe.steps, [](const std::string& s) { return s != "clean"; });
@@ -40,7 +51,7 @@ bool asks_for_surfaces(std::span<const Finding> before, const repair::Recipe& re
 
 bool mend_cells(Dataset& dataset, std::span<const Finding> before, const RepairRequest& request, RepairReport& report) {
     const auto& steps = request.recipe.steps;
-    const bool found = std::ranges::any_of(before, [](const Finding& f) { return is_of_cells(f) && f.severity != Severity::info; });
+    const bool found = finds_of_cells(before, dataset);
     const bool named = std::ranges::find(steps, "clean") != steps.end();
     const double by_rule = topology::local_lengths(dataset, {}).largest.tolerance;
     const double tolerance = request.checks.tolerance >= 0 ? request.checks.tolerance : by_rule;

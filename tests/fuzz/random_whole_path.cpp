@@ -39,8 +39,11 @@ constexpr bool sanitised = true;
 constexpr bool sanitised = false;
 #endif
 
+// Set where another program watches over this one (valgrind): processor seconds that one input may take then.
+const char* watched_seconds() { return std::getenv("GEOMEND_FUZZ_SECONDS"); }
+
 // CPU seconds that one input may take, and seconds without progress after which a child is ended.
-constexpr int most_seconds = sanitised ? 40 : 10;
+int most_seconds() { return watched_seconds() != nullptr ? std::atoi(watched_seconds()) : sanitised ? 40 : 10; }
 constexpr int most_wait = 300;
 
 // What parent and child share.
@@ -91,7 +94,7 @@ double cpu_seconds() {
 }
 
 void limit_memory() {
-    if (sanitised) return;  // whose shadow takes terabytes of addresses
+    if (sanitised || watched_seconds() != nullptr) return;  // whose shadow takes terabytes of addresses
     const rlimit limit{std::uint64_t{3} << 30, std::uint64_t{3} << 30};
     if (::setrlimit(RLIMIT_AS, &limit) != 0) std::perror("setrlimit");
 }
@@ -102,7 +105,7 @@ void work(Progress& progress, std::uint64_t end, const std::vector<std::string>&
         progress.current = i;
         const std::string bytes = input_number(i, seeds);
         const double before = cpu_seconds();
-        set_timer(most_seconds);
+        set_timer(most_seconds());
         if (run_whole_path(bytes)) ++progress.read;
         set_timer(0);
         const double seconds = cpu_seconds() - before;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "whole_path.h"
 
+#include <sys/time.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/codes.h"
 #include "base/parallel.h"
@@ -31,6 +35,9 @@ namespace geomend::test {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Of processor time, after which a repair is to stop.
+constexpr int seconds_of_repair = 3;
 
 [[noreturn]] void broken(const std::string& what) {
     std::fprintf(stderr, "BROKEN: %s\n", what.c_str());
@@ -140,6 +147,10 @@ public:
     }
     std::string in(const std::string& name) const { return (root_ / "in" / name).string(); }
     fs::path out() const { return root_ / "out"; }
+    void empty_out() const {
+        fs::remove_all(out());
+        fs::create_directories(out());
+    }
     // What was written lies in out/, and nothing half written is left.
     void check_left() const {
         for (const auto& entry : fs::directory_iterator(root_)) {
@@ -274,8 +285,34 @@ void write(const Place& place, const std::string& path, const Dataset& dataset, 
     read_again(request.output, *plan.to, plan.options.empty() ? &dataset : nullptr, report->losses);
 }
 
+// A monitor that says stop when some seconds of processor time are over.
+class TimeLimit {
+public:
+    explicit TimeLimit(int seconds) {
+        over_ = false;
+        std::signal(SIGVTALRM, [](int) { over_ = true; });
+        set(seconds);
+        monitor_.stop = &over_;
+    }
+    TimeLimit(const TimeLimit&) = delete;
+    TimeLimit& operator=(const TimeLimit&) = delete;
+    ~TimeLimit() { set(0); }
+
+    const Monitor* monitor() const { return &monitor_; }
+    bool over() const { return over_; }
+
+private:
+    static void set(int seconds) {
+        itimerval timer{};
+        timer.it_value.tv_sec = seconds;
+        ::setitimer(ITIMER_VIRTUAL, &timer, nullptr);
+    }
+    inline static std::atomic<bool> over_ = false;
+    Monitor monitor_;
+};
+
 // Grids stay grids; surfaces go into the format that was chosen anyway, whether it can hold them or not.
-void mend(const Place& place, const std::string& path, const Dataset& dataset, const Plan& plan) {
+RepairRequest repair_request(const Place& place, const std::string& path, const Dataset& dataset, const Plan& plan) {
     const bool is_grid = std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<CornerPointGrid>(o); });
     const Format& to = is_grid ? *format_by_name("grdecl") : *plan.to;
     RepairRequest request;
@@ -287,12 +324,69 @@ void mend(const Place& place, const std::string& path, const Dataset& dataset, c
     request.files.load.from = plan.from;
     request.checks = plan.checks;
     request.checks.target.clear();
+    return request;
+}
+
+// Steps are kept also where the model is worse after them: each gets what the others broke.
+void mend_anyhow(const Place& place, RepairRequest request) {
     request.keep_invalid = true;
     const auto report = repair_file(request);
     place.check_left();
     if (!report) return check_failure(report.why(), "repair");
     for (const Finding& f : report->file.findings) check_finding(f, "repair");
-    if (report->written) read_again(request.files.output, to, nullptr, report->losses);
+    if (report->written) read_again(request.files.output, *format_by_name(request.files.to), nullptr, report->losses);
+}
+
+std::set<std::string> error_codes(std::span<const Finding> findings) {
+    std::set<std::string> codes;
+    for (const Finding& f : findings) {
+        if (f.severity == Severity::error) codes.insert(f.code);
+    }
+    return codes;
+}
+
+// What a repair wrote, read again, has no error of a kind that the input had not, by the tolerance by rule: a larger one may be beyond
+// the surfaces that a format wants around cells. Where surfaces become one, or points (formats of plain surfaces), what comes of them
+// need not be sound.
+void check_no_worse(const RepairRequest& request, const Dataset& before) {
+    const Format& to = *format_by_name(request.files.to);
+    if (to.keeps.several_objects == Keeping::no || to.keeps.points == Keeping::no) return;
+    validators::CheckOptions checks;
+    checks.all_cells = request.checks.all_cells;
+    const auto found = validate(request.files.inputs.front(), before, checks);
+    LoadOptions options;
+    options.from = request.files.to;
+    const auto again = validate(request.files.output, options, checks);
+    if (!found || !again) broken("repair: its input or its output cannot be validated");
+    const auto had = error_codes(found->findings);
+    for (const Finding& f : again->findings) {
+        if (f.severity == Severity::error && !had.contains(f.code))
+            broken("repair: what was written has a new error: " + f.code + " " + f.message);
+    }
+}
+
+// As users run it: never worse than before, or nothing is written. What takes long is stopped, and writes nothing, either.
+void mend(const Place& place, RepairRequest request, const Dataset& dataset) {
+    place.empty_out();
+    const TimeLimit limit(seconds_of_repair);
+    request.checks.monitor = limit.monitor();
+    request.files.load.monitor = limit.monitor();
+    const auto report = repair_file(request);
+    place.check_left();
+    const bool written = report && report->written;
+    if (written == fs::is_empty(place.out())) broken(written ? "repair wrote nothing" : "repair failed and left something");
+    if (!report) {
+        check_failure(report.why(), "repair");
+        if (report.why().kind == FailureKind::cancelled && !limit.over()) broken("repair was stopped by nobody");
+        return;
+    }
+    for (const Finding& f : report->file.findings) check_finding(f, "repair");
+    if (!written) return;
+    if (!error_codes(report->file.findings).empty()) broken("repair wrote a result that it knows to have errors");
+    if (const Format& to = *format_by_name(request.files.to); to.read != nullptr) {
+        read_again(request.files.output, to, nullptr, report->losses);
+        check_no_worse(request, dataset);
+    }
 }
 
 }  // namespace
@@ -358,7 +452,11 @@ bool run_whole_path(std::string_view bytes) {
     judge(path, *dataset, plan);
     look(path, *dataset, plan);
     write(place, path, *dataset, plan);
-    if (plan.repair) mend(place, path, *dataset, plan);
+    if (plan.repair) {
+        const RepairRequest request = repair_request(place, path, *dataset, plan);
+        mend_anyhow(place, request);
+        mend(place, request, *dataset);
+    }
     return true;
 }
 

@@ -181,6 +181,18 @@ TEST(DatasetText, PassesOverMembersOfTheWrongKind) {
     EXPECT_EQ(info_of(d.objects[0]).name, "");
 }
 
+TEST(DatasetText, PassesOverAnnotationsWithoutAKey) {
+    Dataset d = bare();
+    EXPECT_TRUE(apply_dataset_text(
+        R"({"geomend":1,"objects":[{"crs":{"annotations":[["","a"],["datum","b"]]},"annotations":[["","c"],["gocad.header","d"],[7,"e"]]}]})",
+        d));
+    const ObjectInfo& info = info_of(d.objects[0]);
+    EXPECT_EQ(info.crs.annotations, (std::vector<std::pair<std::string, std::string>>{{"datum", "b"}}));
+    ASSERT_EQ(info.annotations.size(), 1u);
+    EXPECT_EQ(info.annotations[0].key, "gocad.header");
+    EXPECT_EQ(info.annotations[0].value, "d");
+}
+
 TEST(DatasetText, TwinsThatAreNoneAreNotStated) {
     for (const char* twins : {"{}", "[7]", "[[1]]", "[[1,2]]", "[[1,[[0]]]]", "[[1,[[0,-1]]]]", "[[1,[3]]]", "[[\"a\",[]]]"}) {
         Dataset d = bare();

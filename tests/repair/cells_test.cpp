@@ -103,5 +103,35 @@ TEST(CellCleaning, FromFileToFileTheCellsStay) {
     EXPECT_NE(test::read_file(folder / "out.vtk").find("CELL"), std::string::npos);
 }
 
+// Alone it is a matter of the order of nodes; in one mesh with the other it would be an error.
+TEST(CellCleaning, OfTwoMeshesTheOneThatIsInsideOutIsTurned) {
+    const test::TemporaryFolder folder;
+    const auto vtk = [](const std::string& apex) {
+        return "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n1 0 0\n0 1 0\n0 0 " + apex +
+               "\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+    };
+    test::write_file(folder / "a.vtk", vtk("1"));
+    test::write_file(folder / "b.vtk", vtk("-1"));
+    const auto run = test::run_geomend({"repair", folder / "a.vtk", folder / "b.vtk", "-o", folder / "out.msh"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    const auto check = test::run_geomend({"validate", folder / "out.msh"});
+    EXPECT_EQ(check.status, 0) << check.out;
+}
+
+// The file states a surface between two regions of cells, and none around them: in a format of surfaces these would be open.
+TEST(CellCleaning, RegionsOfCellsGoIntoAModelOfSurfacesWithSurfacesAroundThem) {
+    const test::TemporaryFolder folder;
+    test::write_file(folder / "in.so",
+                     "GOCAD TSolid 1\nHEADER {\nname:ts\n}\nTVOLUME A\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nVRTX 4 0 0 1\n"
+                     "TETRA 1 2 3 4\nTVOLUME B\nATOM 5 1\nATOM 6 2\nATOM 7 3\nVRTX 8 0 0 -1\nTETRA 5 7 6 8\n"
+                     "MODEL\nSURFACE f\nTFACE 1\nKEYVERTICES 1 2 3\nTRGL 1 2 3\nMODEL_REGION A +1\nMODEL_REGION B -1\nEND\n");
+    const auto run = test::run_geomend({"repair", folder / "in.so", "-o", folder / "out.ml", "--lossy"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    const auto check = test::run_geomend({"validate", folder / "out.ml"});
+    EXPECT_EQ(check.status, 0) << check.out;
+    const auto info = test::run_geomend({"info", "--json", folder / "out.ml"});
+    EXPECT_NE(info.out.find("\"regions\": 2"), std::string::npos) << info.out;
+}
+
 }  // namespace
 }  // namespace geomend
