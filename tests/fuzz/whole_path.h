@@ -31,10 +31,10 @@ std::string plan_text(const Pack& pack);
 
 /// The way of a file through the whole program, in a folder of its own in memory: it is read, its boundary representations are
 /// built and summarised, every check runs, reports are made in all forms, it is written in the format that the plan asks for and
-/// read again, and where the plan says so it is repaired. Aborts with a sentence on standard error where something is not as it has to be:
-/// a failure without a reason, a finding that the catalogue does not know, a report that is not well formed, a file that was written and
-/// cannot be read, a repaired one that has errors of a kind that it had not before. \return whether the file could be read, so that the
-/// rest of the way was gone
+/// read again, and where the plan says so it is repaired. Aborts with a sentence on standard error where something is not as it has
+/// to be: a failure without a reason, a finding that the catalogue does not know, a report that is not well formed, a file that was
+/// written and cannot be read, a repaired one that has errors of a kind that it had not before.
+/// \return whether the file could be read, so that the rest of the way was gone
 bool run_whole_path(std::string_view bytes);
 
 }  // namespace geomend::test
