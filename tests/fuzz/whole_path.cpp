@@ -353,6 +353,7 @@ void check_no_worse(const RepairRequest& request, const Dataset& before) {
     if (to.keeps.several_objects == Keeping::no || to.keeps.points == Keeping::no) return;
     validators::CheckOptions checks;
     checks.all_cells = request.checks.all_cells;
+    if (request.checks.tolerance == 0) checks.tolerance = 0;  // asks for no tolerance at all
     const auto found = validate(request.files.inputs.front(), before, checks);
     LoadOptions options;
     options.from = request.files.to;
