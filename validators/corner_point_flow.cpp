@@ -53,8 +53,8 @@ void check_parts(const GridScope& scope, std::vector<Finding>& findings) {
     }
     if (number < 2) return;
     Finding f = cells_finding(scope, "C17",
-                              "the active cells fall into " + std::to_string(number) +
-                                  " parts that do not touch: " + counted(size[largest], "cell", "cells") + " in the largest, " +
+                              "the active cells form " + std::to_string(number) +
+                                  " parts that are not connected: " + counted(size[largest], "cell", "cells") + " in the largest, " +
                                   counted(found.count, "cell", "cells") + " elsewhere, which are listed",
                               found);
     f.measures = {{"parts", static_cast<double>(number)}, {"largest_part", static_cast<double>(size[largest])}};

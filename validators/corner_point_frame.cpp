@@ -48,7 +48,7 @@ void check_handedness(const GridScope& scope, std::vector<Finding>& findings) {
             scope, [&](std::size_t, std::uint32_t i, std::uint32_t j, std::uint32_t k) { return Judgement{sign * area(i, j, k) > 0}; });
         Finding f = cells_finding(scope, "C12",
                                   std::to_string(right) + " cells are right-handed in (x, y, depth) and " + std::to_string(left) +
-                                      " left-handed: the fewer ones are listed",
+                                      " left-handed: the minority is listed",
                                   fewer);
         f.measures = {{"right_handed", static_cast<double>(right)}, {"left_handed", static_cast<double>(left)}};
         findings.push_back(std::move(f));
@@ -71,8 +71,8 @@ void check_map_axes(const GridScope& scope, std::vector<Finding>& findings) {
     std::string what;
     const auto tell_unit = [&](const std::string& unit, const char* keyword) {
         if (unit.empty() || (grid::metres(unit) > 0 && grid::metres(unit) != 1200.0 / 3937)) return;
-        what +=
-            std::string(what.empty() ? "" : "; ") + "'" + unit + "' of " + keyword + " is no unit that simulators know (METRES, FEET, CM)";
+        what += std::string(what.empty() ? "" : "; ") + "'" + unit + "' of " + keyword +
+                " is not a unit that simulators know (METRES, FEET, CM)";
     };
     tell_unit(grid.map_unit, "MAPUNITS");
     if (!grid.map_axes) {
@@ -80,7 +80,7 @@ void check_map_axes(const GridScope& scope, std::vector<Finding>& findings) {
         return;
     }
     if (std::abs(map_turn(*grid.map_axes)) < 1e-5)
-        what += std::string(what.empty() ? "" : "; ") + "the three points of MAPAXES lie on one line or fall together: the map has no axes";
+        what += std::string(what.empty() ? "" : "; ") + "the three points of MAPAXES lie on one line or coincide: the map has no axes";
     if (grid.map_unit.empty()) what += std::string(what.empty() ? "" : "; ") + "MAPAXES is given, but MAPUNITS is not";
     if (!what.empty()) findings.push_back(grid_finding(scope, "C13", std::move(what)));
 }

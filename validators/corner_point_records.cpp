@@ -5,6 +5,7 @@
 #include "base/number_text.h"
 #include "validators/cell_findings.h"
 #include "validators/corner_point.h"
+#include "validators/object_places.h"
 #include "validators/registry.h"
 
 // Records that no grid can follow: stated connections (C29), local grids in one place (C30), angles of radial grids (C31).
@@ -110,7 +111,7 @@ void check_radial_angles(const GridScope& scope, std::vector<Finding>& findings)
     double most = 0;
     for (std::size_t i = 0; i < lines; ++i) most = std::max(most, std::abs(angle(i, grid.dims[1]) - angle(i, 0)));
     if (most <= 360 * (1 + 1e-6)) return;
-    Finding f = grid_finding(scope, "C31", "the cells around the axis take " + number_text(most) + " degrees together: more than 360");
+    Finding f = grid_finding(scope, "C31", "the cells around the axis cover " + number_text(most) + " degrees together: more than 360");
     f.measures = {{"degrees", most}};
     findings.push_back(std::move(f));
 }
@@ -139,6 +140,7 @@ void check_local_grids(std::span<const CornerPointGrid* const> grids, std::vecto
                              {}, shared.count);
             f.entities = {{"corner-point-grid", other->info.name}, {"corner-point-grid", local->info.name}};
             list_cells(*host, shared, f);
+            place_cells(*host, f);
             findings.push_back(std::move(f));
         }
     }

@@ -128,7 +128,7 @@ void tell_scattered(const GridScope& scope, const RegionParts& parts, const std:
     Finding f = cells_finding(scope, "C23",
                               std::to_string(parts_of_region.size()) + " of " + counted(regions.size(), "region", "regions") + " of " +
                                   name + (parts_of_region.size() == 1 ? " falls" : " fall") +
-                                  " into parts that are no neighbours (region " + list_regions(parts_of_region) +
+                                  " into parts that are not connected (region " + list_regions(parts_of_region) +
                                   "): " + counted(found.count, "cell", "cells") + " outside of the largest parts, which are listed",
                               found);
     for (const auto& [region, count] : parts_of_region) {

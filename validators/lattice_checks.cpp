@@ -107,6 +107,7 @@ void check_lattice_cells(const ObjectScope& scope, std::vector<Finding>& finding
         findings.push_back(
             lattice_finding(scope, cells, "M20", counted(empty.count, "cell", "cells") + of_object(scope) + ": without volume", empty));
         use_other_severity(findings.back());
+        findings.back().measures.emplace_back("pinched", static_cast<double>(empty.count));
     }
     if (folded.count > 0) {
         findings.push_back(lattice_finding(scope, cells, "M21",

@@ -109,7 +109,7 @@ void check_names_of_model(const ModelScope& scope, std::vector<Finding>& finding
     }
     tell_repeats(layers, "layers", findings);
     tell_repeats(blocks, "fault blocks", findings);
-    tell_repeats(surface_objects_by_name(scope), "objects of surfaces, taken for one surface,", findings);
+    tell_repeats(surface_objects_by_name(scope), "surface objects, treated as one surface,", findings);
     tell_case_only(regions, "regions", findings);
     tell_case_only(interfaces, "surfaces", findings);
     tell_case_only(layers, "layers", findings);
@@ -200,7 +200,7 @@ void check_fault_displacement(const ModelScope& scope, std::vector<Finding>& fin
     }
     for (const auto& [fault, contacts] : of_fault) {
         if (contacts.straight == 0 || contacts.displaced > 0) continue;
-        Finding finding = finding_of("G03", "fault " + quoted(brep.interfaces[fault].name) + " displaces no horizon: at " +
+        Finding finding = finding_of("G03", "fault " + quoted(brep.interfaces[fault].name) + " has no throw: at " +
                                                 counted(contacts.straight, "contact", "contacts") + " the horizon goes straight through");
         finding.entities.push_back({"interface", brep.interfaces[fault].name, fault});
         finding.count = contacts.straight;

@@ -36,6 +36,7 @@ private:
 /// What two surfaces, or one with itself, have in common beside what they share.
 struct Common {
     std::uint64_t crossing = 0, overlap = 0, border = 0, inside = 0, point = 0;
+    std::uint64_t shallow = 0;  // of `border`: crossings by no more than the tolerance
     std::vector<std::array<Vec3, 2>> segments;
     std::vector<Vec3> points;
     std::vector<std::uint32_t> polygons;  // of the first surface
@@ -272,6 +273,7 @@ private:
                     on_line_edge(scope_, lines(), scope_.triangles()[pair.b], pair.how.segment))
                     ++common.border;
                 else ++common.inside;
+                if (pair.how.kind == Meeting::crossing && !touches_line(pair)) ++common.shallow;
                 break;
             case Meeting::crossing:
                 ++common.crossing;
@@ -282,7 +284,14 @@ private:
         }
     }
 
+    bool touches_line(const TriangleMeetingPair& pair) {
+        return on_line_edge(scope_, lines(), scope_.triangles()[pair.a], pair.how.segment) ||
+               on_line_edge(scope_, lines(), scope_.triangles()[pair.b], pair.how.segment) ||
+               edge_on_it(scope_, lines(), pair.a, pair.b) == Edge::border || edge_on_it(scope_, lines(), pair.b, pair.a) == Edge::border;
+    }
+
     static void add(Common& all, Common& part) {
+        all.shallow += part.shallow;
         all.crossing += part.crossing;
         all.overlap += part.overlap;
         all.border += part.border;
@@ -313,7 +322,7 @@ Finding common_finding(const ModelScope& scope, std::string_view code, const Sur
     add_kind(kinds, common.overlap, "overlapping in a plane");
     add_kind(kinds, common.border, "touching along a border");
     add_kind(kinds, common.inside, "touching along an inner edge");
-    add_kind(kinds, common.point, "touching in a point");
+    add_kind(kinds, common.point, "touching at a point");
     if (common.has_more) kinds += ", and more that were not counted";
     Finding finding = polygons_finding(scope, code, pair.first, std::move(message) + ": pairs of triangles " + kinds, common.polygons);
     if (pair.second != pair.first) finding.entities.push_back(surface_ref(scope, pair.second));
@@ -338,10 +347,10 @@ Finding common_finding(const ModelScope& scope, std::string_view code, const Sur
 
 /// What a surface has in common with itself, by the worst of it: the code, and what goes on after its name.
 std::pair<std::string_view, const char*> meeting_with_itself(const Common& common) {
-    if (common.overlap > 0 && common.overlap >= common.crossing) return {"B26", " lies on itself"};
+    if (common.overlap > 0 && common.overlap >= common.crossing) return {"B26", " overlaps itself"};
     if (common.crossing + common.inside + common.overlap > 0) return {"B02", " crosses itself where its triangles are no neighbours"};
     if (common.border > 0) return {"B27", " ends on itself without sharing vertices"};
-    return {"B28", " touches itself in points that its triangles do not share"};
+    return {"B28", " touches itself at points that its triangles do not share"};
 }
 
 }  // namespace
@@ -358,22 +367,26 @@ void check_intersections(const ModelScope& scope, std::vector<Finding>& findings
             const auto [code, what] = meeting_with_itself(common);
             findings.push_back(common_finding(scope, code, pair, common, quoted(a.name) + what));
         } else if (common.overlap > 0 && common.overlap >= common.crossing) {
-            findings.push_back(common_finding(scope, "B20", pair, common, both + " lie on each other"));
+            findings.push_back(common_finding(scope, "B20", pair, common, both + " overlap"));
         } else if (common.crossing + common.inside + common.overlap > 0) {
             const bool stratigraphic = is_stratigraphic(a.role) && is_stratigraphic(b.role) && a.interface_id != b.interface_id;
             findings.push_back(
                 common_finding(scope, stratigraphic ? "B10" : "B08", pair, common,
                                stratigraphic ? "stratigraphic surfaces " + both + " cross" : both + " cross without a line between them"));
         } else if (common.border > 0) {
-            findings.push_back(common_finding(scope, "B11", pair, common, both + " meet at a border without sharing vertices"));
+            // Where no border takes part they pass through each other, but by so little that it is a matter of the tolerance.
+            const bool shallow = common.shallow == common.border;
+            const char* what = shallow ? " barely cross, by about the tolerance" : " meet at a border without sharing vertices";
+            findings.push_back(common_finding(scope, "B11", pair, common, both + what));
+            if (shallow) findings.back().measures.emplace_back("shallow_crossings", static_cast<double>(common.shallow));
         } else {
-            findings.push_back(common_finding(scope, "B22", pair, common, both + " touch in points that they do not share"));
+            findings.push_back(common_finding(scope, "B22", pair, common, both + " touch at points that they do not share"));
         }
     }
     if (gathering.has_more_pairs()) {
         findings.push_back(finding_of("B08",
-                                      "very many surfaces cross or touch others: further pairs of those that are told here were not looked "
-                                      "at, nor were near misses"));
+                                      "very many surfaces cross or touch others: further pairs of those reported here were not examined"
+                                      ", nor were near misses"));
     }
 }
 

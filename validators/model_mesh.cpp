@@ -67,7 +67,7 @@ void check_isolated_points(const ModelScope& scope, std::vector<Finding>& findin
 }
 
 void check_degenerate(const ModelScope& scope, std::vector<Finding>& findings) {
-    judge_polygons(scope, findings, "B01", "has no interior: it uses a vertex twice", "have no interior: they use a vertex twice",
+    judge_polygons(scope, findings, "B01", "uses a vertex twice, and so has no area", "use a vertex twice, and so have no area",
                    uses_vertex_twice);
 }
 
@@ -135,7 +135,8 @@ void check_winding(const ModelScope& scope, std::vector<Finding>& findings) {
         const auto& surface = scope.brep().surfaces[s];
         auto winding = topology::winding_of(surface);
         if (winding.one_sided) {
-            Finding finding = finding_of("M06", quoted(surface.name) + " has one side only, so that no region lies before or behind it");
+            Finding finding = finding_of(
+                "M06", quoted(surface.name) + " is not orientable: it has one side only, so that no region lies before or behind it");
             finding.entities.push_back(surface_ref(scope, s));
             finding.count = 1;
             return finding;

@@ -106,8 +106,8 @@ Finding touch_finding(const ModelScope& scope, std::uint32_t border, std::uint32
         }
     }
     const std::string a = quoted(scope.brep().surfaces[border].name), b = quoted(scope.brep().surfaces[other].name);
-    Finding touch = lies_on     ? finding_of("B20", a + " and " + b + " lie on each other, within the tolerance")
-                    : one_point ? finding_of("B22", a + " and " + b + " touch in a point that they do not share, within the tolerance")
+    Finding touch = lies_on     ? finding_of("B20", a + " and " + b + " overlap, within the tolerance")
+                    : one_point ? finding_of("B22", a + " and " + b + " touch at a point that they do not share, within the tolerance")
                                 : finding_of("B11", a + " ends on " + b + ", within the tolerance, without sharing vertices");
     touch.entities = {surface_ref(scope, border), surface_ref(scope, other)};
     touch.count = misses.size();
@@ -172,8 +172,8 @@ void report_cut_short(const ModelScope& scope, std::span<const std::uint32_t> su
     for (const std::uint32_t s : surfaces) lengths.insert(scope.lengths(s).near);
     for (const double near : lengths) {
         Finding finding = finding_of("B24", "the search length, " + rounded(near) +
-                                                ", is many times the edges of triangles in places: there not all that is near was looked "
-                                                "at; check again with a smaller --near");
+                                                ", is many times the length of edges in places: not all that is near was examined there"
+                                                "; check again with a smaller --near");
         finding.count = 1;
         findings.push_back(std::move(finding));
     }

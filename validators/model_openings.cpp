@@ -169,7 +169,7 @@ void report_around_nothing(const ModelScope& scope, const OpenGroup& group, std:
     if (meant == Meant::open) return;
     const bool many = group.surfaces.size() > 1;
     std::string message =
-        names_of(scope, group.surfaces) + (many ? " close" : " closes") + " around no volume" + free_border_text(scope, borders);
+        names_of(scope, group.surfaces) + (many ? " enclose" : " encloses") + " no volume" + free_border_text(scope, borders);
     if (meant == Meant::undecided) message += "; no role says that " + std::string(many ? "they" : "it") + " may be open";
     Finding finding = finding_of(meant == Meant::closed ? "B06" : "B29", std::move(message));
     name_surfaces(scope, group.surfaces, finding);
@@ -188,11 +188,12 @@ void report_undecided(const ModelScope& scope, const OpenGroup& group, std::vect
     const auto borders = free_borders(scope, lines_of(scope, undecided));
     const bool outside = group.region == no_index, many = undecided.size() > 1;
     if (outside && borders.empty()) return;  // nothing is open
-    Finding finding = finding_of(
-        "B29", names_of(scope, undecided) + (many ? " lie " : " lies ") +
-                   (outside ? std::string("outside of all regions") : "inside " + found_region_name(scope, group.region)) +
-                   " with both sides" + free_border_text(scope, borders) + "; no role says whether " + (many ? "they part " : "it parts ") +
-                   (outside ? "a region from the outside" : "it") + ": then it leaks there");
+    Finding finding =
+        finding_of("B29", names_of(scope, undecided) + (many ? " lie " : " lies ") +
+                              (outside ? std::string("outside all regions") : "inside " + found_region_name(scope, group.region)) +
+                              " with both sides" + free_border_text(scope, borders) + "; no role says whether " +
+                              (many ? "they separate " : "it separates ") + (outside ? "a region from the outside" : "it") +
+                              ": if so, it leaks there");
     name_surfaces(scope, undecided, finding);
     mark_borders(scope, borders, finding);
     findings.push_back(std::move(finding));

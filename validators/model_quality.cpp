@@ -90,7 +90,7 @@ void check_folds(const ModelScope& scope, std::vector<Finding>& findings) {
         const double angle = degrees * std::acos(std::min(worst, 1.0));
         Finding finding = polygons_finding(scope, "Q03", s,
                                            counted(folded.size(), "triangle", "triangles") + " of " + quoted(surface.name) +
-                                               " are folded on their neighbours; they enclose " + rounded(angle) + " degrees",
+                                               " are folded back onto their neighbours, at " + rounded(angle) + " degrees",
                                            folded);
         finding.measures = {{"angle", angle}};
         return finding;

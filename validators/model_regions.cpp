@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "geometry/cell_volume.h"
@@ -9,7 +10,9 @@
 #include "validators/each_surface.h"
 #include "validators/free_borders.h"
 #include "validators/model_checks.h"
+#include "validators/places.h"
 #include "validators/region_volumes.h"
+#include "validators/stated_records.h"
 
 namespace geomend::validators {
 
@@ -52,9 +55,68 @@ std::vector<std::array<std::uint32_t, 2>> stated_sides(const ModelScope& scope) 
 
 }  // namespace
 
+namespace {
+
+/// What the list of a region would have to change to bound the region that its surfaces enclose.
+struct ListDifference {
+    std::vector<std::uint32_t> missing, foreign;  ///< sides: 2 x surface, + 1 for the front
+
+    /// "lacks -4 (TFACE 4 of 'H1') and has +7 (...) too many"
+    std::string text(const StatedRecords& records) const {
+        std::string words;
+        if (!missing.empty()) words += "lacks " + records.sides_text(missing);
+        if (!foreign.empty()) words += std::string(words.empty() ? "" : ", and ") + "should not have " + records.sides_text(foreign);
+        return words;
+    }
+    /// Which advice is given depends on them.
+    std::vector<std::pair<std::string, double>> measures() const {
+        return {{"sides_missing", static_cast<double>(missing.size())}, {"sides_too_many", static_cast<double>(foreign.size())}};
+    }
+    void name_surfaces(const ModelScope& scope, Finding& finding) const {
+        std::set<std::uint32_t> named;
+        for (const auto* list : {&missing, &foreign}) {
+            for (const std::uint32_t side : *list) {
+                if (named.insert(side / 2).second && finding.entities.size() < listed_elements)
+                    finding.entities.push_back(surface_ref(scope, side / 2));
+            }
+        }
+    }
+};
+
+/// \param stated, found single sides, ascending
+ListDifference difference(const std::vector<std::uint32_t>& stated, const std::vector<std::uint32_t>& found) {
+    ListDifference d;
+    std::ranges::set_difference(found, stated, std::back_inserter(d.missing));
+    std::ranges::set_difference(stated, found, std::back_inserter(d.foreign));
+    return d;
+}
+
+/// Where most of the stated sides bound one region that is found by walking along surfaces, the list is what is wrong.
+void add_list_difference(const ModelScope& scope, const StatedRecords& records, std::uint32_t region,
+                         const std::vector<std::uint32_t>& single, Finding& finding) {
+    const auto& found = scope.model().found;
+    if (found.region_of_side.empty()) return;
+    std::map<std::uint32_t, std::size_t> times;
+    for (const std::uint32_t side : single) {
+        if (found.region_of_side[side] != no_index) ++times[found.region_of_side[side]];
+    }
+    if (times.empty()) return;
+    const auto most = std::ranges::max_element(times, {}, [](const auto& entry) { return entry.second; });
+    const auto sides = single_sides(found.regions[most->first]);
+    if (2 * most->second <= std::max(sides.size(), single.size())) return;
+    const ListDifference d = difference(single, sides);
+    if (d.missing.empty() && d.foreign.empty()) return;
+    finding.measures = d.measures();
+    finding.message += "; the list of region " + quoted(scope.brep().regions[region].name) + " " + d.text(records);
+    d.name_surfaces(scope, finding);
+}
+
+}  // namespace
+
 void check_region_closed(const ModelScope& scope, std::vector<Finding>& findings) {
     if (!scope.model().regions_stated) return;
     const BrepData& brep = scope.brep();
+    const StatedRecords records(scope);
     for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
         const auto& region = brep.regions[r];
         if (!region.cell_types.empty() || region.volume_known) continue;
@@ -75,6 +137,8 @@ void check_region_closed(const ModelScope& scope, std::vector<Finding>& findings
         }
         finding.element_kind = "line";
         if (finding.count > 0) finding.message += ": it is open along " + counted(finding.count, "line", "lines");
+        if (region.sides.empty()) finding.measures = {{"sides", 0}};
+        else add_list_difference(scope, records, r, single, finding);
         findings.push_back(std::move(finding));
     }
 }
@@ -85,7 +149,7 @@ void check_model_closed(const ModelScope& scope, std::vector<Finding>& findings)
     if (std::ranges::any_of(brep.regions, [](const auto& region) { return !region.cell_types.empty(); })) return;
     const auto open = static_cast<std::uint64_t>(std::ranges::count(scope.free_lines(), 1));
     Finding finding = finding_of("B06", "the " + counted(brep.surfaces.size(), "surface", "surfaces") + " of model " + quoted(brep.name) +
-                                            " close around no volume; " + counted(open, "line is a free border", "lines are free borders"));
+                                            " enclose no volume; " + counted(open, "line is a free border", "lines are free borders"));
     finding.entities.push_back({"model", brep.name});
     finding.count = open;
     finding.element_kind = "line";
@@ -144,7 +208,37 @@ std::vector<std::uint32_t> hole_lines(const ModelScope& scope, std::uint32_t reg
     return holes.empty() ? tips : holes;
 }
 
-Finding leak_finding(const ModelScope& scope, std::uint32_t region, const std::vector<std::uint32_t>& surfaces) {
+using StatedSides = std::vector<std::array<std::uint32_t, 2>>;
+
+/// Of surfaces that no list names: the volume that they enclose with others, which are not cut where they meet.
+std::optional<CutVolume> unlisted_volume(const ModelScope& scope, const std::vector<std::uint32_t>& surfaces, const StatedSides& stated) {
+    if (!scope.model().regions_stated) return std::nullopt;
+    const auto is_listed = [&](std::uint32_t s) { return stated[s][0] != no_index || stated[s][1] != no_index; };
+    if (std::ranges::any_of(surfaces, is_listed)) return std::nullopt;
+    for (auto& volume : volumes_when_cut(scope, surfaces)) {
+        if (volume) return std::move(volume);
+    }
+    return std::nullopt;
+}
+
+/// "'bubble' encloses a volume of 12 with 'H2' that is in no list of a region"
+std::string enclosing_text(const ModelScope& scope, const std::vector<std::uint32_t>& surfaces, const CutVolume& volume) {
+    constexpr std::size_t named = 3;
+    const auto name = [&](std::uint32_t s) { return quoted(scope.brep().surfaces[s].name); };
+    std::string others;
+    std::size_t number = 0;
+    for (const std::uint32_t s : volume.surfaces) {
+        if (std::ranges::find(surfaces, s) != surfaces.end()) continue;
+        if (number++ < named) others += (others.empty() ? " with " : ", ") + name(s);
+    }
+    if (number > named) others += ", ...";
+    std::string text = name(surfaces[0]);
+    if (surfaces.size() > 1) text += " and " + counted(surfaces.size() - 1, "other surface", "other surfaces");
+    return text + (surfaces.size() > 1 ? " enclose" : " encloses") + " a volume of " + rounded(volume.volume) + others +
+           " that no region has";
+}
+
+Finding leak_finding(const ModelScope& scope, std::uint32_t region, const std::vector<std::uint32_t>& surfaces, const StatedSides& stated) {
     const BrepData& brep = scope.brep();
     Finding finding =
         finding_of("B12", found_region_name(scope, region) + " leaks: it lies on both sides of " + quoted(brep.surfaces[surfaces[0]].name));
@@ -162,6 +256,11 @@ Finding leak_finding(const ModelScope& scope, std::uint32_t region, const std::v
         const auto borders = free_borders(scope, lines);
         finding.message += ": " + border_text(scope, borders);
         mark_borders(scope, borders, finding);
+    } else if (const auto volume = unlisted_volume(scope, surfaces, stated)) {
+        finding.measures = {{"unlisted_volume", volume->volume}};
+        finding.message = enclosing_text(scope, surfaces, *volume);
+    } else if (scope.model().regions_stated) {
+        finding.measures = {{"stated_surfaces", static_cast<double>(surfaces.size())}};
     }
     finding.element_kind = "surface";
     finding.count = surfaces.size();
@@ -201,7 +300,7 @@ void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
         else if (region != no_index && (scope.model().regions_stated || !is_undecided(surface.role)))
             internal.push_back(s);  // outside of all regions: B16; no role says what it is: B29
     }
-    for (const auto& [region, surfaces] : leaking) findings.push_back(leak_finding(scope, region, surfaces));
+    for (const auto& [region, surfaces] : leaking) findings.push_back(leak_finding(scope, region, surfaces, stated));
     for (const std::uint32_t s : internal) {
         const std::uint32_t region = found.region_of_side[2 * s];
         Finding finding =
@@ -215,8 +314,34 @@ void check_leaks(const ModelScope& scope, std::vector<Finding>& findings) {
     }
 }
 
+namespace {
+
+/// Surfaces of which a region has both sides; they ascend.
+std::vector<std::uint32_t> inner_surfaces(std::span<const BrepData::Side> sides) {
+    std::set<std::uint32_t> all, inner;
+    for (const auto& side : sides) all.insert(side_index(side));
+    for (const std::uint32_t side : all) {
+        if (all.contains(side ^ 1u)) inner.insert(side / 2);
+    }
+    return {inner.begin(), inner.end()};
+}
+
+/// The stated sides that bound other regions than most of them do.
+std::vector<std::uint32_t> sides_of_lesser_regions(const ModelScope& scope, const std::vector<std::uint32_t>& single) {
+    const auto& region_of = scope.model().found.region_of_side;
+    std::map<std::uint32_t, std::size_t> times;
+    for (const std::uint32_t side : single) ++times[region_of[side]];
+    const auto most = std::ranges::max_element(times, {}, [](const auto& entry) { return entry.second; });
+    std::vector<std::uint32_t> lesser;
+    std::ranges::copy_if(single, std::back_inserter(lesser), [&](std::uint32_t side) { return region_of[side] != most->first; });
+    return lesser;
+}
+
+}  // namespace
+
 void check_stated_regions(const ModelScope& scope, std::vector<Finding>& findings) {
     const BrepData& brep = scope.brep();
+    const StatedRecords records(scope);
     const auto& found = scope.model().found;
     if (!scope.model().regions_stated || found.region_of_side.empty()) return;
     const auto stated = stated_sides(scope);
@@ -230,45 +355,72 @@ void check_stated_regions(const ModelScope& scope, std::vector<Finding>& finding
         const auto single = single_sides(region.sides);
         if (single.empty() || bare[r] != 0 || (!region.volume_known && region.cell_types.empty())) continue;
         if (region.cell_types.empty() && volumes[r] > 1) {
-            Finding finding =
-                finding_of("B13", "region " + quoted(region.name) + " is stated as one, but surfaces inside of it part it into " +
-                                      std::to_string(volumes[r]) + " volumes");
+            Finding finding = finding_of("B13", "region " + quoted(region.name) + " is stated as one, but surfaces inside divide it into " +
+                                                    std::to_string(volumes[r]) + " volumes");
             finding.entities.push_back(region_ref(scope, r));
             finding.count = volumes[r];
             finding.element_kind = "volume";
+            finding.measures = {{"volumes", static_cast<double>(volumes[r])}};
+            for (const std::uint32_t side : inner_surfaces(region.sides)) {
+                if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, side));
+            }
             findings.push_back(std::move(finding));
             continue;
         }
         std::set<std::uint32_t> touched;
         for (const std::uint32_t side : single) touched.insert(found.region_of_side[side]);
         if (touched.size() == 1 && *touched.begin() != no_index && found_single[*touched.begin()] == single) continue;
-        std::vector<std::uint32_t> missing, foreign;
         const bool one = touched.size() == 1 && *touched.begin() != no_index;
-        if (one) std::ranges::set_difference(found_single[*touched.begin()], single, std::back_inserter(missing));
-        if (one) std::ranges::set_difference(single, found_single[*touched.begin()], std::back_inserter(foreign));
-        std::string message =
-            "region " + quoted(region.name) + " is stated with " + counted(single.size(), "side", "sides") + " of surfaces, ";
-        message += one ? "but walking along them gives " + std::to_string(found_single[*touched.begin()].size())
-                       : "but these do not bound one region: they belong to " + std::to_string(touched.size());
+        ListDifference d;
+        if (one) d = difference(single, found_single[*touched.begin()]);
         const auto is_its_own = [&](std::uint32_t side) { return are_of_one_group(brep, r, stated[side / 2][side % 2]); };
-        const bool runs_into_its_own = one && std::ranges::all_of(missing, is_its_own) &&
-                                       std::ranges::all_of(foreign, [&](std::uint32_t side) { return is_its_own(side ^ 1u); });
-        if (runs_into_its_own) message += ": no surface parts it from other volumes of its group";
+        const bool runs_into_its_own = one && std::ranges::all_of(d.missing, is_its_own) &&
+                                       std::ranges::all_of(d.foreign, [&](std::uint32_t side) { return is_its_own(side ^ 1u); });
+        std::string message =
+            "region " + quoted(region.name) + " is stated with " + counted(single.size(), "side", "sides") + " of surfaces, but ";
+        if (runs_into_its_own) message += "no surface separates it from other volumes of its group";
+        else if (one)
+            message +=
+                "the region that they bound has " + std::to_string(found_single[*touched.begin()].size()) + "; its list " + d.text(records);
+        else message += "these do not bound one region: they belong to " + std::to_string(touched.size());
         Finding finding = finding_of("B13", std::move(message));
+        if (runs_into_its_own) finding.measures = {{"sides_open_to_group", static_cast<double>(d.missing.size() + d.foreign.size())}};
+        else if (one) finding.measures = d.measures();
+        else finding.measures = {{"regions", static_cast<double>(touched.size())}};
         if (runs_into_its_own) use_other_severity(finding);
         finding.entities.push_back(region_ref(scope, r));
-        std::set<std::uint32_t> named;
-        for (const auto* list : {&missing, &foreign}) {
-            for (const std::uint32_t side : *list) {
-                if (named.insert(side / 2).second && finding.entities.size() < listed_elements)
-                    finding.entities.push_back(surface_ref(scope, side / 2));
-            }
-        }
-        finding.count = std::max<std::uint64_t>(1, missing.size() + foreign.size());
+        if (!one) d.foreign = sides_of_lesser_regions(scope, single);
+        d.name_surfaces(scope, finding);
+        finding.count = one ? std::max<std::uint64_t>(1, d.missing.size() + d.foreign.size()) : 1;
         finding.element_kind = "side";
         findings.push_back(std::move(finding));
     }
 }
+
+namespace {
+
+/// Says where two regions have the same sides: of regions of cells the faces of those cells that are fewer there; else which lists have it.
+void mark_shared_sides(const ModelScope& scope, const std::pair<std::uint32_t, std::uint32_t>& regions,
+                       const std::vector<std::uint32_t>& sides, Finding& finding) {
+    const BrepData& brep = scope.brep();
+    const auto has_cells = [&](std::uint32_t r) { return !brep.regions[r].cell_types.empty(); };
+    if (!has_cells(regions.first) || !has_cells(regions.second)) {
+        if (scope.model().regions_stated) finding.message += ": both lists have " + StatedRecords(scope).sides_text(sides);
+        return;
+    }
+    auto first = cell_faces_on(scope, regions.first, sides), second = cell_faces_on(scope, regions.second, sides);
+    if (first.empty() || second.empty()) return;
+    const auto side_text = [&](std::uint32_t r, std::size_t faces) {
+        return counted(faces, "face", "faces") + " of cells of " + quoted(brep.regions[r].name);
+    };
+    finding.message += ": " + side_text(regions.first, first.size()) + " and " + side_text(regions.second, second.size()) + " lie there";
+    finding.measures = {{"faces_of_first", static_cast<double>(first.size())}, {"faces_of_second", static_cast<double>(second.size())}};
+    finding.points = std::move(first.size() <= second.size() ? first : second);
+    std::ranges::sort(finding.points);
+    if (finding.points.size() > listed_elements) finding.points.resize(listed_elements);
+}
+
+}  // namespace
 
 void check_region_overlap(const ModelScope& scope, std::vector<Finding>& findings) {
     const BrepData& brep = scope.brep();
@@ -278,19 +430,20 @@ void check_region_overlap(const ModelScope& scope, std::vector<Finding>& finding
         for (const auto& side : brep.regions[r].sides) {
             std::uint32_t& first = owner[side_index(side)];
             if (first == no_index) first = r;
-            else if (first != r) shared[{first, r}].push_back(side.surface.value);
+            else if (first != r) shared[{first, r}].push_back(side_index(side));
         }
     }
-    for (const auto& [pair, surfaces] : shared) {
+    for (const auto& [pair, sides] : shared) {
         Finding finding =
             finding_of("B14", "regions " + quoted(brep.regions[pair.first].name) + " and " + quoted(brep.regions[pair.second].name) +
-                                  " are both stated on the same side of " + quoted(brep.surfaces[surfaces[0]].name));
+                                  " are both stated on the same side of " + quoted(brep.surfaces[sides[0] / 2].name));
         finding.entities = {region_ref(scope, pair.first), region_ref(scope, pair.second)};
-        for (const std::uint32_t s : surfaces) {
-            if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, s));
+        for (const std::uint32_t side : sides) {
+            if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, side / 2));
         }
-        finding.count = surfaces.size();
+        finding.count = sides.size();
         finding.element_kind = "surface";
+        mark_shared_sides(scope, pair, sides, finding);
         findings.push_back(std::move(finding));
     }
 }
@@ -348,8 +501,8 @@ void check_outside_surfaces(const ModelScope& scope, std::vector<Finding>& findi
     }
     if (finding.count == 0) return;
     finding.element_kind = "surface";
-    finding.message = counted(finding.count, "surface lies", "surfaces lie") +
-                      " outside of all regions: " + quoted(finding.entities[0].name) + (finding.count > 1 ? ", ..." : "");
+    finding.message = counted(finding.count, "surface lies", "surfaces lie") + " outside all regions: " + quoted(finding.entities[0].name) +
+                      (finding.count > 1 ? ", ..." : "");
     findings.push_back(std::move(finding));
 }
 

@@ -159,7 +159,7 @@ void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
         }
         Finding finding =
             finding_of("B04", quoted(surface.name) + " falls into " + std::to_string(polygons_of.size()) +
-                                  (is_cut ? " parts where other surfaces cut through it; " : " parts that do not hang together; ") +
+                                  (is_cut ? " parts where other surfaces cut through it; " : " parts that are not connected; ") +
                                   std::to_string(all - largest) + " of its " + std::to_string(all) + " triangles are not in the largest");
         finding.entities.push_back(surface_ref(scope, s));
         finding.count = polygons_of.size();
@@ -198,7 +198,7 @@ void check_seams(const ModelScope& scope, std::vector<Finding>& findings) {
     }
     for (auto& [s, lines] : of_surface) {
         Finding finding = finding_of("B07", quoted(brep.surfaces[s].name) + " is open along " + counted(lines.count, "seam", "seams") +
-                                                " where no other surface meets it: points at one position are not joined there");
+                                                ": borders of it coincide there, but their points are not joined");
         if (!scope.model().stated) use_other_severity(finding);
         finding.count = lines.count;
         finding.element_kind = "line";
@@ -215,7 +215,7 @@ void check_radial_order(const ModelScope& scope, std::vector<Finding>& findings)
     const auto& lines = scope.model().found.uncertain_lines;
     if (lines.empty()) return;
     Finding finding = finding_of("B17", "around " + counted(lines.size(), "line", "lines") +
-                                            " polygons coincide, so that their order is not known and regions were not followed across");
+                                            " polygons coincide, so that their order is not known, and regions were not found across it");
     finding.count = lines.size();
     finding.element_kind = "line";
     for (const LineId l : lines) {

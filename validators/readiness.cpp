@@ -18,39 +18,39 @@ namespace {
 // What is known of the targets, from their manuals and from what they did with models given to them.
 
 constexpr std::array flow_burdens = {
-    TargetBurden{"C04", "cells that do not touch pass nothing on, but by PINCH"},
-    TargetBurden{"C05", "cells without thickness hold nothing and part what lies above from what lies below"},
-    TargetBurden{"C15", "ACTNUM is read as inactive (0) or active"},
-    TargetBurden{"C16", "these cells are made inactive"},
-    TargetBurden{"F145", "it takes other sizes for them, or stops"},
-    TargetBurden{"F146", "it stops there, or passes over the record", true},
+    TargetBurden{"C04", "nothing flows between cells that do not touch, except by PINCH"},
+    TargetBurden{"C05", "such cells have no pore volume and block vertical flow"},
+    TargetBurden{"C15", "every value of ACTNUM but 0 counts as active"},
+    TargetBurden{"C16", "such cells are made inactive"},
+    TargetBurden{"F145", "it assumes other sizes for these cells, or stops"},
+    TargetBurden{"F146", "it stops there, or ignores the record", true},
     TargetBurden{"F147", "it stops there", true},
     TargetBurden{"F149", "it stops there", true},
-    TargetBurden{"C17", "parts of their own are solved with nothing that joins them"},
+    TargetBurden{"C17", "each part is simulated by itself, with no flow between them"},
 };
 constexpr std::array mesher_burdens = {
-    TargetBurden{"B15", "elements of the size of the gap fill it"},
-    TargetBurden{"B17", "facets that coincide are told as crossing"},
-    TargetBurden{"B22", "a vertex is put in, and the meshes do not match there"},
-    TargetBurden{"B23", "elements of the size of the gap fill it, or the region leaks"},
-    TargetBurden{"B24", "elements of the size of the gap fill it"},
-    TargetBurden{"B28", "a vertex is put in, and the meshes do not match there"},
-    TargetBurden{"B29", "what the surface parts becomes one, or is not filled"},
-    TargetBurden{"M01", "elements as small as the distance are made"},
-    TargetBurden{"M03", "elements as flat as the triangle are made"},
-    TargetBurden{"Q01", "elements as bad as the triangle are made"},
-    TargetBurden{"Q04", "no element there can have a larger angle, and refinement may not end"},
+    TargetBurden{"B15", "the gap is meshed with elements of its own size"},
+    TargetBurden{"B17", "facets that coincide are rejected as crossing"},
+    TargetBurden{"B22", "a vertex is inserted, and the meshes do not match there"},
+    TargetBurden{"B23", "the gap is meshed with elements of its own size, or the region leaks"},
+    TargetBurden{"B24", "the gap is meshed with elements of its own size"},
+    TargetBurden{"B28", "a vertex is inserted, and the meshes do not match there"},
+    TargetBurden{"B29", "what the surface separates becomes one region, or is not meshed"},
+    TargetBurden{"M01", "elements become as small as the distance"},
+    TargetBurden{"M03", "elements become as flat as the triangle"},
+    TargetBurden{"Q01", "elements become as bad as the triangle"},
+    TargetBurden{"Q04", "no element there can have a larger angle, and refinement may never end"},
 };
 constexpr std::array cell_burdens = {
     TargetBurden{"M24", "the cells on both sides are not connected"},
     TargetBurden{"M27", "the cells on both sides are not connected"},
-    TargetBurden{"M35", "it takes their volumes for negative"},
+    TargetBurden{"M35", "it finds negative volumes"},
 };
 constexpr std::array openfoam_burdens = {
     TargetBurden{"M24", "the cells on both sides are not connected"},
     TargetBurden{"M27", "the cells on both sides are not connected"},
-    TargetBurden{"M35", "it takes their volumes for negative"},
-    TargetBurden{"M28", "checkMesh tells unused points"},
+    TargetBurden{"M35", "it finds negative volumes"},
+    TargetBurden{"M28", "checkMesh reports unused points"},
 };
 
 using enum CellType;
@@ -151,8 +151,8 @@ Result<std::vector<Finding>> readiness(const Dataset& dataset, const Target& tar
                                        std::span<const Finding> found) {
     std::vector<Finding> findings;
     if (std::ranges::none_of(dataset.objects, [&](const Object& o) { return takes(target, o); })) {
-        findings.push_back(target_finding(
-            "S01", std::string(target.title) + " needs " + wanted_kind(target.input) + ": the file holds nothing of the kind"));
+        findings.push_back(
+            target_finding("S01", std::string(target.title) + " needs " + wanted_kind(target.input) + ": the file has none"));
         return findings;
     }
     check_other_findings(target, found, findings);

@@ -34,9 +34,9 @@ void check_types(const Target& target, const CellMesh& mesh, std::vector<Finding
         if (dimension(type) == 3 && std::ranges::find(target.cell_types, type) == target.cell_types.end()) list(mesh, cell, unknown[type]);
     }
     for (auto& [type, cells] : unknown) {
-        Finding f = about(mesh, "S07",
-                          std::string(target.title) + " has no cells of type " + to_string(type) + ": there " +
-                              (cells.count == 1 ? "is " : "are ") + std::to_string(cells.count));
+        Finding f =
+            about(mesh, "S07",
+                  std::string(target.title) + " has no cells of type " + to_string(type) + ": the mesh has " + std::to_string(cells.count));
         f.count = cells.count;
         f.element_kind = cells.element_kind;
         f.elements = std::move(cells.elements);
@@ -58,7 +58,7 @@ void check_tags(const Target& target, const CellMesh& mesh, std::vector<Finding>
     }
     if (untagged.count == 0) return;
     untagged.message = "no region is stated for " + counted(untagged.count, "cell", "cells") + ": " + std::string(target.title) +
-                       " takes all of them as one, and no property can be given to a part";
+                       " treats all cells as one region, and no property can be given to a part";
     findings.push_back(std::move(untagged));
 }
 
@@ -94,7 +94,8 @@ void check_patches(const Target& target, const CellMesh& mesh, std::vector<Findi
     }
     if (bare.count == 0) return;
     bare.message = std::to_string(bare.count) + " of " + counted(outer, "outer face", "outer faces") +
-                   " have no name: " + std::string(target.title) + " puts them into one patch, and no condition can be given to a part";
+                   " have no name: " + std::string(target.title) +
+                   " puts them into one patch, and no boundary condition can be given to a part";
     findings.push_back(std::move(bare));
 }
 

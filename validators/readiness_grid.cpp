@@ -77,7 +77,7 @@ void check_properties(const CornerPointGrid& grid, std::vector<Finding>& finding
     if (!has("PERMX")) findings.push_back(about(grid, "S04", "there is no PERMX: OPM Flow stops"));
     for (const char* name : {"PERMY", "PERMZ"}) {
         if (has("PERMX") && !has(name))
-            findings.push_back(about(grid, "S12", std::string("there is no ") + name + ": PERMX is taken for it"));
+            findings.push_back(about(grid, "S12", std::string("there is no ") + name + ": PERMX is used instead"));
     }
     for (const Property& p : properties) check_values(grid, p, findings);
 }
@@ -118,7 +118,7 @@ void check_region_multipliers(const CornerPointGrid& grid, std::vector<Finding>&
         const char* numbers = m.regions == 'F' ? "FLUXNUM" : m.regions == 'O' ? "OPERNUM" : "MULTNUM";
         // Where MULTNUM is not there all cells are of region 1.
         if (m.regions == 'M' || cell_attribute(grid, numbers) != nullptr) continue;
-        findings.push_back(about(grid, "S09", std::string("MULTREGT goes by ") + numbers + ", which is not there: OPM Flow stops"));
+        findings.push_back(about(grid, "S09", std::string("MULTREGT uses ") + numbers + ", which is missing: OPM Flow stops"));
         break;
     }
     for (const auto& m : grid.region_multipliers) {
@@ -134,9 +134,9 @@ void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& find
     if (grid.host)
         return findings.push_back(about(grid, "S09",
                                         "this grid refines " + (grid.host->grid.empty() ? "the main grid" : "'" + grid.host->grid + "'") +
-                                            ": OPM Flow takes no local refinements"));
+                                            ": OPM Flow does not support local grid refinements"));
     if (grid.porosity != CornerPointGrid::Porosity::single)
-        findings.push_back(about(grid, "S09", "the grid has two porosities: OPM Flow takes one"));
+        findings.push_back(about(grid, "S09", "the grid has dual porosity, which OPM Flow does not support"));
     if (!misfit(grid).empty()) return;
     if (active_count(grid) == 0) return findings.push_back(about(grid, "S03", "no cell is active: there is nothing to simulate"));
     check_properties(grid, findings);
@@ -144,7 +144,7 @@ void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& find
     check_region_multipliers(grid, findings);
     check_map_unit(grid, findings);
     if (grid.unit_system.empty())
-        findings.push_back(about(grid, "S12", "the unit system is not stated: METRIC is taken (metres, millidarcy, bar)"));
+        findings.push_back(about(grid, "S12", "no unit system is stated: METRIC is assumed (metres, millidarcy, bar)"));
 }
 
 }  // namespace geomend::validators

@@ -50,7 +50,7 @@ std::string fault_of(const std::string& name, const NameRule& rule) {
         if (rule.forbidden.find(c) != std::string_view::npos)
             return std::string("has the character ") + (c == '\n' ? "line feed" : std::string(1, c));
         if (!rule.blanks && std::isspace(static_cast<unsigned char>(c)) != 0) return "has a blank";
-        if (rule.ascii && static_cast<unsigned char>(c) >= 0x80) return "has a character that is not of ASCII";
+        if (rule.ascii && static_cast<unsigned char>(c) >= 0x80) return "has a character that is not ASCII";
     }
     return {};
 }
@@ -81,12 +81,12 @@ void check_names(const Dataset& dataset, const Target& target, std::vector<Findi
         }
     }
     if (unfit.count > 0) {
-        unfit.message = std::string(target.title) + " does not take " + counted(unfit.count, "name", "names") + ": " + example;
+        unfit.message = std::string(target.title) + " does not accept " + counted(unfit.count, "name", "names") + ": " + example;
         findings.push_back(std::move(unfit));
     }
     if (alike.count > 0) {
-        alike.message = std::string(target.title) + " does not tell apart what has the same name" +
-                        (target.names.case_counts ? "" : ", upper and lower case being the same") + ": " +
+        alike.message = std::string(target.title) + " does not distinguish things of the same name" +
+                        (target.names.case_counts ? "" : ", and treats upper and lower case alike") + ": " +
                         counted(alike.count, "name is", "names are") + " used more than once";
         findings.push_back(std::move(alike));
     }
@@ -102,7 +102,7 @@ Result<void> check_regions(const Dataset& dataset, const Target& target, const t
     }
     if (closed > 0) return {};
     findings.push_back(
-        target_finding("S03", "no region is closed by surfaces: there is nothing that " + std::string(target.title) + " could fill"));
+        target_finding("S03", "no region is closed by surfaces: there is nothing that " + std::string(target.title) + " could mesh"));
     return {};
 }
 

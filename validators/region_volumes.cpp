@@ -5,6 +5,8 @@
 #include <array>
 #include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "topology/face_edges.h"
 #include "topology/face_volume.h"
@@ -12,6 +14,7 @@
 #include "topology/line_graph.h"
 #include "topology/pieces.h"
 #include "topology/regions.h"
+#include "topology/side_solver.h"
 #include "validators/cell_scope.h"
 
 namespace geomend::validators {
@@ -67,27 +70,37 @@ std::vector<Corners> polygons_of(const BrepData& brep) {
     return polygons;
 }
 
-/// What the pieces of all surfaces part space into. \param source per piece its surface
-topology::FoundRegions regions_of_pieces(const ModelScope& scope, std::vector<std::uint32_t>& source) {
-    const BrepData& brep = scope.brep();
+/// The pieces of all surfaces between lines, and what they part space into.
+struct Pieces {
     BrepData parts;
+    std::vector<std::uint32_t> source;  ///< per piece its surface
+    std::vector<double> cones;
+    topology::LineGraph graph;
+    topology::FoundRegions found;
+};
+
+Pieces pieces_of_model(const ModelScope& scope) {
+    const BrepData& brep = scope.brep();
+    Pieces pieces;
+    BrepData& parts = pieces.parts;
     parts.vertices = brep.vertices;
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
         for (auto& piece : topology::pieces_of(brep.surfaces[s], scope.model().faces[s])) {
             piece.surface.lines.clear();
             piece.surface.neighbours.clear();
             parts.surfaces.push_back(std::move(piece.surface));
-            source.push_back(s);
+            pieces.source.push_back(s);
         }
     }
     std::vector<topology::FaceEdges> faces;
     for (auto& part : parts.surfaces) faces.push_back(topology::connect_polygons(part));
-    const auto graph = topology::build_lines(parts, faces, {});
-    const auto cones = topology::cone_volumes(parts, faces);
+    pieces.graph = topology::build_lines(parts, faces, {});
+    pieces.cones = topology::cone_volumes(parts, faces);
     std::vector<double> tolerances;
-    tolerances.reserve(source.size());
-    for (const std::uint32_t s : source) tolerances.push_back(s < scope.model().tolerances.size() ? scope.model().tolerances[s] : 0);
-    return topology::find_regions(parts, graph, cones, tolerances);
+    tolerances.reserve(pieces.source.size());
+    for (const std::uint32_t s : pieces.source) tolerances.push_back(s < scope.model().tolerances.size() ? scope.model().tolerances[s] : 0);
+    pieces.found = topology::find_regions(parts, pieces.graph, pieces.cones, tolerances);
+    return pieces;
 }
 
 }  // namespace
@@ -153,16 +166,15 @@ std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope) {
     if (surfaces_are_whole(scope)) {
         count(scope.model().found, [](std::uint32_t s) { return s; });
     } else {
-        std::vector<std::uint32_t> source;  // per piece its surface
-        const auto found = regions_of_pieces(scope, source);
-        count(found, [&](std::uint32_t piece) { return source[piece]; });
+        const Pieces pieces = pieces_of_model(scope);
+        count(pieces.found, [&](std::uint32_t piece) { return pieces.source[piece]; });
     }
     return volumes;
 }
 
 std::vector<std::uint8_t> surfaces_between_several(const ModelScope& scope) {
-    std::vector<std::uint32_t> source;  // per piece its surface
-    const auto found = regions_of_pieces(scope, source);
+    const Pieces pieces = pieces_of_model(scope);
+    const auto& [source, found] = std::tie(pieces.source, pieces.found);
     std::vector<std::uint8_t> several(scope.brep().surfaces.size(), 0);
     if (found.region_of_side.empty()) return several;
     using Sides = std::array<std::uint32_t, 2>;
@@ -174,6 +186,31 @@ std::vector<std::uint8_t> surfaces_between_several(const ModelScope& scope) {
         known = sides;
     }
     return several;
+}
+
+std::vector<std::optional<CutVolume>> volumes_when_cut(const ModelScope& scope, std::span<const std::uint32_t> surfaces) {
+    const Pieces pieces = pieces_of_model(scope);
+    std::vector<std::optional<CutVolume>> volumes(surfaces.size());
+    if (pieces.found.region_of_side.empty()) return volumes;
+    const auto volume_of = [&](std::uint32_t region) {
+        CutVolume made{topology::enclosed(pieces.found.regions[region], pieces.cones, pieces.graph).volume, {}};
+        for (const auto& side : pieces.found.regions[region]) made.surfaces.push_back(pieces.source[side.surface.value]);
+        std::ranges::sort(made.surfaces);
+        made.surfaces.erase(std::unique(made.surfaces.begin(), made.surfaces.end()), made.surfaces.end());
+        return made;
+    };
+    for (std::uint32_t piece = 0; piece < pieces.source.size(); ++piece) {
+        const auto at = std::ranges::find(surfaces, pieces.source[piece]);
+        const std::uint32_t behind = pieces.found.region_of_side[2 * piece], in_front = pieces.found.region_of_side[2 * piece + 1];
+        if (at == surfaces.end() || behind == in_front) continue;
+        auto& known = volumes[static_cast<std::size_t>(at - surfaces.begin())];
+        for (const std::uint32_t region : {behind, in_front}) {
+            if (region == no_index) continue;
+            CutVolume volume = volume_of(region);
+            if (!known || volume.volume < known->volume) known = std::move(volume);
+        }
+    }
+    return volumes;
 }
 
 }  // namespace geomend::validators

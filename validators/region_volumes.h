@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "validators/model_scope.h"
@@ -22,5 +24,15 @@ bool surfaces_are_whole(const ModelScope& scope);
 /// Per surface 1 where its pieces between lines lie between different regions, once all surfaces are cut along lines: then it parts
 /// more than two. Cost: as of finding the regions of the model.
 std::vector<std::uint8_t> surfaces_between_several(const ModelScope& scope);
+
+/// A volume that surfaces enclose.
+struct CutVolume {
+    double volume = 0;
+    std::vector<std::uint32_t> surfaces;  ///< that bound it; they ascend
+};
+
+/// For each of some surfaces the smallest volume that a piece of it bounds, once all surfaces are cut along lines; nothing where its
+/// pieces part nothing. Cost: as of finding the regions of the model.
+std::vector<std::optional<CutVolume>> volumes_when_cut(const ModelScope& scope, std::span<const std::uint32_t> surfaces);
 
 }  // namespace geomend::validators

@@ -43,36 +43,35 @@ constexpr std::array table = {
     of_model("B01", "a triangle or polygon has the same vertex twice, once points within the tolerance are one", check_degenerate),
     of_model("B02", "triangles of one surface pass through each other, or touch along an edge inside of it; exact", check_intersections),
     of_model("B03",
-             "more than two triangles of one surface at an edge; or, away from lines of a stated model, triangles at a vertex that make no "
-             "single ring; but for loose surfaces all of which part regions there",
+             "more than two triangles of one surface share an edge; or, in a stated model and away from lines, the triangles at a vertex "
+             "form more than one fan; loose surfaces are excepted where all their triangles at the edge separate regions",
              check_manifold),
     of_model("B04",
-             "a surface of a stated model has parts that share no edge, or, where no regions are stated, only edges at which another "
-             "surface cuts through",
+             "a surface of a stated model has parts that share no edge; where no regions are stated, parts between which another surface "
+             "passes do not count",
              check_pieces),
-    of_model("B05", "along a line the stated sides of a region do not cancel out", check_region_closed),
+    of_model("B05", "along a line the sides stated for a region do not cancel out, so that the region is open there", check_region_closed),
     of_model("B06",
-             "regions are stated, but walking along the surfaces finds none; or outer surfaces that meet at an angle, or all but close, "
-             "bound nothing",
+             "regions are stated, but the surfaces enclose none; or outer surfaces that meet at an angle, or are closed but for a small "
+             "opening, enclose no volume",
              check_openings),
     of_model("B07",
-             "a line that only one surface uses, from two sides; of loose surfaces also one between two pieces whose points at it are not "
-             "one, and "
-             "a warning",
+             "two borders of one surface coincide along a line that no other surface uses, but their points are not joined; of loose "
+             "surfaces also between two pieces, as a warning",
              check_seams),
     of_model("B08", "triangles of two surfaces pass through each other; exact", check_intersections),
     of_model("B09", "a horizon, unconformity, topography or intrusion with a free border has one region on both sides", check_free_ends),
     of_model("B10", "B08 of two different horizons or unconformities", check_intersections),
     of_model("B11", "a border of one surface lies on another one, or on a border of it, without the same vertices; exact",
              check_intersections),
-    of_model(
-        "B12",
-        "walking along surfaces, both sides of one bound the same region although it is stratigraphic or a boundary, or the file's lists "
-        "put different regions there",
-        check_leaks),
-    of_model("B13", "a closed region as stated has other sides than the region found by walking", check_stated_regions),
+    of_model("B12",
+             "the same region lies on both sides of a surface that is stratigraphic or an outer boundary, or for which the lists of the "
+             "file state two different regions",
+             check_leaks),
+    of_model("B13", "a region whose stated sides close has other sides than the region that its surfaces bound", check_stated_regions),
     of_model("B14", "two stated regions have the same side of a surface", check_region_overlap),
-    of_model("B15", "twice the volume of a region over the area around it is below the search length", check_thin_regions),
+    of_model("B15", "the mean thickness of a region (twice its volume over the area around it) is below the search length",
+             check_thin_regions),
     of_model("B16", "neither side of a surface bounds a region, in a model that has regions", check_outside_surfaces),
     of_model("B17", "two polygons at a line lie in the same half-plane, within the tolerance", check_radial_order),
     Check{"B18", "a surface with a finding B01 to B04, B07, B26, B27, M04 or M05 that is an error bounds the region"},
@@ -82,25 +81,24 @@ constexpr std::array table = {
              check_shared_points),
     of_model("B23", "an edge of a free border comes closer to a surface than the search length, without meeting it", check_near_misses),
     of_model("B24", "two surfaces come closer than the search length away from what they share", check_near_misses),
-    of_model("B25", "as B12, of a fault, a fracture or a surface without a role: such may lie within a region", check_leaks),
+    of_model("B25", "as B12, of a fault, a fracture or a surface without a role: these may lie within a region", check_leaks),
     of_model("B26", "triangles of one surface have an area in common; exact", check_intersections),
     of_model("B27", "a border of a surface lies on the surface itself without the same vertices; exact", check_intersections),
     of_model("B28", "triangles of one surface have single points in common that they do not share; exact", check_intersections),
     of_model("B29",
-             "no role and no region list says whether a surface parts anything: it has one region on both sides, or ends freely outside of "
-             "all; or it closes around "
-             "nothing although it meets others at an angle, or all but closes",
+             "neither a role nor a list of regions says whether a surface separates anything: it has one region on both sides, or ends "
+             "freely outside all regions, or encloses nothing although it meets others at an angle or is closed but for a small opening",
              check_openings),
     of_model("B30",
-             "a stated region closes only when it lies on the other side of some of its surfaces; a warning where all regions of the "
-             "file do",
+             "a stated region closes only if it lies on the other side of some of its surfaces; a warning where this is so for all regions "
+             "of the file",
              check_stated_sides),
-    of_model("B31", "the stated Universe lacks a side that no region has, beside one that a region has, or has one that a region has",
+    of_model("B31", "the stated Universe lacks a side that belongs to the outside of the model, or has one that belongs to a region",
              check_universe),
     Check{"B32",
           "triangles of surfaces of different models of one file, or of a model and surfaces beside it, cross, some by more than the "
           "search length"},
-    Check{"C01", "an array has another length than the dimensions ask for; nothing else is then checked"},
+    Check{"C01", "the length of an array is not what the dimensions require; nothing else is then checked"},
     Check{"C02", "a corner or pillar of an active cell is not finite, or 1e20 or more", check_coordinates},
     Check{"C03", "on a pillar the bottom lies above the top by more than the tolerance", check_inverted},
     Check{"C04", "depths of a cell and the next active one below differ by more than the tolerance: overlap (error) or gap (warning)",
@@ -121,10 +119,10 @@ constexpr std::array table = {
     Check{"C12", "outlines seen from above turn both ways (error), or all are left-handed in (x, y, depth) or on the map (info)",
           check_handedness},
     Check{"C13", "MAPAXES has no two axes, MAPUNITS is missing beside it, or names no unit that simulators know", check_map_axes, true},
-    Check{"C14", "SPECGRID and DIMENS differ; told by the reader of decks"},
+    Check{"C14", "SPECGRID and DIMENS differ; reported when the deck is read"},
     Check{"C15", "ACTNUM is above 1 (above 3 in a grid of two porosities)", check_activity, true},
     Check{"C16", "PORV, or volume times PORO, NTG and MULTPV, is below MINPV or MINPVV (1e-6 where it is not stated)", check_pore_volumes},
-    Check{"C17", "active cells are not all connected: across faults, past pinched cells and by stated connections", check_parts},
+    Check{"C17", "active cells are not all connected: across faults, past pinched cells or by stated connections", check_parts},
     Check{"C18",
           "a stated fault has no throw at some of its sides, or there is throw without a stated fault, beyond the tolerance, between "
           "neighbours of one layer",
@@ -133,19 +131,19 @@ constexpr std::array table = {
     Check{"C20", "the cells of a fault record are outside the grid, run backwards or are more than one layer thick", check_fault_boxes,
           true},
     Check{"C21", "an active cell touches no other; a column of them touches no other column", check_isolated},
-    Check{"C22", "the longest mean edge is more than 1000 times the shortest", check_flat_cells},
+    Check{"C22", "the longest mean edge of a cell is more than 1000 times the shortest", check_flat_cells},
     Check{"C23",
           "cells with one number of FIPNUM (or another FIP array), EQLNUM, PVTNUM, FLUXNUM, MULTNUM or the attribute of --option "
           "regions=NAME fall into parts that neither touch nor are side by side in a layer, within one part of the grid",
           check_scattered_regions},
     Check{"C24", "SATNUM, PVTNUM, EQLNUM, ROCKNUM, IMBNUM or a FIP array is below 1 in an active cell", check_region_numbers},
-    Check{"C25", "a stated fault has active cells on both sides at none of its faces; a warning where it has a multiplier other than 1",
+    Check{"C25", "no face of a stated fault has active cells on both sides; a warning where the fault has a multiplier other than 1",
           check_fault_effects},
     Check{"C26", "a side of a cell is stated in more than one fault", check_shared_fault_faces, true},
     Check{"C27",
           "with --option as=brep: triangles of the outside or of faults cross by more than the tolerance, or outer ones that look the "
           "same way overlap, in columns that share no pillar"},
-    Check{"C28", "with --option as=brep: as C27, in columns that share a pillar, or one column"},
+    Check{"C28", "with --option as=brep: as C27, in columns that share a pillar, or within one column"},
     Check{"C29",
           "a record of NNC joins a cell with itself, or its transmissibility is below 0 (error); or a cell of it is inactive, or faces of "
           "its cells touch "
@@ -160,22 +158,21 @@ constexpr std::array table = {
         check_names_of_model),
     of_model("G02", "a stated layer or fault block lists no region that exists", check_region_lists),
     Check{"G03",
-          "at each contact at which a fault passes a horizon, the horizon comes up from both sides; of corner-point grids: a stated fault "
-          "has throw "
-          "beyond the tolerance between no neighbours of one layer",
+          "the fault displaces no horizon that it cuts; of corner-point grids: a stated fault has no throw beyond the tolerance between "
+          "neighbours of one layer",
           check_idle_faults, false, check_fault_displacement},
     of_model("G04",
-             "stratigraphic surfaces lie above each other in a circle: each is roof of a region whose floor is the next; a warning where "
-             "normals say that layers are overturned",
+             "stratigraphic surfaces lie above each other in a circle, each the top of a region of which the next is the base; a warning "
+             "where normals show that layers are overturned",
              check_horizon_order),
-    of_model("G05", "around a line two stratigraphic surfaces, each on both of its sides, take turns", check_horizons_pass),
+    of_model("G05", "two stratigraphic surfaces, each on both sides of a line, change places there", check_horizons_pass),
     of_model("G06", "two names of one kind are the same but for the case of A to Z", check_names_of_model),
     of_model("G07", "a region is in two layers or two fault blocks; info where it is in none, although such are stated",
              check_list_members),
     of_model("G08", "a surface and a region have the same name", check_names_of_model),
     of_model("G09",
-             "along a horizon a layer is above it here and below it there, or on both of its sides here and on one of them there; a "
-             "warning where normals say that layers are overturned",
+             "a layer lies above a horizon at one place and below it at another, or on both sides of it at one place and on one side at "
+             "another; a warning where normals show that layers are overturned",
              check_layer_lists),
     of_both("M01", "points of a model, a point set or polylines are nearer than the tolerance, and not equal", check_near_points,
             check_point_positions),
@@ -183,10 +180,12 @@ constexpr std::array table = {
             check_unused_points),
     of_model("M03", "the height of a triangle over its longest side is at most the tolerance", check_flat_triangles),
     of_model("M04", "two triangles of a surface have the same three vertices", check_repeats),
-    of_model("M05", "neighbours run through their common edge in the same sense; a warning for loose surfaces", check_winding),
-    of_model("M06", "going round, a surface comes back turned over", check_winding),
-    of_model("M07", "a loop of free borders inside a surface", check_holes),
-    Check{"M08", "nine of ten corners of a loose surface have a point of their own, and more than a quarter are at positions of others"},
+    of_model("M05", "two neighbouring triangles use their common edge in the same direction; a warning for loose surfaces", check_winding),
+    of_model("M06", "no choice of orientations makes all neighbouring triangles of a surface agree", check_winding),
+    of_model("M07", "free borders form a closed loop inside a surface", check_holes),
+    Check{
+        "M08",
+        "nine of ten triangle corners of a loose surface have points of their own, and more than a quarter of these coincide with others"},
     Check{"M09", "a point that an element uses has a coordinate of 1e20 or more, or one that is no number; nothing else is then judged"},
     of_object("M10", "points of a point set have the same position; a point that states that it stands at another one's is none",
               check_point_positions),
@@ -335,6 +334,8 @@ Result<Checked> judge_models(const Dataset& as_read, const CheckOptions& options
         if (wanted(options, "B18")) spread_errors(scope, findings);
         const bool wrong = std::ranges::any_of(findings, is_error) || std::ranges::any_of(model.findings, is_error);
         if (borders != nullptr && wrong) borders->push_back(border_points(scope));
+        give_places(scope, model.findings, result.names);
+        give_places(scope, findings, result.names);
         std::ranges::move(model.findings, std::back_inserter(result.findings));
         std::ranges::move(findings, std::back_inserter(result.findings));
         if (scope.stopped()) return stopped();
@@ -356,7 +357,9 @@ Result<Checked> judge_models(const Dataset& as_read, const CheckOptions& options
             continue;
         }
         const CellScope scope(*mesh, result.local.of(o), options);
+        const std::size_t before = result.findings.size();
         run_all(scope, options, &Check::cells, result.findings);
+        give_places(scope, std::span(result.findings).subspan(before));
         if (scope.stopped()) return stopped();
     }
     std::erase_if(result.findings, [&](const Finding& f) { return !wanted(options, f.code); });
@@ -398,7 +401,10 @@ Result<Checked> check(const Object& object, const CheckOptions& options) {
     const ObjectScope scope(object, options);
     result.findings = huge_coordinates(scope);
     result.lengths = scope.lengths();
-    if (result.findings.empty()) run_all(scope, options, &Check::object, result.findings);
+    if (result.findings.empty()) {
+        run_all(scope, options, &Check::object, result.findings);
+        give_places(scope, result.findings);
+    }
     if (scope.stopped()) return stopped();
     std::erase_if(result.findings, [&](const Finding& f) { return !wanted(options, f.code); });
     return result;
@@ -418,6 +424,7 @@ Result<Checked> check(const CornerPointGrid& grid, const CheckOptions& options) 
         if (options.monitor != nullptr)
             options.monitor->progress("checking", static_cast<double>(&row - table.data() + 1) / static_cast<double>(table.size()));
     }
+    give_places(scope, result.findings);
     if (result.geometry && options.grid_model) {
         if (auto done = check_grid_model(scope, *options.grid_model, options, result.findings); !done) return std::move(done).why();
     }

@@ -15,6 +15,7 @@
 #include "validators/grid_scope.h"
 #include "validators/model_scope.h"
 #include "validators/object_scope.h"
+#include "validators/places.h"
 
 namespace geomend::validators {
 
@@ -37,6 +38,7 @@ struct Checked {
     std::vector<Finding> findings;
     Lengths lengths;               ///< of several clusters the largest ones
     topology::LocalLengths local;  ///< of surfaces and cell meshes; else empty
+    NamesInFile names;             ///< of surfaces and regions that findings name
     /// The tolerance at which most errors vanish, as borders of surfaces agree within it only.
     std::optional<ClosingTolerance> closing;
     bool geometry = true;  ///< false: there is none, only records were checked (F161 tells)

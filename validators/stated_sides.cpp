@@ -8,6 +8,8 @@
 #include "geometry/vectors.h"
 #include "validators/cell_findings.h"
 #include "validators/model_checks.h"
+#include "validators/places.h"
+#include "validators/stated_records.h"
 
 // What a file states of the sides of its regions and of its Universe, against its surfaces.
 
@@ -15,7 +17,7 @@ namespace geomend::validators {
 
 namespace {
 
-/// Names surfaces in a finding and marks each at the middle of its first polygon.
+/// Names surfaces in a finding and marks each near its middle.
 void name_surfaces_at(const ModelScope& scope, std::span<const std::uint32_t> surfaces, Finding& finding) {
     const BrepData& brep = scope.brep();
     finding.count = std::max<std::uint64_t>(1, surfaces.size());
@@ -24,13 +26,7 @@ void name_surfaces_at(const ModelScope& scope, std::span<const std::uint32_t> su
         if (finding.entities.size() >= listed_elements) break;
         finding.entities.push_back(surface_ref(scope, s));
         finding.index.push_back(s);
-        const auto& surface = brep.surfaces[s];
-        if (surface.polygons.size() == 0) continue;
-        const auto polygon = surface.polygons[0];
-        Vec3 middle{};
-        for (const std::uint32_t node : polygon)
-            middle = plus(middle, times(1.0 / static_cast<double>(polygon.size()), scope.vertex_of_node(surface, node)));
-        finding.points.push_back(middle);
+        if (brep.surfaces[s].polygons.size() > 0) finding.points.push_back(middle_of_surface(scope, s));
     }
 }
 
@@ -62,21 +58,49 @@ void mark_sides(const Sides& sides, std::vector<std::uint8_t>& marked) {
     for (const auto& side : sides) marked[2 * side.surface.value + (side.front ? 1 : 0)] = 1;
 }
 
+/// The sides of some surfaces as the list of a region has them: "+4 (TFACE 4 of 'H1')". \param region -1: the Universe
+std::string stated_signs(const ModelScope& scope, const StatedRecords& records, std::int64_t region,
+                         std::span<const std::uint32_t> surfaces) {
+    constexpr std::size_t named = 5;
+    const auto* list = region < 0 ? records.universe() : records.region(static_cast<std::uint32_t>(region));
+    if (list == nullptr || scope.dataset().format != "gocad") return {};
+    std::string text;
+    std::size_t count = 0;
+    for (const std::uint32_t s : surfaces) {
+        const auto* face = records.face(s);
+        if (face == nullptr) continue;
+        for (const auto& model : scope.dataset().models) {
+            for (const auto& side : list->sides) {
+                if (side.face >= model.faces.size() || &model.faces[side.face] != face || count++ >= named) continue;
+                text += (text.empty() ? "" : ", ") + std::string(side.front ? "+" : "-") + std::to_string(face->number) + " (" +
+                        records.surface_in_file(s) + ")";
+            }
+        }
+    }
+    return text + (count > named ? ", ..." : "");
+}
+
 }  // namespace
 
 void check_stated_sides(const ModelScope& scope, std::vector<Finding>& findings) {
     const topology::StatedClaims& claims = scope.model().claims;
+    if (claims.wrong_sides.empty() && !claims.reversed_convention) return;
+    const StatedRecords records(scope);
     for (const auto& wrong : claims.wrong_sides) {
         std::vector<std::uint32_t> surfaces;
         for (const SurfaceId s : wrong.turned) surfaces.push_back(s.value);
         std::string message = "region " + quoted(wrong.name) + " is stated on the wrong side of " + first_names(scope, surfaces);
         if (wrong.volume_as_stated != wrong.volume)
             message += ": as stated its volume is " + rounded(wrong.volume_as_stated) + ", the surfaces enclose " + rounded(wrong.volume);
+        const bool keys = keys_are_reversed(scope.dataset());
+        const std::string list = keys ? std::string() : stated_signs(scope, records, wrong.region, surfaces);
+        if (!list.empty()) message += "; its list has " + list + ", which should have the other sign";
         Finding finding = finding_of("B30", std::move(message));
-        if (keys_are_reversed(scope.dataset())) use_other_severity(finding);
+        if (keys) use_other_severity(finding);
         finding.entities.push_back({"region", wrong.name, wrong.region});
         name_surfaces_at(scope, surfaces, finding);
         finding.measures = {{"volume_as_stated", wrong.volume_as_stated}, {"volume", wrong.volume}};
+        if (keys) finding.measures.emplace_back("reversed_keys", 1);
         findings.push_back(std::move(finding));
     }
     if (!claims.reversed_convention || !claims.wrong_sides.empty()) return;
@@ -84,6 +108,7 @@ void check_stated_sides(const ModelScope& scope, std::vector<Finding>& findings)
     use_other_severity(finding);
     finding.entities.push_back({"model", scope.brep().name});
     finding.count = 1;
+    finding.measures = {{"regions", static_cast<double>(scope.brep().regions.size())}};
     findings.push_back(std::move(finding));
 }
 
@@ -97,20 +122,23 @@ void check_universe(const ModelScope& scope, std::vector<Finding>& findings) {
     std::vector<std::uint8_t> inner(2 * brep.surfaces.size(), 0), outer(2 * brep.surfaces.size(), 0);
     for (const auto& region : brep.regions) mark_sides(region.sides, inner);
     mark_sides(claims.universe, outer);
-    std::vector<std::uint32_t> missing, foreign;
+    std::vector<std::uint32_t> missing, foreign, missing_sides, foreign_sides;
     for (std::uint32_t side = 0; side < inner.size(); ++side) {
         if (brep.surfaces[side / 2].polygons.size() == 0) continue;
         const bool bounds_outside = inner[side] == 0 && inner[side ^ 1u] != 0;
-        if (bounds_outside && outer[side] == 0) missing.push_back(side / 2);
-        if (inner[side] != 0 && outer[side] != 0) foreign.push_back(side / 2);
+        if (bounds_outside && outer[side] == 0) missing_sides.push_back(side);
+        if (inner[side] != 0 && outer[side] != 0) foreign_sides.push_back(side);
     }
-    if (missing.empty() && foreign.empty()) return;
+    if (missing_sides.empty() && foreign_sides.empty()) return;
+    for (const std::uint32_t side : missing_sides) missing.push_back(side / 2);
+    for (const std::uint32_t side : foreign_sides) foreign.push_back(side / 2);
+    const StatedRecords records(scope);
     std::string message = "the Universe is not what the regions leave: ";
     if (claims.universe.empty()) message += "it is stated without any surface";
-    else if (!missing.empty()) message += "it lacks " + counted(missing.size(), "side", "sides") + ", of " + first_names(scope, missing);
+    else if (!missing.empty()) message += "it lacks " + counted(missing.size(), "side", "sides") + ", " + records.sides_text(missing_sides);
     if (!foreign.empty())
         message += std::string(missing.empty() ? "" : ", and ") + "it has " + counted(foreign.size(), "side", "sides") +
-                   " that a region has, of " + first_names(scope, foreign);
+                   " that a region has, " + records.sides_text(foreign_sides);
     Finding finding = finding_of("B31", std::move(message));
     finding.entities.push_back({"region", claims.universe_name, -1});
     missing.insert(missing.end(), foreign.begin(), foreign.end());

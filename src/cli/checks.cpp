@@ -109,7 +109,7 @@ std::string table_scdoc() {
     std::string text =
         "geomend-codes(7)\n\n; SPDX-License-Identifier: AGPL-3.0-or-later\n\n# NAME\n\n"
         "geomend-codes - what the codes in reports mean\n\n# DESCRIPTION\n\n"
-        "For each code: the severity, the meaning, when a check tells it, and what mends it. *geomend checks* prints the same. "
+        "For each code: the severity, the meaning, when a check reports it, and what mends it. *geomend checks* prints the same. "
         "Codes are stable and never reused.\n";
     char family = 0;
     for (const CodeInfo& row : code_catalogue()) {

@@ -123,7 +123,7 @@ ExitStatus report(const Failure& f) {
     end_progress();
     std::string where = to_string(f.error.where);
     if (!where.empty()) where += ": ";
-    const std::string_view advice = advice_for(f.error.code);
+    const std::string_view advice = advice_for(f.error);
     std::fprintf(stderr, "geomend: %s%s [%s]\n", where.c_str(), f.error.message.c_str(), f.error.code.c_str());
     constexpr std::size_t shown = 20;
     for (std::size_t i = 0; i < f.also.size() && i < shown; ++i) print_finding(f.also[i]);

@@ -82,7 +82,7 @@ ExitStatus run(const ConvertOptions& o) {
 }  // namespace
 
 void add_convert(CLI::App& program, ExitStatus& status) {
-    auto* command = program.add_subcommand("convert", "Convert one or several files into one output; tells what the target cannot hold");
+    auto* command = program.add_subcommand("convert", "Convert one or several files into one output; lists what the target cannot hold");
     auto o = std::make_shared<ConvertOptions>();
     command->add_option("IN", o->inputs, "Input files; - is standard input")->required();
     command->add_option("-o,--output", o->output, "Output file; - is standard output")->required()->type_name("OUT");

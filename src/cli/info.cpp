@@ -64,7 +64,7 @@ ExitStatus run(const InfoOptions& o) {
 }  // namespace
 
 void add_info(CLI::App& program, ExitStatus& status) {
-    auto* command = program.add_subcommand("info", "Tell what files hold: objects, counts, bounds, attributes, boundary representation");
+    auto* command = program.add_subcommand("info", "List what files hold: objects, counts, bounds, attributes, boundary representation");
     auto o = std::make_shared<InfoOptions>();
     command->add_option("FILE", o->files, "Files to look at; - is standard input")->required();
     command->add_flag("--complexity", o->complexity, "Also how complex the boundary representation is, and where");

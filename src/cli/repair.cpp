@@ -170,6 +170,7 @@ ExitStatus run(const RepairOptions& o) {
     ExitStatus status = !valid ? ExitStatus::invalid_result : fails(o, repaired->file.findings) ? ExitStatus::findings : ExitStatus::done;
     Report all = empty_report(o);
     all.files.push_back(std::move(repaired->file));
+    all.exit_status = static_cast<int>(status);
     for (const std::string& file : o.reports) {
         if (auto written = write_report(all, file, &monitor); !written) status = worse(status, report(written.why()));
     }

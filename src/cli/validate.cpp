@@ -139,6 +139,7 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     auto all =
         many ? judge_many(command, o, files, monitor, baseline, debris, status) : judge_here(o, load, *checks, baseline, debris, status);
     if (!all) return report(all.why());
+    all->exit_status = static_cast<int>(status);
     for (const std::string& file : o.reports) {
         if (auto written = write_report(*all, file, &monitor); !written) status = worse(status, report(written.why()));
     }

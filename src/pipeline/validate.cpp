@@ -8,6 +8,7 @@
 
 #include "base/wording.h"
 #include "pipeline/command_options.h"
+#include "pipeline/record_places.h"
 #include "validators/readiness.h"
 
 namespace geomend {
@@ -20,9 +21,7 @@ bool has_errors(const std::vector<Finding>& findings) {
 
 bool has_model_checks(const Object& object) { return std::holds_alternative<Surface>(object) || std::holds_alternative<CellMesh>(object); }
 
-bool has_checks(const Object& object) {
-    return has_model_checks(object) || std::holds_alternative<CornerPointGrid>(object) || validators::is_judged_alone(object);
-}
+bool has_checks(const Object& object) { return has_model_checks(object) || validators::is_judged_alone(object); }
 
 // Whether the reader had to leave something out, because a companion file is missing, say.
 bool lacks_a_part(const Dataset& dataset) {
@@ -46,16 +45,36 @@ void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
     }
 }
 
+// Where a tolerance comes from, by the rule of topology::local_lengths().
+ToleranceSource source_of(const topology::Lengths& lengths, bool given) {
+    if (given) return ToleranceSource::given;
+    constexpr double rounding = 1 + 1e-9;
+    return lengths.tolerance > 1e-7 * lengths.diameter * rounding ? ToleranceSource::precision : ToleranceSource::size;
+}
+
+// Of the cluster with the largest tolerance.
+ToleranceSource source_of_largest(const validators::Checked& checked, bool given) {
+    if (checked.local.clusters.empty()) return source_of(checked.lengths, given);
+    return source_of(*std::ranges::max_element(checked.local.clusters, {}, &topology::Lengths::tolerance), given);
+}
+
+// Whether all heights of a file are depths.
+bool has_depths(const Dataset& dataset) {
+    return !dataset.objects.empty() &&
+           std::ranges::all_of(dataset.objects, [](const Object& object) { return info_of(object).crs.z_positive == ZPositive::depth; });
+}
+
 // The lengths of clusters of objects, where they differ by what a report shows of them.
-std::vector<ReportedLengths> lengths_by_cluster(const Dataset& dataset, const topology::LocalLengths& local) {
+std::vector<ReportedLengths> lengths_by_cluster(const Dataset& dataset, const topology::LocalLengths& local, bool given) {
     std::vector<ReportedLengths> clusters;
     std::map<std::pair<std::string, std::string>, std::size_t> known;
     for (std::uint32_t o = 0; o < local.cluster_of.size(); ++o) {
         if (local.cluster_of[o] == no_index) continue;
         const topology::Lengths& l = local.of(o);
         const auto [at, is_new] = known.try_emplace({rounded(l.tolerance), rounded(l.near)}, clusters.size());
-        if (is_new) clusters.push_back({l.tolerance, l.near, {}});
+        if (is_new) clusters.push_back({l.tolerance, l.near, {}, ToleranceSource::unknown});
         clusters[at->second].objects.push_back(info_of(dataset.objects[o]).name);
+        clusters[at->second].source = source_of(l, given);
     }
     if (clusters.size() < 2) clusters.clear();
     return clusters;
@@ -74,11 +93,14 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
     if (auto known = validators::known_codes(options); !known) return std::move(known).why();
     ReportedFile file;
     file.file = path;
+    file.depths = has_depths(dataset);
     std::ranges::copy_if(dataset.findings, std::back_inserter(file.findings),
                          [&](const Finding& f) { return validators::wanted(options, f.code); });
     const auto take = [&](validators::Checked& checked) {
+        if (checked.lengths.tolerance > file.tolerance) file.tolerance_source = source_of_largest(checked, options.tolerance >= 0);
         file.tolerance = std::max(file.tolerance, checked.lengths.tolerance);
         file.near = std::max(file.near, checked.lengths.near);
+        for (auto& [key, in_file] : checked.names) file.names.emplace(key, InFile{std::move(in_file.name), std::move(in_file.object)});
         std::ranges::move(checked.findings, std::back_inserter(file.findings));
     };
     const validators::CheckOptions run = with_causes(options);
@@ -105,7 +127,7 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         if (!checked) return std::move(checked).why();
         take(*checked);
         lengths = std::move(checked->local);
-        file.clusters = lengths_by_cluster(dataset, lengths);
+        file.clusters = lengths_by_cluster(dataset, lengths, options.tolerance >= 0);
         if (const auto& c = checked->closing) file.closing = {c->tolerance, c->errors, c->left};
     }
     if (validators::wanted(options, "F160")) tell_unchecked(dataset, file.findings);
@@ -133,6 +155,7 @@ Result<ReportedFile> validate(const std::string& path, const LoadOptions& load_o
     try {
         std::vector<Brep> judged;
         auto file = validate(path, *dataset, options, inspect ? &judged : nullptr);
+        if (file) give_lines(path, *dataset, file->names, file->findings);
         if (file) file->companions = std::move(companions);
         if (!file || !inspect) return file;
         auto inspected = inspect(*dataset, judged, *file);

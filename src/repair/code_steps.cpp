@@ -29,11 +29,13 @@ struct Unmended {
 // The codes of the catalogue that no step mends, in its order.
 // clang-format off
 constexpr std::array unmended = {
+    // Boundary representation.
     Unmended{"B03", not_yet},
     Unmended{"B04", not_yet},
     Unmended{"B17", not_yet},
     Unmended{"B24", no_defect},
     Unmended{"B25", no_defect},
+    // Corner-point grids.
     Unmended{"C01", source},
     Unmended{"C02", source},
     Unmended{"C06", no_defect},
@@ -58,6 +60,7 @@ constexpr std::array unmended = {
     Unmended{"C29", source},
     Unmended{"C30", source},
     Unmended{"C31", source},
+    // Files.
     Unmended{"F001", reading},
     Unmended{"F002", reading},
     Unmended{"F003", reading},
@@ -86,19 +89,14 @@ constexpr std::array unmended = {
     Unmended{"F101", reading},
     Unmended{"F102", reading},
     Unmended{"F103", not_yet},
-    Unmended{"F104", not_yet},
     Unmended{"F105", reading},
     Unmended{"F107", reading},
     Unmended{"F108", reading},
     Unmended{"F109", reading},
-    Unmended{"F110", not_yet},
     Unmended{"F111", no_defect},
-    Unmended{"F112", reading},
     Unmended{"F113", not_yet},
-    Unmended{"F114", not_yet},
     Unmended{"F115", reading},
     Unmended{"F116", not_yet},
-    Unmended{"F117", reading},
     Unmended{"F118", reading},
     Unmended{"F119", not_yet},
     Unmended{"F120", reading},
@@ -127,6 +125,7 @@ constexpr std::array unmended = {
     Unmended{"F160", reading},
     Unmended{"F161", reading},
     Unmended{"F162", reading},
+    // Geology.
     Unmended{"G01", geology},
     Unmended{"G02", geology},
     Unmended{"G03", geology},
@@ -136,6 +135,7 @@ constexpr std::array unmended = {
     Unmended{"G07", geology},
     Unmended{"G08", geology},
     Unmended{"G09", source},
+    // Meshes and other objects.
     Unmended{"M06", not_yet},
     Unmended{"M09", source},
     Unmended{"M10", not_yet},
@@ -161,11 +161,13 @@ constexpr std::array unmended = {
     Unmended{"M42", source},
     Unmended{"M43", source},
     Unmended{"M50", "layers of structured grids stay, so that their numbers do"},
+    // Quality.
     Unmended{"Q01", anew},
     Unmended{"Q02", not_yet},
     Unmended{"Q03", anew},
     Unmended{"Q04", geology},
     Unmended{"Q10", no_defect},
+    // Simulators and meshers.
     Unmended{"S01", target},
     Unmended{"S02", target},
     Unmended{"S03", target},

@@ -8,10 +8,6 @@ namespace geomend {
 
 namespace {
 
-struct Advice {
-    std::string_view code, text;
-};
-
 // In the order of the catalogue; codes without a row have no advice.
 constexpr std::array advice = {
     // Boundary representation. B01 to B11 are the validity conditions V1 to V11 of Botella 2016, section 4.3.3.
@@ -19,21 +15,38 @@ constexpr std::array advice = {
     Advice{"B02", "repair --step cut cuts the surface where it meets itself; or correct its shape"},
     Advice{"B03", "split the surface there into surfaces of their own"},
     Advice{"B04", "make each part a surface of its own, or remove the small ones"},
-    Advice{"B05", "close the holes: see B07, B11, B23; repair --step close, with --max-gap above the gaps"},
-    Advice{"B06", "close the holes: see B07, B11, B23; repair --step close, with --max-gap above the gaps"},
-    Advice{"B07", "join the points at one position"},
+    Advice{"B05", "correct the list of the region as the finding says; or repair --step rebuild finds the regions anew", "sides_missing"},
+    Advice{"B05", "list the surfaces that bound the region, or remove its record", "sides"},
+    Advice{
+        "B05",
+        "close the holes along the lines that the finding shows: see B07, B11 and B23; repair --step close, with --max-gap above the gaps"},
+    Advice{"B06",
+           "close the free borders that the finding shows: see B07, B11 and B23; repair --step close, with --max-gap above the gaps"},
+    Advice{"B07", "join the points along it that lie at one position"},
     Advice{"B08", "repair --step cut cuts both along the line that the finding shows"},
-    Advice{"B09", "extend it to a surface, or state it as a fault"},
-    Advice{"B10", "correct one of them, or state an unconformity"},
+    Advice{"B09", "extend the surface until it meets another one, or state it as a fault if it is one"},
+    Advice{"B10", "correct the surface that is wrong; where the younger one erodes the older one, end the older one there"},
+    Advice{"B11", "move one of them away where they should not meet; else repair --step cut cuts both along what they have in common",
+           "shallow_crossings"},
     Advice{"B11", "repair --step weld inserts the vertices of one into the other"},
-    Advice{"B12", "close the hole that the finding shows"},
-    Advice{"B13", "correct the region's list"},
-    Advice{"B14", "correct the regions' lists"},
+    Advice{"B12", "close the hole that the finding shows; where it is a gap, repair --step close, with --max-gap above it", "edges"},
+    Advice{"B12", "make a region of the volume, and list its sides; or remove the surface", "unlisted_volume"},
+    Advice{"B12",
+           "correct the lists of the regions at the surface: the surfaces leave nothing open there, but separate no volumes as the lists "
+           "have it",
+           "stated_surfaces"},
+    Advice{"B12", "close the way from one side of the surface to the other, or correct its role"},
+    Advice{"B13", "correct the list of the region as the finding says; or repair --step rebuild finds the regions anew", "sides_missing"},
+    Advice{"B13", "make a region of each volume, or remove the surfaces inside", "volumes"},
+    Advice{"B13", "put a surface between the volumes, or make them one region", "sides_open_to_group"},
+    Advice{"B13", "take the sides of other regions out of the list of the region"},
+    Advice{"B14", "correct the region of the cells that the finding shows", "faces_of_first"},
+    Advice{"B14", "take the side out of one of the two lists"},
     Advice{"B15", "merge the region with a neighbour: repair --step micro, with micro_volume in a recipe"},
-    Advice{"B16", "remove it, or close its region"},
-    Advice{"B17", "remove one of the two"},
-    Advice{"B18", "mend the entity that is named"},
-    Advice{"B19", "correct the record, or join the points at one position"},
+    Advice{"B16", "remove the surface; or add what closes a region with it, and list its sides"},
+    Advice{"B17", "remove one of the two surfaces along the line, or move it away"},
+    Advice{"B18", "mend the surfaces that the finding names"},
+    Advice{"B19", "correct the BORDER record, or join the points at one position"},
     Advice{"B20", "remove one of the two; or repair --step cut cuts both along the outline of what they share"},
     Advice{"B22", "repair --step cut shares the point; or move one surface away"},
     Advice{
@@ -44,11 +57,14 @@ constexpr std::array advice = {
     Advice{"B27", "repair --step weld inserts the vertices of the border into the triangles that it ends on"},
     Advice{"B28", "repair --step cut shares the point; or move one of the two parts away"},
     Advice{"B29", "close the border that the finding shows, or state the role of the surface"},
-    Advice{"B30", "change the sign of the surface in the region's list"},
-    Advice{"B31", "list the outer sides of the regions, and no other, in the Universe"},
+    Advice{"B30", "turn the key triangles of the file over, so that they are as their surfaces; or change the sign in the list",
+           "reversed_keys"},
+    Advice{"B30", "turn the signs in the lists of all regions over, or the key triangles", "regions"},
+    Advice{"B30", "change the sign of the surface in the list of the region that the finding names"},
+    Advice{"B31", "list the sides of surfaces that bound the model from outside, and no others, in the Universe"},
     Advice{"B32", "cut them along the line that the finding shows, or write them into files of their own"},
     // Corner-point grids, numbered as in the rules that they come from.
-    Advice{"C01", "correct SPECGRID or the array"},
+    Advice{"C01", "correct SPECGRID or the array that the finding names"},
     Advice{"C02", "export the grid again, or make the cells inactive"},
     Advice{"C03", "repair --step monotone"},
     Advice{"C04", "repair --step close-gaps, with --option gap=L for more than the tolerance"},
@@ -65,7 +81,7 @@ constexpr std::array advice = {
     Advice{"C20", "correct FAULTS"},
     Advice{"C21", "repair --step drop-isolated"},
     Advice{"C24", "correct the array"},
-    Advice{"C25", "state its FAULTS records, or remove it"},
+    Advice{"C25", "correct its FAULTS records, or remove the fault and its multiplier"},
     Advice{"C26", "keep it in one of them"},
     Advice{"C27", "correct COORD, or make one of both inactive"},
     Advice{"C29", "correct NNC"},
@@ -91,18 +107,22 @@ constexpr std::array advice = {
     Advice{"F017", "check that it is the right file"},
     Advice{"F018", "see --help of the command, or the manual page of the format"},
     Advice{"F020", "check the folder, its permissions and the free space"},
-    Advice{"F021", "choose another format, or accept the loss with --lossy"},
+    Advice{"F021", "choose another format; --lossy where the message lists what is lost"},
     Advice{"F023", "raise the limit"},
     Advice{"F024", "give them with --option dims=NX,NY,NZ, or read the whole deck"},
     Advice{"F025", "report it with the file; the other files were checked all the same"},
     Advice{"F026", "mend the model with geomend repair, or fill it with --ratio 0 or a larger --size"},
     Advice{"F101", "--accept-unterminated, after checking that nothing is missing"},
-    Advice{"F103", "remove the element"},
-    Advice{"F104", "remove one of the two"},
+    Advice{"F103", "remove the element, or give it the right nodes"},
     Advice{"F106", "state a triangle of the surface as its key, in the sense of the surface"},
-    Advice{"F110", "correct the record, or join the points at one position"},
-    Advice{"F113", "correct what is stated of the entities that the finding names"},
-    Advice{"F114", "turn the order of their nodes"},
+    Advice{"F109", "correct the number in the list, or add the record that it names"},
+    Advice{"F113", "close the boundary of the region, or correct its list: see B05", "open_sides"},
+    Advice{"F113", "cut the surfaces where the regions on them change, or correct the regions of cells: see B14", "partial_surfaces"},
+    Advice{"F113", "remove one of the polygons that coincide: see B17", "uncertain_lines"},
+    Advice{"F113", "take the side out of one of the lists: see B14", "shared_sides"},
+    Advice{"F113", "change the sign of the surface in the list of the region: see B30", "volume_as_stated"},
+    Advice{"F113", "change the sign of the surface in the list of the region, or correct the regions of its cells", "sides_without_cells"},
+    Advice{"F113", "correct what the finding says the file states"},
     Advice{"F116", "state a triangle of the surface as its key"},
     Advice{"F121", "correct or remove the record of the region"},
     Advice{"F133", "check that both belong together"},
@@ -119,26 +139,27 @@ constexpr std::array advice = {
     // Geology.
     Advice{"G01", "rename one of them"},
     Advice{"G02", "correct its list"},
-    Advice{"G04", "correct the horizon that is crossed or folded over"},
-    Advice{"G05", "correct one of them, or state an unconformity that ends the other"},
+    Advice{"G04", "correct the horizon that is folded over or that crosses another one"},
+    Advice{"G05", "correct the surface that is wrong; where the younger one erodes the older one, end the older one at the line"},
     Advice{"G06", "rename one of them"},
-    Advice{"G07", "correct their lists"},
+    Advice{"G07", "keep the region in one of the lists"},
     Advice{"G09", "correct the lists of the layers"},
     // Meshes of surfaces and cells.
     Advice{"M01", "repair --step weld joins them; or check again with a smaller --tolerance"},
     Advice{"M02", "remove them"},
     Advice{"M03", "collapse its shortest edge"},
     Advice{"M04", "repair --step clean removes the repeats"},
-    Advice{"M05", "turn them over"},
-    Advice{"M06", "cut it"},
-    Advice{"M08", "join points at one position"},
+    Advice{"M05", "turn the triangles that the finding lists over"},
+    Advice{"M06", "cut the surface along a line, so that it has two sides"},
+    Advice{"M08", "join the points at one position"},
     Advice{"M09", "correct or remove the point"},
     Advice{"M10", "keep one of each"},
     Advice{"M11", "remove it"},
     Advice{"M12", "remove the repeats"},
     Advice{"M13", "give it a point there, or correct its shape"},
     Advice{"M15", "give them their heights, or remove them"},
-    Advice{"M20", "repair --step clean turns it over, or removes what has no volume"},
+    Advice{"M20", "none is needed where layers pinch out; else correct the nodes", "pinched"},
+    Advice{"M20", "repair --step clean turns the cell over, or removes what has no volume"},
     Advice{"M22", "repair --step clean removes it; or make it a cell of fewer nodes"},
     Advice{"M24", "mesh both sides anew together"},
     Advice{"M26", "repair --step clean removes the repeats"},
@@ -161,18 +182,32 @@ constexpr std::array advice = {
     // Simulators and meshers (--for).
     Advice{"S01", "convert it to what the target reads"},
     Advice{"S02", "mend that finding"},
+    Advice{"S03", "make cells active, or close a region: see B06 and B29"},
     Advice{"S04", "add it to the deck"},
     Advice{"S05", "correct the values"},
     Advice{"S06", "rename"},
     Advice{"S07", "convert with cells split, or mesh anew"},
     Advice{"S08", "tag them, so that regions can have properties of their own"},
+    Advice{"S09", "remove it, or choose another target"},
     Advice{"S10", "add named cells of two dimensions on the outside"},
 };
 
 }  // namespace
 
+std::span<const Advice> advice_rows() { return advice; }
+
+std::string_view advice_for(const Finding& finding) {
+    const auto has = [&](std::string_view measure) {
+        return std::ranges::any_of(finding.measures, [&](const auto& m) { return m.first == measure; });
+    };
+    for (const Advice& row : advice) {
+        if (row.code == finding.code && (row.measure.empty() || has(row.measure))) return row.text;
+    }
+    return {};
+}
+
 std::string_view advice_for(std::string_view code) {
-    const auto row = std::ranges::find(advice, code, &Advice::code);
+    const auto row = std::ranges::find_if(advice, [&](const Advice& a) { return a.code == code && a.measure.empty(); });
     return row == advice.end() ? std::string_view() : row->text;
 }
 

@@ -41,7 +41,7 @@ std::string element_kind(const Finding& f) { return f.element_kind.substr(0, f.e
 
 Json finding_json(const Finding& f) {
     Json j{{"code", f.code}, {"severity", to_string(f.severity)}, {"message", f.message}};
-    const std::string_view advice = advice_for(f.code);
+    const std::string_view advice = advice_for(f);
     j["fix"] = advice.empty() ? Json() : Json(std::string(advice));
     Json entities = Json::array();
     for (const EntityRef& e : f.entities) {

@@ -63,6 +63,25 @@ Json step_json(const ReportedStep& s) {
     return step;
 }
 
+namespace {
+
+/// Adds what the file calls the entities of a finding.
+void add_names_in_file(const ReportedFile& file, const Finding& f, Json& entities) {
+    for (std::size_t e = 0; e < f.entities.size(); ++e) {
+        const auto found = file.names.find({f.entities[e].kind, f.entities[e].name});
+        if (found == file.names.end()) continue;
+        if (!found->second.name.empty()) entities[e]["in_file"] = found->second.name;
+        if (!found->second.object.empty() && found->second.object != f.entities[e].name) entities[e]["object"] = found->second.object;
+    }
+}
+
+}  // namespace
+
+const char* to_string(ToleranceSource source) {
+    constexpr const char* words[] = {"", "given", "size", "precision"};
+    return words[static_cast<std::size_t>(source)];
+}
+
 Json file_json(const ReportedFile& file, std::size_t most) {
     Json j{{"file", file.file}};
     if (file.valid) j["valid"] = *file.valid;
@@ -73,9 +92,14 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     j["counts"] = {{"error", counts.error}, {"warning", counts.warning}, {"info", counts.info}};
     if (file.known) j["known"] = {{"error", file.known->error}, {"warning", file.known->warning}, {"info", file.known->info}};
     j["tolerance"] = file.tolerance;
+    if (file.tolerance_source != ToleranceSource::unknown) j["tolerance_source"] = to_string(file.tolerance_source);
     j["near"] = file.near;
-    for (const ReportedLengths& cluster : file.clusters)
-        j["clusters"].push_back({{"tolerance", cluster.tolerance}, {"near", cluster.near}, {"objects", cluster.objects}});
+    if (file.depths) j["heights"] = "depth";
+    for (const ReportedLengths& cluster : file.clusters) {
+        Json one{{"tolerance", cluster.tolerance}, {"near", cluster.near}, {"objects", cluster.objects}};
+        if (cluster.source != ToleranceSource::unknown) one["tolerance_source"] = to_string(cluster.source);
+        j["clusters"].push_back(std::move(one));
+    }
     if (file.closing) {
         j["closes_with"] = {{"tolerance", file.closing->tolerance},
                             {"errors", file.closing->errors},
@@ -86,6 +110,7 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     const auto listed = worst_first(file.findings, most);
     for (const Finding* f : listed) {
         findings.push_back(finding_json(*f));
+        add_names_in_file(file, *f, findings.back()["entities"]);
         const auto number = static_cast<std::size_t>(f - file.findings.data());
         if (number < file.debris.size() && !file.debris[number].empty()) findings.back()["debris"] = file.debris[number];
     }

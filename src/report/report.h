@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/monitor.h"
@@ -77,11 +79,30 @@ std::string judged_text(const ChosenChecks& checks);
 /// What was not: "all others", "B05", "all others, B05".
 std::string not_judged_text(const ChosenChecks& checks);
 
+/// Where a tolerance comes from.
+enum class ToleranceSource : std::uint8_t {
+    unknown,
+    given,     ///< by the user
+    size,      ///< a ten millionth of the size of what was judged
+    precision  ///< four steps of the coordinates as the file stores them, where that is more
+};
+/// "given", "size", "precision"; empty where it is not known.
+const char* to_string(ToleranceSource source);
+
 /// The lengths by which some objects that lie near one another were judged.
 struct ReportedLengths {
     double tolerance = 0, near = 0;
     std::vector<std::string> objects;  ///< names
+    ToleranceSource source = ToleranceSource::unknown;
 };
+
+/// What a file has of a surface or region that a finding names.
+struct InFile {
+    std::string name;    ///< what it is called there, where that is another name: "TFACE 4 of 'H2'"; else empty
+    std::string object;  ///< name of the object that it comes from; empty: not known
+};
+/// The same by kind and name of what findings name.
+using NamesInFile = std::map<std::pair<std::string, std::string>, InFile>;
 
 /// What was found in one file.
 struct ReportedFile {
@@ -93,6 +114,9 @@ struct ReportedFile {
     double tolerance = 0, near = 0;         ///< the largest
     std::vector<ReportedLengths> clusters;  ///< where they differ; else empty
     std::optional<ReportedClosing> closing;
+    ToleranceSource tolerance_source = ToleranceSource::unknown;
+    bool depths = false;  ///< heights in the file are depths: text turns the elevations of findings into them
+    NamesInFile names;    ///< of surfaces and regions that findings name
     std::vector<Finding> findings;
     std::vector<ReportedStep> steps;               ///< of a repair
     std::vector<std::string> companions;           ///< paths of further files that were read for it, ascending
@@ -108,6 +132,7 @@ struct Report {
     std::size_t most_findings = static_cast<std::size_t>(-1);  ///< listed for each file; all are counted
     std::optional<RunSummary> summary;                         ///< of a run over many files
     std::optional<Severity> fails_from = Severity::error;      ///< from which on a finding fails the run; none: it never does
+    std::optional<int> exit_status;                            ///< of the run, where it is known when the report is written
 };
 
 /// The schema that INTERFACE states (1): files with findings, worst first.

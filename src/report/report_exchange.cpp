@@ -28,17 +28,31 @@ const char* level(Severity severity) {
     return words[static_cast<std::size_t>(severity)];
 }
 
-Json sarif_rules(const Report& report) {
+/// The codes of all findings, ascending.
+std::vector<std::string> codes_of(const Report& report) {
     std::set<std::string> codes;
     for (const ReportedFile& file : report.files) {
         for (const Finding& f : file.findings) codes.insert(f.code);
     }
+    return {codes.begin(), codes.end()};
+}
+
+/// What a code means and what mends it, in each situation.
+std::string help_of(const CodeInfo& row) {
+    std::string text(row.meaning);
+    for (const Advice& advice : advice_rows()) {
+        if (advice.code == row.code) text += "\nTo mend it: " + std::string(advice.text) + ".";
+    }
+    return text;
+}
+
+Json sarif_rules(const std::vector<std::string>& codes) {
     Json rules = Json::array();
     for (const std::string& code : codes) {
         Json rule{{"id", code}};
         if (const CodeInfo* row = find_code(code)) {
             rule["shortDescription"] = {{"text", std::string(row->meaning)}};
-            if (const auto advice = advice_for(code); !advice.empty()) rule["help"] = {{"text", std::string(advice)}};
+            rule["help"] = {{"text", help_of(*row)}};
             rule["defaultConfiguration"] = {{"level", level(row->severity)}};
         }
         rules.push_back(std::move(rule));
@@ -63,27 +77,69 @@ std::string uri_of(const std::string& path) {
     return uri;
 }
 
-Json sarif_result(const ReportedFile& file, const Finding& f) {
-    Json physical{{"artifactLocation", {{"uri", uri_of(f.where.file.empty() ? file.file : f.where.file)}}}};
-    if (f.where.line > 0) {
-        physical["region"] = {{"startLine", f.where.line}};
-        if (f.where.column > 0) physical["region"]["startColumn"] = f.where.column;
+Json physical_location(const std::string& file, const Location& where) {
+    Json physical{{"artifactLocation", {{"uri", uri_of(where.file.empty() ? file : where.file)}}}};
+    if (where.line > 0) {
+        physical["region"] = {{"startLine", where.line}};
+        if (where.column > 0) physical["region"]["startColumn"] = where.column;
+    } else if (where.offset >= 0) {
+        physical["region"] = {{"byteOffset", where.offset}};
     }
-    Json place{{"physicalLocation", std::move(physical)}};
-    if (!f.entities.empty()) {
-        Json logical = Json::array();
-        for (const EntityRef& e : f.entities) logical.push_back({{"name", e.name}, {"kind", e.kind}});
-        place["logicalLocations"] = std::move(logical);
-    }
-    Json result{{"ruleId", f.code}, {"level", level(f.severity)}, {"message", {{"text", f.message}}}};
+    return physical;
+}
+
+Json logical_location(const ReportedFile& file, const EntityRef& e) {
+    Json logical{{"name", e.name}, {"kind", e.kind}};
+    const auto found = file.names.find({e.kind, e.name});
+    if (found != file.names.end() && !found->second.name.empty()) logical["fullyQualifiedName"] = e.name + " (" + found->second.name + ")";
+    return logical;
+}
+
+/// The first thing that a finding names is where it is; the others, as the second of two surfaces, are related to it.
+Json sarif_result(const ReportedFile& file, const Finding& f, std::size_t rule) {
+    Json place{{"physicalLocation", physical_location(file.file, f.where)}};
+    if (!f.entities.empty()) place["logicalLocations"] = Json::array({logical_location(file, f.entities.front())});
+    Json result{{"ruleId", f.code}, {"ruleIndex", rule}, {"level", level(f.severity)}, {"message", {{"text", f.message}}}};
     result["locations"] = Json::array({std::move(place)});
+    for (std::size_t e = 1; e < f.entities.size(); ++e) {
+        result["relatedLocations"].push_back({{"physicalLocation", physical_location(file.file, {})},
+                                              {"logicalLocations", Json::array({logical_location(file, f.entities[e])})},
+                                              {"message", {{"text", f.entities[e].kind + " '" + f.entities[e].name + "'"}}}});
+    }
     result["partialFingerprints"] = {{"codeEntitiesPlace/v1", fingerprint(f)}};
     Json all = finding_json(f), more = Json::object();
-    for (const char* key : {"elements", "index", "element_kind", "count", "points", "polylines", "measures"}) {
-        if (all.contains(key)) more[key] = std::move(all[key]);
+    for (const char* key : {"fix", "elements", "index", "element_kind", "count", "points", "polylines", "measures"}) {
+        if (all.contains(key) && !all[key].is_null()) more[key] = std::move(all[key]);
     }
     if (!more.empty()) result["properties"] = std::move(more);
     return result;
+}
+
+/// What kept a file from being judged. \param codes of the rules
+Json sarif_notification(const ReportedFile& file, const Finding& f, std::size_t rule) {
+    return {{"level", level(f.severity)},
+            {"message", {{"text", f.message}}},
+            {"associatedRule", {{"id", f.code}, {"index", rule}}},
+            {"locations", Json::array({{{"physicalLocation", physical_location(file.file, f.where)}}})}};
+}
+
+/// How the run went: it was successful where all files were judged, whatever was found in them.
+Json sarif_invocation(const Report& report, const std::vector<std::string>& codes) {
+    Json notifications = Json::array();
+    bool whole = true;
+    for (const ReportedFile& file : report.files) {
+        if (file.outcome == FileOutcome::judged) continue;
+        whole = false;
+        for (const Finding& f : file.findings) {
+            if (f.severity != Severity::error) continue;
+            const auto rule = static_cast<std::size_t>(std::ranges::lower_bound(codes, f.code) - codes.begin());
+            notifications.push_back(sarif_notification(file, f, rule));
+        }
+    }
+    Json invocation{{"executionSuccessful", whole}};
+    if (report.exit_status) invocation["exitCode"] = *report.exit_status;
+    invocation["toolExecutionNotifications"] = std::move(notifications);
+    return invocation;
 }
 
 }  // namespace
@@ -108,8 +164,8 @@ std::string case_name(const Finding& f, std::map<std::string, int>& times) {
     return before == 0 ? name : name + " (" + std::to_string(before + 1) + ")";
 }
 
-void add_case(const Finding& f, Fate fate, const std::string& start, std::string& text) {
-    const std::string message = xml_attribute(f.message), words = xml_text(finding_text(f));
+void add_case(const ReportedFile& file, const Finding& f, Fate fate, const std::string& start, std::string& text) {
+    const std::string message = xml_attribute(f.message), words = xml_text(finding_text(file, f));
     text += start + "\">";
     if (fate == Fate::passed_over) {
         const char* word = f.severity == Severity::info ? "note" : to_string(f.severity);
@@ -139,7 +195,7 @@ void add_suite(const Report& report, const ReportedFile& file, std::string& text
     const std::string judged = file.chosen ? "checks run: " + judged_text(*file.chosen) : std::string("all checks");
     if (passed > 0) text += start + xml_attribute(judged) + "\"/>\n";
     std::map<std::string, int> times;
-    for (const Finding* f : listed) add_case(*f, fate_of(report, file, *f), start + xml_attribute(case_name(*f, times)), text);
+    for (const Finding* f : listed) add_case(file, *f, fate_of(report, file, *f), start + xml_attribute(case_name(*f, times)), text);
     text += " </testsuite>\n";
 }
 
@@ -155,15 +211,21 @@ std::string report_sarif(const Report& report) {
     const std::size_t blank = report.tool.find(' ');
     Json driver{{"name", report.tool.substr(0, blank)}};
     if (blank != std::string::npos) driver["version"] = report.tool.substr(blank + 1);
-    driver["rules"] = sarif_rules(report);
+    const auto codes = codes_of(report);
+    driver["rules"] = sarif_rules(codes);
     Json results = Json::array();
     std::size_t not_listed = 0;
     for (const ReportedFile& file : report.files) {
         const auto listed = worst_first(file.findings, report.most_findings);
-        for (const Finding* f : listed) results.push_back(sarif_result(file, *f));
+        for (const Finding* f : listed) {
+            const auto rule = static_cast<std::size_t>(std::ranges::lower_bound(codes, f->code) - codes.begin());
+            results.push_back(sarif_result(file, *f, rule));
+        }
         not_listed += file.findings.size() - listed.size();
     }
-    Json run{{"tool", {{"driver", std::move(driver)}}}, {"results", std::move(results)}};
+    Json run{{"tool", {{"driver", std::move(driver)}}},
+             {"invocations", Json::array({sarif_invocation(report, codes)})},
+             {"results", std::move(results)}};
     if (not_listed > 0) run["properties"]["not_listed"] = not_listed;
     for (const ReportedFile& file : report.files) {
         if (!file.steps.empty()) run["properties"]["steps"].push_back({{"file", file.file}, {"steps", file_json(file, 0)["steps"]}});

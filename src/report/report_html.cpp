@@ -135,8 +135,10 @@ Json file_with_scene(const ReportedFile& file, const Report& report, std::size_t
     const std::size_t most = report.most_findings;
     Json j = file_json(file, most);
     const auto listed = worst_first(file.findings, most);
-    for (Json& finding : j["findings"]) {  // they are in the marks
-        finding.erase("points");
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        Json& finding = j["findings"][i];
+        if (std::string place = place_text(file, *listed[i]); !place.empty()) finding["place"] = std::move(place);
+        finding.erase("points");  // they are in the marks
         finding.erase("polylines");
         finding.erase("index");
     }

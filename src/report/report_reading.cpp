@@ -92,6 +92,25 @@ Finding finding(const Json& j) {
     return f;
 }
 
+ToleranceSource source_in(const Json& j) {
+    if (!j.contains("tolerance_source")) return ToleranceSource::unknown;
+    const auto word = j["tolerance_source"].get<std::string>();
+    for (const ToleranceSource s : {ToleranceSource::given, ToleranceSource::size, ToleranceSource::precision}) {
+        if (word == to_string(s)) return s;
+    }
+    wrong("'" + word + "' is no source of a tolerance");
+}
+
+void take_names_in_file(const Json& entities, NamesInFile& names) {
+    for (const Json& e : entities) {
+        InFile in_file;
+        if (e.contains("in_file")) in_file.name = e["in_file"].get<std::string>();
+        if (e.contains("object")) in_file.object = e["object"].get<std::string>();
+        if (in_file.name.empty() && in_file.object.empty()) continue;
+        names.emplace(std::pair(e.at("kind").get<std::string>(), e.at("name").get<std::string>()), std::move(in_file));
+    }
+}
+
 ReportedFile file(const Json& j) {
     ReportedFile file;
     file.file = j.at("file").get<std::string>();
@@ -104,15 +123,21 @@ ReportedFile file(const Json& j) {
     if (j.contains("companions")) file.companions = j["companions"].get<std::vector<std::string>>();
     if (j.contains("tolerance")) file.tolerance = real(j["tolerance"]);
     if (j.contains("near")) file.near = real(j["near"]);
+    file.tolerance_source = source_in(j);
+    if (j.contains("heights")) file.depths = j["heights"].get<std::string>() == "depth";
     if (j.contains("clusters")) {
         for (const Json& c : j["clusters"])
-            file.clusters.push_back({real(c.at("tolerance")), real(c.at("near")), c.at("objects").get<std::vector<std::string>>()});
+            file.clusters.push_back(
+                {real(c.at("tolerance")), real(c.at("near")), c.at("objects").get<std::vector<std::string>>(), source_in(c)});
     }
     if (j.contains("closes_with")) {
         const Json& c = j["closes_with"];
         file.closing = {real(c.at("tolerance")), whole<std::uint64_t>(c.at("errors")), whole<std::uint64_t>(c.at("left"))};
     }
-    for (const Json& f : j.at("findings")) file.findings.push_back(finding(f));
+    for (const Json& f : j.at("findings")) {
+        file.findings.push_back(finding(f));
+        take_names_in_file(f.at("entities"), file.names);
+    }
     return file;
 }
 

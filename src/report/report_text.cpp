@@ -24,16 +24,18 @@ public:
     Text(bool colour, bool all_notes) : colour_(colour), all_notes_(all_notes) {}
 
     /// One finding by itself.
-    void alone(const Finding& f) {
+    void alone(const ReportedFile& file, const Finding& f) {
+        about_ = &file;
         const char* word = f.severity == Severity::info ? "note" : to_string(f.severity);
         text_ += std::string(word) + ' ' + f.code;
-        if (!f.entities.empty()) text_ += " of " + f.entities.front().kind + " '" + f.entities.front().name + "'";
+        if (!f.entities.empty()) text_ += " of " + named(f.entities.front());
         text_ += ": " + f.message + '\n';
         if (!f.where.file.empty() && (f.where.line > 0 || f.where.offset >= 0)) text_ += indent() + to_string(f.where) + '\n';
         details(f);
     }
 
     void file(const ReportedFile& file, std::size_t most) {
+        about_ = &file;
         const SeverityCounts n = count_by_severity(file.findings);
         if (file.outcome != FileOutcome::judged) return without_verdict(file, most);
         const bool is_part = !file.valid && file.chosen;
@@ -49,7 +51,8 @@ public:
                  (file.chosen ? "; not judged: " + not_judged_text(*file.chosen) : std::string()) + "; " +
                  counted(n.error, "error", "errors") + ", " + counted(n.warning, "warning", "warnings") + ", " +
                  counted(n.info, "note", "notes");
-        if (file.tolerance > 0) text_ += "; tolerance " + rounded(file.tolerance) + ", near " + rounded(file.near);
+        if (file.tolerance > 0)
+            text_ += "; tolerance " + rounded(file.tolerance) + from_where(file.tolerance_source) + ", near " + rounded(file.near);
         if (file.known) {
             const std::uint64_t known = file.known->error + file.known->warning + file.known->info;
             text_ += "; " + counted(known, "finding", "findings") + " of the baseline left out";
@@ -67,9 +70,21 @@ private:
         return colour_ ? std::string("\033[1;") + colour + "m" + word + "\033[0m" : word;
     }
 
+    static std::string from_where(ToleranceSource source) {
+        constexpr const char* words[] = {"", " (as given)", " (1e-7 of the size)", " (4 steps of the stored coordinates)"};
+        return words[static_cast<std::size_t>(source)];
+    }
+
+    /// "surface 'H2_2' (TFACE 4 of 'H2')": what the file calls it, too.
+    std::string named(const EntityRef& e) const { return e.kind + " '" + e.name + "'" + in_file(e); }
+    std::string in_file(const EntityRef& e) const {
+        const auto found = about_->names.find({e.kind, e.name});
+        return found == about_->names.end() || found->second.name.empty() ? std::string() : " (" + found->second.name + ")";
+    }
+
     void lengths(const ReportedLengths& cluster) {
         constexpr std::size_t named = 3;
-        text_ += "  tolerance " + rounded(cluster.tolerance) + ", near " + rounded(cluster.near) + " for ";
+        text_ += "  tolerance " + rounded(cluster.tolerance) + from_where(cluster.source) + ", near " + rounded(cluster.near) + " for ";
         for (std::size_t o = 0; o < std::min(named, cluster.objects.size()); ++o) text_ += (o > 0 ? ", '" : "'") + cluster.objects[o] + "'";
         if (cluster.objects.size() > named) text_ += " and " + std::to_string(cluster.objects.size() - named) + " more";
         text_ += '\n';
@@ -91,7 +106,7 @@ private:
         std::vector<std::pair<std::string, std::vector<const Finding*>>> groups;
         for (std::size_t i = 0; i < shown; ++i) {
             std::string name = "file";
-            if (!sorted[i]->entities.empty()) name = sorted[i]->entities.front().kind + " '" + sorted[i]->entities.front().name + "'";
+            if (!sorted[i]->entities.empty()) name = named(sorted[i]->entities.front());
             auto group = std::ranges::find(groups, name, [](const auto& g) { return g.first; });
             if (group == groups.end()) group = groups.insert(groups.end(), {name, {}});
             group->second.push_back(sorted[i]);
@@ -138,7 +153,7 @@ private:
         further_entities(f);
         elements(f);
         place(f);
-        const std::string_view advice = advice_for(f.code);
+        const std::string_view advice = advice_for(f);
         if (!advice.empty() && f.severity > Severity::info) text_ += indent() + "to mend it: " + std::string(advice) + '\n';
     }
 
@@ -165,12 +180,17 @@ private:
         elements(s.what);
     }
 
+    /// A line for each kind of them.
     void further_entities(const Finding& f) {
-        if (f.entities.size() < 2) return;
-        text_ += indent() + f.entities[1].kind + ':';
-        for (std::size_t e = 1; e < f.entities.size() && e <= shown_elements; ++e) text_ += ' ' + f.entities[e].name;
-        if (f.entities.size() > shown_elements + 1) text_ += " ...";
-        text_ += '\n';
+        std::size_t shown = 0;
+        for (std::size_t e = 1; e < f.entities.size() && shown < shown_elements; ++e, ++shown) {
+            const EntityRef& entity = f.entities[e];
+            if (e == 1 || entity.kind != f.entities[e - 1].kind) text_ += (e == 1 ? "" : "\n") + indent() + entity.kind + ": ";
+            else text_ += ", ";
+            text_ += entity.name + in_file(entity);
+        }
+        if (f.entities.size() > shown_elements + 1) text_ += ", ...";
+        if (shown > 0) text_ += '\n';
     }
 
     void elements(const Finding& f) {
@@ -187,28 +207,33 @@ private:
         text_ += '\n';
     }
 
-    // Where it is, or where the first of several places is; elevations are positive upwards.
     void place(const Finding& f) {
-        const Vec3* first = nullptr;
-        if (!f.points.empty()) first = &f.points.front();
-        else if (!f.polylines.empty() && !f.polylines.front().empty()) first = &f.polylines.front().front();
-        if (first == nullptr) return;
-        const std::size_t places = f.points.empty() ? f.polylines.size() : f.points.size();
-        text_ += indent() + (places > 1 ? "first at (" : "at (") + short_number((*first)[0]) + ", " + short_number((*first)[1]) + ", " +
-                 short_number((*first)[2]) + ")\n";
+        if (const std::string at = place_text(*about_, f); !at.empty()) text_ += indent() + "at " + at + '\n';
     }
 
     static std::string indent() { return std::string(18, ' '); }
 
     bool colour_, all_notes_;
+    const ReportedFile* about_ = nullptr;  // the file that is spoken of
     std::string text_;
 };
 
 }  // namespace
 
-std::string finding_text(const Finding& finding) {
+std::string place_text(const ReportedFile& file, const Finding& f) {
+    const Vec3* first = nullptr;
+    if (!f.points.empty()) first = &f.points.front();
+    else if (!f.polylines.empty() && !f.polylines.front().empty()) first = &f.polylines.front().front();
+    if (first == nullptr) return {};
+    const std::size_t places = f.points.empty() ? f.polylines.size() : f.points.size();
+    const double height = file.depths ? 0.0 - (*first)[2] : (*first)[2];
+    return "(" + short_number((*first)[0]) + ", " + short_number((*first)[1]) + ", " + short_number(height) + ")" +
+           (places > 1 ? ", the first of " + std::to_string(places) : std::string());
+}
+
+std::string finding_text(const ReportedFile& file, const Finding& finding) {
     Text text(false, true);
-    text.alone(finding);
+    text.alone(file, finding);
     return text.take();
 }
 

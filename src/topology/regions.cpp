@@ -38,8 +38,10 @@ void judge_stated(Assembly& a, const StatedRegion& stated, const SolvedSides::Re
     }
     // A region may have nothing but internal surfaces: then there is nothing to close.
     if (!solved.enclosed.closed && solved.enclosed.singles > 0) {
-        a.findings.push_back(region_finding(
-            a.brep, "F113", stated.name, "the boundary of region '" + stated.name + "' does not close, so that its volume is not known"));
+        auto finding = region_finding(a.brep, "F113", stated.name,
+                                      "the boundary of region '" + stated.name + "' does not close, so that its volume is not known");
+        finding.measures = {{"open_sides", static_cast<double>(solved.enclosed.singles)}};
+        a.findings.push_back(std::move(finding));
     }
 }
 
@@ -117,6 +119,7 @@ void add_found_regions(Assembly& a) {
     Finding finding =
         make_finding("F113", "polygons coincide along lines, so that regions there are not certain", {}, found.uncertain_lines.size());
     finding.element_kind = "line";
+    finding.measures = {{"uncertain_lines", static_cast<double>(found.uncertain_lines.size())}};
     for (const LineId l : found.uncertain_lines) {
         if (finding.index.size() < most_elements) finding.index.push_back(l.value);
     }
@@ -137,6 +140,7 @@ void settle_universe(Assembly& a) {
     if (!contested.empty()) {
         Finding finding = make_finding("F113", "several regions lie on the same side of " + list_of_names(a.brep, contested), {}, 0);
         mention(finding, a.brep, contested);
+        finding.measures = {{"shared_sides", static_cast<double>(contested.size())}};
         a.findings.push_back(std::move(finding));
     }
     if (a.brep.universe.empty() && !a.brep.regions.empty()) {

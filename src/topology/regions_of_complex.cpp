@@ -89,9 +89,13 @@ void report_partial(std::vector<SurfaceId> partial, Assembly& a) {
     std::sort(partial.begin(), partial.end());
     partial.erase(std::unique(partial.begin(), partial.end()), partial.end());
     if (partial.empty()) return;
-    Finding finding = make_finding("F113", std::to_string(partial.size()) + " surfaces bound a region with a part of their polygons only",
-                                   {}, partial.size());
+    const std::string first = "'" + a.brep.surfaces[partial[0].value].name + "'";
+    const std::string message = partial.size() == 1 ? "surface " + first + " bounds a region with a part of its polygons only"
+                                                    : std::to_string(partial.size()) +
+                                                          " surfaces bound a region with a part of their polygons only: " + first + ", ...";
+    Finding finding = make_finding("F113", message, {}, partial.size());
     finding.element_kind = "surface";
+    finding.measures = {{"partial_surfaces", static_cast<double>(partial.size())}};
     for (std::size_t i = 0; i < partial.size() && i < most_listed; ++i) {
         finding.entities.push_back({"surface", a.brep.surfaces[partial[i].value].name, partial[i].value});
     }
@@ -150,9 +154,13 @@ std::vector<RegionId> compare_regions(const std::vector<StatedRegion>& stated, c
             a.claims.wrong_sides.push_back({list.name, found->second.value, {absent->surface}, 0, 0});
             continue;
         }
-        a.findings.push_back(region_finding(a.brep, "F113", list.name,
-                                            "region '" + list.name + "' is stated " + (absent->front ? "in front of " : "behind ") +
-                                                a.brep.surfaces[absent->surface.value].name + ", but its cells are not there"));
+        const std::string& surface = a.brep.surfaces[absent->surface.value].name;
+        auto finding = region_finding(a.brep, "F113", list.name,
+                                      "region '" + list.name + "' is stated " + (absent->front ? "in front of '" : "behind '") + surface +
+                                          "', but its cells are not there");
+        finding.entities.push_back({"surface", surface, absent->surface.value});
+        finding.measures = {{"sides_without_cells", 1}};
+        a.findings.push_back(std::move(finding));
     }
     return ids;
 }

@@ -43,7 +43,7 @@ TEST(AWordOfTheLists, IsACodeAFamilyOrAPattern) {
 }
 
 TEST(AWordOfTheLists, MustStandForSomething) {
-    for (const char* word : {"B08", "F112", "F", "S*", "*", "M0?", "C22"}) EXPECT_TRUE(validators::known_codes(only({word}))) << word;
+    for (const char* word : {"B08", "F122", "F", "S*", "*", "M0?", "C22"}) EXPECT_TRUE(validators::known_codes(only({word}))) << word;
     for (const char* word : {"", "B99", "b08", "X", "B08 ", "B**9?", "F2*", "B8"}) {
         const auto known = validators::known_codes(only({word}));
         ASSERT_FALSE(known) << word;
@@ -83,16 +83,16 @@ Finding remark(const char* code, Severity severity) {
 
 TEST(Choice, AppliesToWhatReadersSay) {
     Dataset data = LayeredModel().data();
-    data.findings = {remark("F112", Severity::info), remark("F104", Severity::warning), remark("F022", Severity::error)};
+    data.findings = {remark("F122", Severity::info), remark("F105", Severity::warning), remark("F022", Severity::error)};
     const auto codes = [&](const CheckOptions& options) {
         const auto file = validate("made", data, options);
         EXPECT_TRUE(file);
         return codes_of(file->findings);
     };
-    EXPECT_EQ(codes({}), (Codes{"F022 error", "F104 warning", "F111 info", "F112 info", "G03 info"}));
-    EXPECT_EQ(codes(without({"F112"})), (Codes{"F022 error", "F104 warning", "F111 info", "G03 info"}));
+    EXPECT_EQ(codes({}), (Codes{"F022 error", "F105 warning", "F111 info", "F122 info", "G03 info"}));
+    EXPECT_EQ(codes(without({"F122"})), (Codes{"F022 error", "F105 warning", "F111 info", "G03 info"}));
     EXPECT_EQ(codes(without({"F"})), (Codes{"F022 error", "G03 info"})) << "what cannot be read is always told";
-    EXPECT_EQ(codes(only({"F112"})), (Codes{"F022 error", "F112 info"}));
+    EXPECT_EQ(codes(only({"F122"})), (Codes{"F022 error", "F122 info"}));
     EXPECT_EQ(codes(only({"G"})), (Codes{"F022 error", "G03 info"}));
     EXPECT_EQ(validate("made", data, without({"F"}))->valid, false);
 }
@@ -112,7 +112,7 @@ TEST(Choice, OfAPartOfTheChecksSaysWhatWasJudged) {
     EXPECT_EQ(part->chosen->skip, std::vector<std::string>{"B05"});
     EXPECT_FALSE(validate("made", data, {})->chosen.has_value());
     // What cannot be found in such a file, or is a note at most, is no part of the verdict.
-    for (const char* word : {"C", "S", "F112", "B25"}) EXPECT_EQ(validate("made", data, without({word}))->valid, true) << word;
+    for (const char* word : {"C", "S", "F122", "B25"}) EXPECT_EQ(validate("made", data, without({word}))->valid, true) << word;
     Dataset broken = data;
     std::get<Surface>(broken.objects[0]).polygons.corners[1] = std::get<Surface>(broken.objects[0]).polygons.corners[0];
     EXPECT_EQ(validate("made", broken, without({"B05"}))->valid, false) << "an error is an error";

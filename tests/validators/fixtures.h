@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "model/dataset.h"
 
@@ -19,5 +20,11 @@ struct Fixture {
 std::span<const Fixture> model_fixtures();   ///< B, G, Q and M of surfaces
 std::span<const Fixture> object_fixtures();  ///< M and Q of cells, point sets, polylines, wells, rasters, structured grids
 std::span<const Fixture> grid_fixtures();    ///< C, and S
+
+inline std::vector<Fixture> all_fixtures() {
+    std::vector<Fixture> all;
+    for (const auto part : {model_fixtures(), object_fixtures(), grid_fixtures()}) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
 
 }  // namespace geomend::testing

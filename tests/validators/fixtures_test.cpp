@@ -16,14 +16,8 @@
 namespace geomend {
 namespace {
 
+using testing::all_fixtures;
 using testing::Fixture;
-
-std::vector<Fixture> all_fixtures() {
-    std::vector<Fixture> all;
-    for (const auto part : {testing::model_fixtures(), testing::object_fixtures(), testing::grid_fixtures()})
-        all.insert(all.end(), part.begin(), part.end());
-    return all;
-}
 
 std::vector<Finding> findings_of(const Dataset& data, const Fixture& fixture) {
     validators::CheckOptions options;

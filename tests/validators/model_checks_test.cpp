@@ -128,7 +128,7 @@ TEST(Crowds, OfSurfacesOnEachOtherAreToldForEachSurface) {
     }
     EXPECT_EQ(told.size(), 300u) << "each surface";
     EXPECT_LT(findings.size(), 20000u) << "not each of the 44850 pairs";
-    EXPECT_NE(findings.back().message.find("not looked at"), std::string::npos) << findings.back().message;
+    EXPECT_NE(findings.back().message.find("not examined"), std::string::npos) << findings.back().message;
 }
 
 TEST(LooseSurfaces, ThatCloseBoundARegion) {

@@ -224,7 +224,8 @@ function drawDetail() {
     if (content) list.append(make('dt', {}, title), make('dd', look ? {class: look} : {}, content));
   };
   line('To mend it', f.fix, 'fix');
-  line('Where', f.entities.map((e) => `${e.kind} ${e.name}${e.id !== undefined ? ` (${e.id})` : ''}`).join(', '));
+  line('Where', f.entities.map((e) => `${e.kind} ${e.name}${e.in_file ? ` (${e.in_file})` : ''}`).join(', '));
+  line('At', f.place);
   if (f.elements) line(f.element_kind || 'Elements', listing(f.elements.map(elementText), 24, f.count || f.elements.length));
   else if (f.count) line('Number', grouped(f.count));
   line('Measures', Object.entries(f.measures || {}).map(([name, value]) => `${name} ${figure(value)}`).join(' · '));
