@@ -21,7 +21,9 @@ bool has_errors(const std::vector<Finding>& findings) {
 
 bool has_model_checks(const Object& object) { return std::holds_alternative<Surface>(object) || std::holds_alternative<CellMesh>(object); }
 
-bool has_checks(const Object& object) { return has_model_checks(object) || validators::is_judged_alone(object); }
+bool has_checks(const Object& object) {
+    return has_model_checks(object) || std::holds_alternative<CornerPointGrid>(object) || validators::is_judged_alone(object);
+}
 
 // Whether the reader had to leave something out, because a companion file is missing, say.
 bool lacks_a_part(const Dataset& dataset) {

@@ -25,6 +25,16 @@ std::string column_deck(const std::vector<std::array<double, 2>>& cells) {
 
 nlohmann::json json_of(const test::ProgramRun& run) { return nlohmann::json::parse(run.out, nullptr, false); }
 
+TEST(Validate, CallsASoundGridValid) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "good.grdecl", column_deck({{1000, 1010}, {1010, 1020}}));
+    const auto run = run_geomend({"validate", "--json", folder / "good.grdecl"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto report = json_of(run);
+    ASSERT_EQ(report["files"].size(), 1u);
+    EXPECT_EQ(report["files"][0]["valid"], true) << run.out;
+}
+
 TEST(Validate, TellsByItsStatusWhatItFound) {
     const TemporaryFolder folder;
     test::write_file(folder / "good.grdecl", column_deck({{1000, 1010}, {1010, 1020}}));
