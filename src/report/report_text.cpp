@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <span>
+#include <unordered_map>
 
 #include "base/codes.h"
 #include "base/wording.h"
@@ -104,12 +105,13 @@ private:
         if (summarise) shown = sorted.size() - notes;  // they come last
         // Entities in the order of their worst finding.
         std::vector<std::pair<std::string, std::vector<const Finding*>>> groups;
+        std::unordered_map<std::string, std::size_t> group_of;
         for (std::size_t i = 0; i < shown; ++i) {
             std::string name = "file";
             if (!sorted[i]->entities.empty()) name = named(sorted[i]->entities.front());
-            auto group = std::ranges::find(groups, name, [](const auto& g) { return g.first; });
-            if (group == groups.end()) group = groups.insert(groups.end(), {name, {}});
-            group->second.push_back(sorted[i]);
+            const auto [known, is_first] = group_of.try_emplace(name, groups.size());
+            if (is_first) groups.emplace_back(std::move(name), std::vector<const Finding*>{});
+            groups[known->second].second.push_back(sorted[i]);
         }
         for (const auto& [name, findings] : groups) {
             text_ += "  " + name + '\n';
