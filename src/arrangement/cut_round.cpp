@@ -5,20 +5,15 @@
 
 #include "arrangement/cut_triangle.h"
 #include "arrangement/search.h"
+#include "arrangement/triple_points.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "geometry/vectors.h"
+#include "model/objects.h"
 
 namespace geomend::arrangement {
 
 namespace {
-
-/// A segment inside of a triangle.
-struct SegmentInFace {
-    std::uint32_t triangle;
-    Link segment;
-    auto operator<=>(const SegmentInFace&) const = default;
-};
 
 template <class T>
 void sort_unique(std::vector<T>& all) {
@@ -63,7 +58,7 @@ public:
         sort_unique(common);
         if (common.size() < 2) return;
         if (in_line(common)) {
-            connect(pair, common);
+            connect(pair, common, true);
             return;
         }
         for (const std::uint32_t t : {pair.first, pair.second}) {
@@ -73,7 +68,7 @@ public:
                 links_.append(c[i], c[(i + 1) % 3], way_);
                 way_.push_back(c[(i + 1) % 3]);
                 std::erase_if(way_, [&](std::uint32_t v) { return !std::ranges::binary_search(common, v); });
-                connect(pair, way_);
+                connect(pair, way_, false);
             }
         }
     }
@@ -118,12 +113,11 @@ private:
         return true;
     }
 
-    void connect(const NearFeatures::Pair& pair, std::span<const std::uint32_t> way) {
+    void connect(const NearFeatures::Pair& pair, std::span<const std::uint32_t> way, bool is_all) {
         for (std::size_t i = 1; i < way.size(); ++i) {
             const Link segment(way[i - 1], way[i]);
-            for (const std::uint32_t t : {pair.first, pair.second}) {
-                if (!is_along_edge(t, segment)) to_.push_back({t, segment});
-            }
+            if (!is_along_edge(pair.first, segment)) to_.push_back({pair.first, segment, is_all ? pair.second : no_index});
+            if (!is_along_edge(pair.second, segment)) to_.push_back({pair.second, segment, is_all ? pair.first : no_index});
         }
     }
 
@@ -154,6 +148,13 @@ std::vector<SegmentInFace> segments_of_pairs(const CutState& state, const LinkTa
         maker.add(pair, common);
     }
     sort_unique(segments);
+    return segments;
+}
+
+/// Each segment once for its triangle, whatever others meet it there.
+std::vector<SegmentInFace> each_once(std::vector<SegmentInFace> segments) {
+    const auto is_same = [](const SegmentInFace& a, const SegmentInFace& b) { return a.triangle == b.triangle && a.segment == b.segment; };
+    segments.erase(std::unique(segments.begin(), segments.end(), is_same), segments.end());
     return segments;
 }
 
@@ -210,10 +211,11 @@ void each_job(const std::vector<Job>& jobs, const Run& run) {
 }
 
 /// Points where segments cross inside triangles go onto both; those that segments pass go onto them.
-void add_crossings(CutState& state, const LinkTable& links, const std::vector<Job>& jobs, const JobLists& lists,
-                   std::vector<VertexOnEdge>& on_edges) {
+void add_crossings(CutState& state, const LinkTable& links, const std::vector<SegmentInFace>& meetings, const std::vector<Job>& jobs,
+                   const JobLists& lists, std::vector<VertexOnEdge>& on_edges) {
     struct Block {
         std::vector<NewPoint> crossings;
+        std::vector<std::uint32_t> triangles;  ///< of the crossings
         std::vector<VertexOnEdge> on_segments;
     };
     std::vector<Block> blocks((jobs.size() + jobs_in_block - 1) / jobs_in_block);
@@ -222,12 +224,16 @@ void add_crossings(CutState& state, const LinkTable& links, const std::vector<Jo
         if (segments.empty()) return;
         cross_segments(state.points.points(), state.triangles[job.triangle], links, segments, lists.points_of(job), state.reach,
                        blocks[block].crossings, blocks[block].on_segments, scratch);
+        blocks[block].triangles.resize(blocks[block].crossings.size(), job.triangle);
     });
     std::vector<NewPoint> crossings;
+    std::vector<std::uint32_t> triangles;
     for (const Block& b : blocks) {
         on_edges.insert(on_edges.end(), b.on_segments.begin(), b.on_segments.end());
         crossings.insert(crossings.end(), b.crossings.begin(), b.crossings.end());
+        triangles.insert(triangles.end(), b.triangles.begin(), b.triangles.end());
     }
+    join_triple_points(state.points.points(), meetings, triangles, crossings);
     const auto vertex = add_points(state.points, crossings);
     for (std::size_t i = 0; i < crossings.size(); ++i) {
         on_edges.push_back({crossings[i].edge, vertex[i]});
@@ -381,11 +387,12 @@ bool cut_at(CutState& state, const NearFeatures& found) {
     put_on_features(found, vertex, on_edges, on_faces);
     sort_unique(on_faces);
     LinkTable links(state.points.points(), on_edges);
-    const auto segments = segments_of_pairs(state, links, found, vertex);
+    const auto meetings = segments_of_pairs(state, links, found, vertex);
+    const auto segments = each_once(meetings);
     const JobLists lists(on_faces, segments);
     const auto jobs = jobs_of(state, links, on_faces, segments);
     const std::size_t before = on_edges.size();
-    add_crossings(state, links, jobs, lists, on_edges);
+    add_crossings(state, links, meetings, jobs, lists, on_edges);
     if (on_edges.size() != before) links = LinkTable(state.points.points(), std::move(on_edges));
     // Points that came onto edges in the last step touch no triangle that was not touched already: segments run inside them.
     replace(state, links, jobs, lists, is_double);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Soups that were cut wrongly once, each shrunk by hunt_soups; what they stand for is named.
+#include <gtest/gtest.h>
+
+#include "arrangement/soup_faults.h"
+#include "arrangement/soup_of.h"
+
+namespace geomend::test {
+namespace {
+
+// Three triangles that meet in one point and are next to parallel: each of them placed it for itself, and the lens between the places was
+// cut again and again.
+TEST(ReducedSoups, TriplePointsOfTrianglesNextToParallelAreOne) {
+    const auto one = soup_of({{0, 0, 0},
+                              {-0.7601, -0.4007, 0.35853},
+                              {-0.5907, 0.3977, 0.49136},
+                              {0.1736, -0.6311, -0.29867},
+                              {-0.73084, -0.0029, 0.45945},
+                              {0.636, 0.06, -0.383},
+                              {-0.8, 0.5, 0.7},
+                              {0.13, -0.55, -0.25},
+                              {-0.8, 0, 0.5}},
+                             {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
+    EXPECT_EQ(to_string(fault_in_child(one, 1e-7, 60)), "none");
+    const auto other = soup_of({{0.1573, -0.2519, -0.2217},
+                                {0.7607, -0.332, -0.806},
+                                {-0.8109, -0.72513, 0.53555},
+                                {-0.8325, 0.9377, 1.0546},
+                                {0.32856, -0.74447, -0.52845},
+                                {-0.0479, -0.9448, -0.239},
+                                {-0.55, -0.96, 0.2},
+                                {0, 0, -1},
+                                {0.3, 0, 0}},
+                               {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
+    EXPECT_EQ(to_string(fault_in_child(other, 1e-5, 60)), "none");
+}
+
+}  // namespace
+}  // namespace geomend::test
