@@ -189,5 +189,64 @@ TEST(Trace, AlongACutThroughEdgesNoTwoNeighboursHaveFourOrSixTriangles) {
     EXPECT_EQ(places(std::move(mesh).take().soup), places(scar.before));
 }
 
+/// A flat strip around a trace whose inner vertices have so many triangles around them, 4 to 6, and the trace's inner vertices.
+Scarred strip_of(const std::vector<int>& triangles) {
+    // Beside each vertex of the trace lie one or two vertices of either rail, of which neighbours share one.
+    const std::size_t n = triangles.size() + 2;
+    Scarred strip;
+    std::vector<std::uint32_t> trace;
+    for (std::size_t i = 0; i < n; ++i) {
+        trace.push_back(static_cast<std::uint32_t>(strip.soup.vertices.size()));
+        strip.soup.vertices.push_back({static_cast<double>(i), 0, 0});
+    }
+    std::uint32_t fives = 0;
+    std::array<std::vector<int>, 2> beside;
+    for (std::size_t i = 0; i < n; ++i) {
+        const int count = i == 0 || i + 1 == n ? 4 : triangles[i - 1];
+        const bool low = count == 5 && fives++ % 2 == 0;
+        beside[0].push_back(count == 6 || (count == 5 && low) ? 2 : 1);
+        beside[1].push_back(count == 6 || (count == 5 && !low) ? 2 : 1);
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+        const double y = side == 0 ? -2 : 2;
+        const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            strip.soup.triangles.push_back(side == 0 ? Triangle{a, c, b} : Triangle{a, b, c});
+            strip.soup.patches.push_back(0);
+        };
+        auto rail = static_cast<std::uint32_t>(strip.soup.vertices.size());
+        strip.soup.vertices.push_back({-0.5, y, 0});
+        for (std::size_t i = 0; i < n; ++i) {
+            if (beside[side][i] == 2) {
+                strip.soup.vertices.push_back({static_cast<double>(i) + 0.1, y, 0});
+                add(trace[i], rail + 1, rail);
+                ++rail;
+            }
+            if (i + 1 < n) add(trace[i], trace[i + 1], rail);
+        }
+    }
+    strip.trace.assign(trace.begin() + 1, trace.end() - 1);
+    return strip;
+}
+
+// Test 12: chains of valences that the reducing order takes away without a larger ring, and those at which it is stuck.
+TEST(Trace, TheReducingOrderEmptiesChainsAsInTheThesis) {
+    struct Case {
+        std::vector<int> chain;
+        std::uint64_t larger_rings;  ///< that are filled before the chain goes on
+    };
+    for (const auto& [chain, larger_rings] : {Case{{4, 5, 5, 6, 4, 6, 4}, 0}, Case{{5, 5, 5, 5}, 1}, Case{{4, 6, 5, 6, 4}, 1},
+                                              Case{{5, 5, 5, 6, 4}, 1}, Case{{4}, 0}, Case{{4, 5, 6}, 1}}) {
+        const Scarred strip = strip_of(chain);
+        editing::SoupMesh mesh(strip.soup);
+        for (std::size_t i = 0; i < chain.size(); ++i)
+            ASSERT_EQ(mesh.around(strip.trace[i]).size(), static_cast<std::size_t>(chain[i])) << "the strip is made as told";
+        ErasedTrace sum;
+        const auto left = erased(strip, sum);
+        EXPECT_EQ(sum.erased, chain.size()) << testing::PrintToString(chain);
+        EXPECT_EQ(sum.erased - sum.small_rings, larger_rings) << testing::PrintToString(chain);
+        EXPECT_NEAR(area_of(left.soup), area_of(strip.soup), 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace geomend::test
