@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <set>
+#include <unordered_set>
 
 #include "base/text_cursor.h"
 #include "formats/drop.h"
@@ -91,13 +93,56 @@ void name_entities(CellMesh& mesh) {
     }
 }
 
+// Elements whose tag another one has already get tags behind the largest one: blocks that were written one by one each begin with 1.
+// \return false where there are no such tags
+bool number_anew(Reading& r) {
+    std::vector<std::int64_t>& tags = r.mesh.cell_labels.ids;
+    const std::int64_t largest = std::ranges::max(tags);
+    if (largest > std::numeric_limits<std::int64_t>::max() - static_cast<std::int64_t>(tags.size())) return false;
+    std::int64_t next = largest;
+    std::unordered_set<std::int64_t> seen;
+    Finding f = finding_about(
+        r, "F164", "elements have tags that others have, too: they are numbered anew, behind the largest tag; data go to the first ones",
+        0);
+    f.element_kind = "element";
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+        if (seen.insert(tags[i]).second) continue;
+        if (f.elements.size() < most_listed) {
+            f.elements.push_back(tags[i]);
+            f.index.push_back(static_cast<std::int64_t>(i));
+        }
+        tags[i] = ++next;
+        ++f.count;
+    }
+    r.findings.push_back(std::move(f));
+    return true;
+}
+
 Result<void> index_elements(Reading& r, const Section&) {
     if (r.cells_indexed) return {};
     r.cells_indexed = true;
-    const auto twice = r.cells.build(r.mesh.cell_labels, r.mesh.cell_count());
+    auto twice = r.cells.build(r.mesh.cell_labels, r.mesh.cell_count());
+    if (!twice) return {};
+    if (number_anew(r)) twice = r.cells.build(r.mesh.cell_labels, r.mesh.cell_count());
     if (!twice) return {};
     return unreadable("F009", {r.input.name()},
                       "section $Elements: element tag " + std::to_string(r.mesh.cell_labels[*twice]) + " is defined twice");
+}
+
+// Files of MSH 4 whose physical names have no $Entities to say which entities they are of: those of their number.
+void take_names_of_groups(Reading& r) {
+    if (r.entities_stated) return;
+    std::uint64_t named = 0;
+    for (CellMesh::Entity& entity : r.mesh.entities) {
+        const auto group = r.group_of.find({entity.dimension, entity.tag});
+        if (group == r.group_of.end() || !entity.groups.empty()) continue;
+        entity.groups.push_back(group->second);
+        ++named;
+    }
+    if (named == 0) return;
+    r.findings.push_back(finding_about(
+        r, "F113",
+        "there are $PhysicalNames, but no $Entities: entities take the names of the physical groups of their dimension and number", named));
 }
 
 Result<void> read_mesh(Reading& r) {
@@ -109,8 +154,9 @@ Result<void> read_mesh(Reading& r) {
     const bool by_class = r.layout.version == MshVersion::v1 || r.layout.version == MshVersion::v2;
     if (by_class) {
         if (auto ok = entities_from_classes(r); !ok) return ok;
-    } else if (r.mesh.entities.empty()) {
-        r.mesh.cell_entity.clear();
+    } else {
+        take_names_of_groups(r);
+        if (r.mesh.entities.empty()) r.mesh.cell_entity.clear();
     }
     if (auto ok = index_elements(r, {}); !ok) return ok;
     report_elements(r);
@@ -132,6 +178,21 @@ std::string variant_text(const MshLayout& layout) {
 }
 
 }  // namespace
+
+std::uint64_t announced(Scanner& s, const char* what) {
+    const std::int64_t n = s.size(what);
+    if (!s.failed() && n < 0) s.fail("F008", std::string("the ") + what + " is negative: " + std::to_string(n), s.last_number());
+    return s.failed() ? 0 : static_cast<std::uint64_t>(n);
+}
+
+void report_fewer(Reading& r, const Scanner& s, std::uint64_t announced, std::uint64_t held, std::string_view what) {
+    if (held == announced) return;
+    const std::string section(s.section_name());
+    r.findings.push_back(make_finding("F113",
+                                      "section $" + section + " announces " + std::to_string(announced) + ' ' + std::string(what) +
+                                          ", but its blocks hold " + std::to_string(held) + ": these are read",
+                                      {r.input.name()}));
+}
 
 void keep_unknown(Reading& r, const Section& section) {
     constexpr std::size_t largest_kept = std::size_t{1} << 16;

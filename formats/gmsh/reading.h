@@ -10,6 +10,7 @@
 
 #include "formats/format.h"
 #include "formats/gmsh/element_types.h"
+#include "formats/gmsh/scanner.h"
 #include "formats/gmsh/sections.h"
 #include "formats/gmsh/tag_index.h"
 
@@ -72,6 +73,11 @@ inline constexpr std::size_t most_listed = 100;
 
 /// Failure with the code for a stopped run.
 Failure stopped(const Input& input);
+
+/// A number of things that the head of a section of MSH 4 announces; its blocks say themselves how many they hold.
+std::uint64_t announced(Scanner& s, const char* what);
+/// Reports (F113) that the blocks of a section hold fewer things than were announced.
+void report_fewer(Reading& r, const Scanner& s, std::uint64_t announced, std::uint64_t held, std::string_view what);
 
 /// The entity of a tag, made where it is not there yet.
 std::uint32_t entity_index(Reading& r, int dimension, std::int64_t tag);

@@ -154,6 +154,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F161", info, "a grid has no geometry: only its records were checked"},
     CodeInfo{"F162", info, "the boundary representation of a grid was not judged, or not wholly",
              OtherSeverity{warning, "the attribute or the layers that were asked for are not there"}},
+    CodeInfo{"F164", warning, "numbers of elements are used more than once: the elements are numbered anew"},
     // Geology.
     CodeInfo{"G01", warning, "a name is used more than once: for regions, layers, fault blocks or surfaces",
              OtherSeverity{info, "the regions are parts of one group"}},

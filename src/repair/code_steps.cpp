@@ -125,6 +125,7 @@ constexpr std::array unmended = {
     Unmended{"F160", reading},
     Unmended{"F161", reading},
     Unmended{"F162", reading},
+    Unmended{"F164", reading},
     // Geology.
     Unmended{"G01", geology},
     Unmended{"G02", geology},

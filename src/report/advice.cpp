@@ -136,6 +136,7 @@ constexpr std::array advice = {
     Advice{"F150", "see what is lost; convert asks for --lossy where it is substance"},
     Advice{"F153", "geomend repair --step minpv makes them inactive"},
     Advice{"F161", "give the file that holds COORD and ZCORN"},
+    Advice{"F164", "number the elements once through, as Gmsh does when it saves the mesh"},
     // Geology.
     Advice{"G01", "rename one of them"},
     Advice{"G02", "correct its list"},
