@@ -83,6 +83,7 @@ void write_vertices(const TriangleSoup& soup, const Snapped& s, Arrangement& res
     }
     for (std::uint32_t v = 0; v < soup.vertices.size(); ++v) {
         const std::uint32_t p = s.point_of[v];
+        result.becomes.push_back(number[p]);
         if (number[p] == no_index) continue;
         const Vec3 d = minus(result.soup.vertices[number[p]], soup.vertices[v]);
         result.largest_move = std::max(result.largest_move, std::sqrt(dot(d, d)));

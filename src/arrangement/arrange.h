@@ -21,13 +21,14 @@ struct ArrangeOptions {
 /// A soup of which no two triangles have more in common than vertices and edges that they share by number.
 struct Arrangement {
     TriangleSoup soup;
-    Origin origin;                ///< of its triangles and vertices, in the soup that was cut
-    std::uint64_t cut = 0;        ///< triangles that were cut or bent
-    std::uint64_t made = 0;       ///< vertices that none of the soup was
-    std::uint64_t merged = 0;     ///< vertices that became another one that is nearer than the tolerance
-    std::uint64_t collapsed = 0;  ///< triangles that have no area left: thinner than the tolerance
-    std::uint64_t doubled = 0;    ///< triangles left out since their patch has the same already
-    double largest_move = 0;      ///< of a vertex of the soup
+    Origin origin;                       ///< of its triangles and vertices, in the soup that was cut
+    std::uint64_t cut = 0;               ///< triangles that were cut or bent
+    std::uint64_t made = 0;              ///< vertices that none of the soup was
+    std::uint64_t merged = 0;            ///< vertices that became another one that is nearer than the tolerance
+    std::uint64_t collapsed = 0;         ///< triangles that have no area left: thinner than the tolerance
+    std::uint64_t doubled = 0;           ///< triangles left out since their patch has the same already
+    double largest_move = 0;             ///< of a vertex of the soup
+    std::vector<std::uint32_t> becomes;  ///< per vertex of the soup the one that it is now, or is a part of; no_index: nothing uses it
     unsigned rounds = 0;
     bool clean = true;  ///< false: after the last round something still crosses, or the work was stopped
 };

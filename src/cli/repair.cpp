@@ -16,6 +16,8 @@
 #include "cli/check_arguments.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "drawing/changes.h"
+#include "drawing/scene.h"
 #include "repair/grid_steps.h"
 #include "repair/surface_steps.h"
 
@@ -68,6 +70,26 @@ Result<void> taken_by_steps(const RepairOptions& o, const repair::Recipe& recipe
     return {};
 }
 
+std::filesystem::path folder_of(const std::string& recipe) { return std::filesystem::path(recipe).parent_path(); }
+
+// Files of edits are named from the folder of the recipe.
+void find_beside(const std::string& recipe, std::vector<repair::SurfaceEdit>& edits) {
+    for (repair::SurfaceEdit& edit : edits) {
+        if (!edit.file.empty()) edit.file = (folder_of(recipe) / edit.file).string();  // as it is where it is absolute
+    }
+}
+
+// The same files, as a recipe in another folder names them.
+void name_from(const std::string& recipe, std::vector<repair::SurfaceEdit>& edits) {
+    for (repair::SurfaceEdit& edit : edits) {
+        if (edit.file.empty() || std::filesystem::path(edit.file).is_absolute()) continue;
+        std::error_code none;
+        const auto here = std::filesystem::absolute(recipe, none).parent_path();
+        const auto named = std::filesystem::absolute(edit.file, none).lexically_normal().lexically_relative(here.lexically_normal());
+        if (!none && !named.empty()) edit.file = named.string();
+    }
+}
+
 // The recipe that is named, if one is; what the command line says besides takes the place of its entries.
 Result<repair::Recipe> recipe_of(const RepairOptions& o) {
     repair::Recipe recipe;
@@ -77,6 +99,7 @@ Result<repair::Recipe> recipe_of(const RepairOptions& o) {
         auto parsed = repair::parse_recipe(input->bytes(), o.recipe);
         if (!parsed) return std::move(parsed).why();
         recipe = std::move(*parsed);
+        find_beside(o.recipe, recipe.edits);
     }
     if (auto steps = steps_of(o); !steps.empty()) recipe.steps = std::move(steps);
     if (o.max_gap) recipe.max_gap = o.max_gap;
@@ -153,6 +176,38 @@ Result<void> check_places(const RepairOptions& o) {
     return {};
 }
 
+// With --report FILE.html the model is drawn before and after; with --debris what was left out is written, and what the findings
+// mark. Nothing where neither is asked for. `debris` must outlive the request.
+void look_on(RepairRequest& request, const CheckArguments& a, DebrisFolder& debris) {
+    const bool page = draws_page(a), write = !a.debris.empty();
+    if (!page && !write) return;
+    auto before = std::make_shared<Scene>();
+    auto counts = std::make_shared<SeverityCounts>();
+    request.look = [page, before, counts](const Dataset& dataset, std::span<const Brep> breps, ReportedFile& file) -> Result<void> {
+        if (page) *before = make_scene(dataset, breps);
+        *counts = count_by_severity(file.findings);
+        return {};
+    };
+    request.inspect = [page, write, before, counts, &debris](const Dataset& dataset, std::span<const Brep> breps,
+                                                             const repair::ModelChanges& changes, ReportedFile& file) -> Result<void> {
+        file.scene = make_scene(dataset, breps);
+        mark_findings(*file.scene, dataset, breps, file.findings);
+        file.changes = reported_changes(std::move(*before), changes);
+        file.changes->errors_before = counts->error;
+        file.changes->warnings_before = counts->warning;
+        if (write) {
+            if (auto written = debris.write(file); !written) return written;
+            if (auto written = debris.write(*file.changes, file.scene->crs); !written) return written;
+        }
+        mark_changes(*file.scene, breps, changes);
+        constexpr std::size_t both = 2;
+        thin(*file.scene, page_triangles(both));
+        thin(file.changes->before, page_triangles(both));
+        if (!page) file.scene.reset();
+        return {};
+    };
+}
+
 ExitStatus run(const RepairOptions& o) {
     if (auto places = check_places(o); !places) return report(places.why());
     if (o.json && o.output == "-")
@@ -163,7 +218,7 @@ ExitStatus run(const RepairOptions& o) {
     if (auto targets = check_targets(o, debris); !targets) return report(targets.why());
     auto request = request_of(o, monitor);
     if (!request) return report(request.why());
-    request->inspect = inspection(o, debris, 1);
+    look_on(*request, o, debris);
     auto repaired = repair_file(*request);
     if (!repaired) return report(repaired.why());
     const bool valid = repaired->edited && count_by_severity(repaired->file.findings).error == 0;
@@ -177,6 +232,7 @@ ExitStatus run(const RepairOptions& o) {
     if (!o.quiet) tell_losses(repaired->losses, o.verbose);
     if (!o.write_recipe.empty()) {
         OutputSet output(o.write_recipe);
+        name_from(o.write_recipe, repaired->recipe.edits);
         output.main_file() << repair::recipe_text(repaired->recipe);
         if (auto written = output.commit(&monitor); !written) status = worse(status, report(written.why()));
     }

@@ -109,16 +109,43 @@ Failure cannot_use(const std::string& folder, const std::string& why) {
 
 }  // namespace
 
-std::string debris_name(std::size_t number, const Finding& finding) {
+namespace {
+
+std::string file_name(std::size_t number, const std::string& what, std::span<const std::string> entities) {
     constexpr std::size_t longest = 80, most_entities = 3;
     std::string name = std::to_string(number);
     if (name.size() < 4) name.insert(0, 4 - name.size(), '0');
-    name += '-' + finding.code;
-    for (std::size_t e = 0; e < finding.entities.size() && e < most_entities; ++e) {
+    name += '-' + what;
+    for (std::size_t e = 0; e < entities.size() && e < most_entities; ++e) {
         name += '-';
-        for (const char c : finding.entities[e].name) name += is_letter(c) || is_digit(c) || c == '_' || c == '.' || c == '-' ? c : '_';
+        for (const char c : entities[e]) name += is_letter(c) || is_digit(c) || c == '_' || c == '.' || c == '-' ? c : '_';
     }
     return name.substr(0, longest);
+}
+
+Dataset object_of(const ReportedRemoval& removed, const CoordinateSystem& crs, const std::string& name) {
+    Surface surface;
+    surface.info.name = name;
+    surface.info.crs = crs;
+    const std::string why = removed.why + " (" + removed.step + ")";
+    surface.info.annotations = {{"geomend.removed", removed.part.name + ": " + why}, {"gocad.header", "removed:" + why}};
+    surface.points = removed.part.points;
+    for (const auto& t : removed.part.triangles) surface.polygons.push_back(t);
+    Dataset dataset;
+    dataset.objects.emplace_back(std::move(surface));
+    return dataset;
+}
+
+}  // namespace
+
+std::string debris_name(std::size_t number, const Finding& finding) {
+    std::vector<std::string> names;
+    for (const EntityRef& e : finding.entities) names.push_back(e.name);
+    return file_name(number, finding.code, names);
+}
+
+std::string debris_name(std::size_t number, const ReportedRemoval& removed) {
+    return file_name(number, removed.word, std::span(&removed.part.name, 1));
 }
 
 Result<void> DebrisFolder::open() const {
@@ -134,21 +161,22 @@ Result<void> DebrisFolder::open() const {
     return {};
 }
 
-Result<void> DebrisFolder::write(ReportedFile& file) {
-    file.debris.assign(file.findings.size(), {});
-    const auto sorted = worst_first(file.findings);
+// What goes into two files of one name.
+struct DebrisFolder::Piece {
+    std::string name;
+    Dataset dataset;
+    std::vector<std::string>* files;  // takes their paths
+};
+
+Result<void> DebrisFolder::write(std::vector<Piece>& pieces) const {
     Outputs outputs;
-    for (std::size_t i = 0; i < std::min(most_, sorted.size()); ++i) {
-        const auto number = static_cast<std::size_t>(sorted[i] - file.findings.data());
-        const std::string name = debris_name(next_++, *sorted[i]);
-        const Dataset dataset = objects_of(*file.scene, file.scene->marks[number], *sorted[i], name);
-        if (dataset.objects.empty()) continue;
+    for (const Piece& piece : pieces) {
         for (const char* extension : {".vtp", ".ts"}) {
-            const std::filesystem::path path = std::filesystem::path(folder_) / (name + extension);
+            const std::filesystem::path path = std::filesystem::path(folder_) / (piece.name + extension);
             if (monitor_ != nullptr && monitor_->stopped())
                 return failure(FailureKind::cancelled, "F022", {}, "stopped; no debris was written");
-            if (auto written = write_one(dataset, path, outputs); !written) return written;
-            file.debris[number].push_back(path.string());
+            if (auto written = write_one(piece.dataset, path, outputs); !written) return written;
+            piece.files->push_back(path.string());
         }
     }
     for (const auto& output : outputs) {  // all are written before the first appears
@@ -159,6 +187,29 @@ Result<void> DebrisFolder::write(ReportedFile& file) {
         if (auto committed = output->commit(); !committed) return committed;
     }
     return {};
+}
+
+Result<void> DebrisFolder::write(ReportedFile& file) {
+    file.debris.assign(file.findings.size(), {});
+    const auto sorted = worst_first(file.findings);
+    std::vector<Piece> pieces;
+    for (std::size_t i = 0; i < std::min(most_, sorted.size()); ++i) {
+        const auto number = static_cast<std::size_t>(sorted[i] - file.findings.data());
+        std::string name = debris_name(next_++, *sorted[i]);
+        Dataset dataset = objects_of(*file.scene, file.scene->marks[number], *sorted[i], name);
+        if (!dataset.objects.empty()) pieces.push_back({std::move(name), std::move(dataset), &file.debris[number]});
+    }
+    return write(pieces);
+}
+
+Result<void> DebrisFolder::write(ReportedChanges& changes, const CoordinateSystem& crs) {
+    std::vector<Piece> pieces;
+    for (ReportedRemoval& removed : changes.removed) {
+        std::string name = debris_name(next_++, removed);
+        Dataset dataset = object_of(removed, crs, name);
+        pieces.push_back({std::move(name), std::move(dataset), &removed.debris});
+    }
+    return write(pieces);
 }
 
 }  // namespace geomend

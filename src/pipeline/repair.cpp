@@ -101,6 +101,7 @@ repair::SurfaceDriverOptions driver_options(const RepairRequest& request, std::s
     options.max_displacement = recipe.max_displacement.value_or(-1);
     options.keep_worse = request.keep_invalid;
     options.checks = request.checks;
+    options.keep_model = static_cast<bool>(request.inspect);
     return options;
 }
 
@@ -175,7 +176,19 @@ std::vector<repair::SurfacePlan> plans_of(const FoundBefore& before, const repai
     return plans;
 }
 
-Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const RepairRequest& request, RepairReport& report) {
+/// What a repair did, where somebody looks at it.
+repair::ModelChanges changes_by(repair::SurfaceRepair& repaired, std::span<const repair::SurfaceEdit> edits) {
+    if (!repaired.model) return {};
+    std::vector<std::uint32_t> new_objects;
+    for (const repair::SurfaceEdit& edit : edits) new_objects.insert(new_objects.end(), edit.objects.begin(), edit.objects.end());
+    std::ranges::sort(new_objects);
+    auto changes = repair::changes_of(*repaired.model, new_objects);
+    repaired.model.reset();
+    return changes;
+}
+
+Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const RepairRequest& request, RepairReport& report,
+                           repair::ModelChanges& changes) {
     repair::Recipe recipe = request.recipe;
     if (auto of_surfaces = are_of_surfaces(request); !of_surfaces) return of_surfaces;
     if (request.checks.tolerance >= 0) recipe.tolerance = request.checks.tolerance;
@@ -203,6 +216,7 @@ Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const Re
     }
     report.closed = repaired->closed;
     report.open = repaired->should_close && !repaired->closed;
+    changes = changes_by(*repaired, edits);
     replace_surfaces(dataset, std::move(*repaired));
     return {};
 }
@@ -221,18 +235,22 @@ void keep_unclosed(const ReportedFile& before, ReportedFile& after) {
 
 // What is found in a result: at the tolerance that was asked for, and where it seems sound then, at the one by rule, too. What was
 // not welded is not one for those who read the result.
-Result<ReportedFile> validate_result(const std::string& path, const Dataset& dataset, const validators::CheckOptions& checks) {
-    auto after = validate(path, dataset, checks);
+Result<ReportedFile> validate_result(const std::string& path, const Dataset& dataset, const validators::CheckOptions& checks,
+                                     std::vector<Brep>* judged) {
+    auto after = validate(path, dataset, checks, judged);
     if (!after || count_by_severity(after->findings).error > 0) return after;
     const auto strict = strict_options(dataset, checks);
     if (!strict) return after;
-    auto again = validate(path, dataset, *strict);
-    if (!again || count_by_severity(again->findings).error > 0) return again;
-    return after;
+    std::vector<Brep> strictly;
+    auto again = validate(path, dataset, *strict, judged != nullptr ? &strictly : nullptr);
+    if (again && count_by_severity(again->findings).error == 0) return after;
+    if (judged != nullptr) *judged = std::move(strictly);
+    return again;
 }
 
-Result<FoundBefore> found_before(const std::string& path, const Dataset& dataset, bool grids, const validators::CheckOptions& checks) {
-    auto asked = validate(path, dataset, checks);
+Result<FoundBefore> found_before(const std::string& path, const Dataset& dataset, bool grids, const validators::CheckOptions& checks,
+                                 std::vector<Brep>* judged = nullptr) {
+    auto asked = validate(path, dataset, checks, judged);
     if (!asked) return std::move(asked).why();
     FoundBefore before{std::move(*asked), {}};
     const auto strict = grids ? std::nullopt : strict_options(dataset, checks);
@@ -272,8 +290,14 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     flatten_meshes(dataset);
     const bool stated = !dataset.models.empty();
     const bool grids = std::ranges::any_of(dataset.objects, is_grid);
-    auto before = found_before(path, dataset, grids, request.checks);
+    std::vector<Brep> judged;
+    std::vector<Brep>* const wanted = request.inspect ? &judged : nullptr;
+    auto before = found_before(path, dataset, grids, request.checks, wanted);
     if (!before) return std::move(before).why();
+    if (request.inspect && request.look) {
+        if (auto looked = request.look(dataset, judged, before->asked); !looked) return looked;
+    }
+    judged.clear();
     report.valid_before = count_by_severity(before->judged()).error == 0;
     report.recipe = request.recipe;
     const bool cells_only = !grids && mend_cells(dataset, before->judged(), request, report) && !leaves_cells_behind(dataset, target);
@@ -283,9 +307,10 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     }
     if (!grids && !cells_only) add_region_surfaces(dataset);
     report.closed = grids || cells_only;
+    repair::ModelChanges changes;
     auto mended = cells_only ? Result<void>()
                   : grids    ? mend_grids(dataset, request, report)
-                             : mend_surfaces(dataset, *before, request, report);
+                             : mend_surfaces(dataset, *before, request, report, changes);
     if (!mended && mended.why().error.where.file.empty() && mended.why().kind == FailureKind::usage) {
         Failure why = mended.why();
         why.error.where.file = path;
@@ -294,7 +319,7 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     if (!mended) return mended;
     // Regions that were found, and stated by none of the inputs, are no loss where the target holds none.
     if (!stated && target.wants == WriterWants::objects) dataset.models.clear();
-    auto after = validate_result(path, dataset, request.checks);
+    auto after = validate_result(path, dataset, request.checks, wanted);
     if (!after) return std::move(after).why();
     if (report.open) keep_unclosed(before->asked, *after);
     else if (!report.closed && !report.valid_before && after->valid == true) after->valid.reset();
@@ -302,7 +327,7 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     if (!after->closing) after->closing = report.file.closing;
     report.file = std::move(*after);
     if (request.inspect) {
-        if (auto inspected = request.inspect(dataset, dataset.breps, report.file); !inspected) return inspected;
+        if (auto inspected = request.inspect(dataset, judged, changes, report.file); !inspected) return inspected;
     }
     report.edited = std::ranges::none_of(report.file.steps, [](const ReportedStep& s) { return s.step == "edit" && !s.kept; });
     if (!report.edited)

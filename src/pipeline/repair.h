@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "pipeline/convert.h"
 #include "pipeline/validate.h"
+#include "repair/model_changes.h"
 #include "repair/recipe.h"
 
 namespace geomend {
+
+/// Looks at what came of a repair, with what it did to the model, as Inspect does.
+using InspectRepair = std::function<Result<void>(const Dataset&, std::span<const Brep>, const repair::ModelChanges&, ReportedFile&)>;
 
 struct RepairRequest {
     ConvertRequest files;       ///< one input
@@ -19,7 +25,8 @@ struct RepairRequest {
     bool dry_run = false;       ///< all is done, but nothing is written
     bool keep_invalid = false;  ///< write a result that still has errors
     validators::CheckOptions checks;
-    Inspect inspect;  ///< sees the result with its findings and steps, whether it is written or not
+    Inspect look;           ///< sees what was read, with what is found in it, before anything is done; called where `inspect` is
+    InspectRepair inspect;  ///< sees the result with its findings and steps, whether it is written or not
 };
 
 /// What came of a repair.

@@ -322,7 +322,11 @@ Result<StepOutcome> simplify_borders(SurfaceModel& model, const SurfaceStepOptio
     if (left > 0) outcome.what.message += "; left: " + counted(left, "line", "lines") + " beside which a triangle would be turned over";
     if (resampled == 0) return outcome;
     auto edited = std::move(mesh).take();
-    const Displacement d = displacement(soup, edited.soup, edited.origin);
+    std::vector<std::uint32_t> becomes(soup.vertices.size(), no_index);
+    for (std::uint32_t v = 0; v < edited.origin.vertices.size(); ++v) {
+        if (edited.origin.vertices[v].vertex != no_index) becomes[edited.origin.vertices[v].vertex] = v;
+    }
+    const Displacement d = displacement(soup, edited.soup, becomes);
     outcome.max_displacement = d.largest;
     outcome.mean_displacement = d.mean;
     take_soup(model, std::move(edited.soup), edited.origin);

@@ -85,8 +85,12 @@ Result<StepOutcome> clean_surfaces(SurfaceModel& model, const SurfaceStepOptions
         keep[t] = 0;
         ++flat;
     }
+    std::vector<std::uint8_t> noted(keep.size(), 1);
+    note_removed(model, keep, noted, Removal::no_area);
     const std::uint64_t doubles = drop_doubles(soup, keep);
+    note_removed(model, keep, noted, Removal::doubled);
     const std::uint64_t stray = drop_stray_parts(model, keep);
+    note_removed(model, keep, noted, Removal::stray);
     StepOutcome outcome;
     outcome.changed = flat + doubles + stray;
     if (outcome.changed == 0) {

@@ -56,7 +56,7 @@ Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions&
     outcome.what.message = message_of(*cut);
     if (!cut->clean) outcome.what.message += "; after " + counted(cut->rounds, "round", "rounds") + " something still crosses";
     outcome.changed = cut->cut + cut->merged + cut->collapsed + cut->doubled;
-    const Displacement d = displacement(model.model.soup, cut->soup, cut->origin);
+    const Displacement d = displacement(model.model.soup, cut->soup, cut->becomes);
     outcome.max_displacement = d.largest;
     outcome.mean_displacement = d.mean;
     take_soup(model, std::move(cut->soup), cut->origin);

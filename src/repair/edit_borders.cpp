@@ -315,7 +315,10 @@ private:
         }
         std::ranges::sort(done_.borders);
         done_.borders.erase(std::unique(done_.borders.begin(), done_.borders.end()), done_.borders.end());
-        if (done_.triangles > 0) take_soup(m_, std::move(made), origin);
+        if (done_.triangles == 0) return;
+        const auto first = static_cast<std::uint32_t>(soup_.triangles.size());
+        take_soup(m_, std::move(made), origin);
+        mark_added(m_, first);
     }
 
     SurfaceModel& m_;

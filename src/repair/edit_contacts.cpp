@@ -99,6 +99,26 @@ InterfaceNumbers interface_numbers(const SurfaceModel& model) {
     return numbers;
 }
 
+namespace {
+
+/// Of vertices of several surfaces at one place the first is named as where they come from: those that go their own way are from now on
+/// from their own.
+void name_own_origins(SurfaceModel& model, std::span<const PatchEdit> edits) {
+    for (std::uint32_t t = 0; t < model.model.soup.triangles.size(); ++t) {
+        const std::uint32_t from = model.origin.triangles[t];
+        if (!edits[model.model.soup.patches[t]].taken_out || from == no_index) continue;
+        for (const std::uint32_t v : model.model.soup.triangles[t]) {
+            std::uint32_t& named = model.origin.vertices[v].vertex;
+            if (named == no_index) continue;
+            for (const std::uint32_t own : model.source.triangles[from]) {
+                if (model.source.vertices[own] == model.source.vertices[named]) named = own;
+            }
+        }
+    }
+}
+
+}  // namespace
+
 Detached detach(SurfaceModel& model, std::span<const PatchEdit> edits) {
     ContactReader reader(model, edits);
     Detached found = reader.read();
@@ -116,8 +136,10 @@ Detached detach(SurfaceModel& model, std::span<const PatchEdit> edits) {
         }
         return at->second;
     };
+    std::vector<std::uint32_t> removed;
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         const PatchEdit& edit = edits[soup.patches[t]];
+        if (edit.removed) removed.push_back(t);
         if (edit.removed) continue;
         Triangle tri = soup.triangles[t];
         if (edit.taken_out) {
@@ -154,7 +176,9 @@ Detached detach(SurfaceModel& model, std::span<const PatchEdit> edits) {
     found.lines.erase(std::unique(found.lines.begin(), found.lines.end()), found.lines.end());
     sort_out(found.trace);
     found.moved = moved.size();
+    note_removed(model, removed, Removal::edited);
     take_soup(model, std::move(made), origin);
+    name_own_origins(model, edits);
     return found;
 }
 
@@ -213,7 +237,10 @@ std::uint64_t drop_beyond(SurfaceModel& model, const EndingParts& parts, const O
         keep[t] = 0;
         ++dropped;
     }
-    if (dropped > 0) keep_triangles(model, keep);
+    if (dropped == 0) return 0;
+    std::vector<std::uint8_t> noted(keep.size(), 1);
+    note_removed(model, keep, noted, Removal::beyond);
+    keep_triangles(model, keep);
     return dropped;
 }
 

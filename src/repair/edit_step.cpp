@@ -230,6 +230,7 @@ Result<StepOutcome> edit_surfaces(SurfaceModel& model, const SurfaceStepOptions&
         auto outside = outside_of_boundary(model, keep);
         if (!outside) return std::move(outside).why();
         for (const std::uint32_t t : *outside) keep[t] = 0;
+        note_removed(model, *outside, Removal::outside);
         if (!outside->empty()) keep_triangles(model, keep);
     }
     erase_after_cut(model, std::move(old_borders), rules, scars);

@@ -116,7 +116,11 @@ Result<StepOutcome> fill_holes(SurfaceModel& model, const SurfaceStepOptions& op
     outcome.what.message =
         counted(holes, "hole was filled", "holes were filled") + " with " + counted(outcome.changed, "triangle", "triangles");
     if (left > 0) outcome.what.message += "; " + counted(left, "hole is", "holes are") + " wider than " + rounded(limit) + " and left";
-    if (outcome.changed > 0) take_soup(model, std::move(made), origin);
+    if (outcome.changed > 0) {
+        const auto first = static_cast<std::uint32_t>(soup.triangles.size());
+        take_soup(model, std::move(made), origin);
+        mark_added(model, first);
+    }
     return outcome;
 }
 

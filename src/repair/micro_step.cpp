@@ -147,8 +147,10 @@ void remove_triangles(SurfaceModel& model, std::span<const std::uint8_t> gone, c
     kept.vertices = soup.vertices;
     for (std::uint32_t v = 0; v < soup.vertices.size(); ++v) origin.vertices.push_back(Origin::from_vertex(v));
     std::vector<std::uint8_t> left(model.model.patches.size(), 0), was(left);
+    std::vector<std::uint32_t> removed;
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         was[soup.patches[t]] = 1;
+        if (gone[t] != 0) removed.push_back(t);
         if (gone[t] != 0) continue;
         left[soup.patches[t]] = 1;
         kept.triangles.push_back(soup.triangles[t]);
@@ -165,6 +167,7 @@ void remove_triangles(SurfaceModel& model, std::span<const std::uint8_t> gone, c
     for (std::uint32_t& p : model.became) {
         if (p != no_index && was[p] != 0 && left[p] == 0) p = no_index;
     }
+    note_removed(model, removed, Removal::micro);
     take_soup(model, std::move(kept), origin);
     stitch_lips(model, rules, counts, &lines);
     erase_scars(model, trace, false, rules, counts);

@@ -171,6 +171,8 @@ std::vector<LeftOverlap> leave_out_overlaps(SurfaceModel& model) {
         }
     }
     for (const auto& [pair, count] : counts) result.push_back({pair.second, pair.first, count, false});
+    std::vector<std::uint8_t> noted(keep.size(), 1);
+    note_removed(model, keep, noted, Removal::overlap);
     keep_triangles(model, keep);
     mark_gone(model, result);
     return result;

@@ -93,6 +93,25 @@ void join_patches(SurfaceModel& model, DisjointSets& sets, ScarCounts& counts) {
     counts.joined += static_cast<std::uint64_t>(std::ranges::count(gone, 1));
 }
 
+/// Notes edges between vertices of a trace of which one was erased. Those of a cut of this run were not in what was read.
+void note_erased(SurfaceModel& model, std::span<const std::uint32_t> trace, std::span<const std::uint32_t> now) {
+    std::vector<std::uint8_t> on_trace(now.size(), 0);
+    bool any = false;
+    for (const std::uint32_t v : trace) {
+        on_trace[v] = model.origin.vertices[v].vertex != no_index ? 1 : 0;
+        any |= on_trace[v] != 0 && now[v] == no_index;
+    }
+    if (!any) return;
+    const TriangleSoup& soup = model.model.soup;
+    const SoupEdges edges = edges_of(soup);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        const auto& use = edges[e][0];
+        const bool erased = now[use.low] == no_index || now[use.high] == no_index;
+        if (erased && on_trace[use.low] != 0 && on_trace[use.high] != 0)
+            model.erased_edges.push_back({soup.vertices[use.low], soup.vertices[use.high]});
+    }
+}
+
 }  // namespace
 
 std::uint32_t successor_of(const SurfaceModel& model, std::uint32_t patch) {
@@ -147,6 +166,7 @@ std::vector<std::uint32_t> erase_scars(SurfaceModel& model, std::span<const std:
     auto edited = std::move(mesh).take();
     std::vector<std::uint32_t> now(model.model.soup.vertices.size(), no_index);
     for (std::uint32_t v = 0; v < edited.origin.vertices.size(); ++v) now[edited.origin.vertices[v].vertex] = v;
+    note_erased(model, trace, now);
     take_soup(model, std::move(edited.soup), edited.origin);
     return now;
 }

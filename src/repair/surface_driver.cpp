@@ -95,10 +95,12 @@ Result<SurfaceStepDone> run_step(const SurfaceStepRow& row, const SurfaceDriverO
     done.step = row.name;
     forget_peak_memory();
     const double start = processor_seconds();
+    const std::size_t removed = model.removed.size();
     auto outcome = row.run(model, options.steps);
     done.seconds = processor_seconds() - start;
     done.peak_memory = peak_memory();
     if (!outcome) return std::move(outcome).why();
+    for (std::size_t i = removed; i < model.removed.size(); ++i) model.removed[i].step = row.name;
     done.outcome = std::move(*outcome);
     done.why = too_far(done.outcome, options.max_displacement);
     return done;
@@ -273,14 +275,17 @@ Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Fi
     }
     for (Loss& loss : state.model.losses) add_loss(state.result.dataset.losses, std::move(loss));
     const bool closed = has_region(*state.result.brep);
-    return SurfaceRepair{std::move(state.result),
+    SurfaceRepair repair{std::move(state.result),
                          std::move(steps),
                          state.model.lengths,
-                         std::move(state.model.objects),
+                         state.model.objects,
                          std::move(state.errors),
                          state.near_misses,
                          closing,
-                         closed};
+                         closed,
+                         {}};
+    if (options.keep_model) repair.model = std::move(state.model);
+    return repair;
 }
 
 }  // namespace geomend::repair

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ namespace geomend::repair {
 struct SurfaceDriverOptions {
     SurfaceStepOptions steps;
     double max_displacement = -1;     ///< a step that moves a vertex farther is undone; negative: no limit
+    bool keep_model = false;          ///< what was mended is given back, too, so that changes_of() can compare it
     bool keep_worse = false;          ///< steps are kept also where the model is worse after them
     validators::CheckOptions checks;  ///< by which the model is judged between steps
 };
@@ -50,6 +52,7 @@ struct SurfaceRepair {
     std::uint64_t near_misses = 0;       ///< borders that still nearly meet a surface
     bool should_close = false;           ///< it had regions, or surfaces that are stated to bound it, or an error said that it is open
     bool closed = false;                 ///< it has a region
+    std::optional<SurfaceModel> model;   ///< what was mended, where it is to be kept
 };
 
 /// Takes the steps on all surfaces of a Dataset, as one model, and judges it after each: a step after which the model is worse

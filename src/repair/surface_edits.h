@@ -15,7 +15,7 @@ struct SurfaceEdit {
     enum Kind : std::uint8_t { remove, replace, move, add } kind = move;
     std::string surface;                 ///< the surface that it is about; of `add` empty, or the name that what comes in gets
     std::string face;                    ///< only this face of it, its name or its number in the file; empty: all
-    std::string file;                    ///< of replace and add: where the new surface is read from, relative to where the program runs
+    std::string file;                    ///< of replace and add: where the new surface is read from; a recipe names it from its own folder
     Vec3 by{};                           ///< of move
     std::vector<std::uint32_t> objects;  ///< of the Dataset: what was read from the file
     bool operator==(const SurfaceEdit&) const = default;

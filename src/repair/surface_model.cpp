@@ -185,6 +185,12 @@ void take_soup(SurfaceModel& model, TriangleSoup soup, const Origin& origin) {
     }
     for (auto& corner : model.model.corners) corner.vertex = result_of[corner.vertex];
     std::erase_if(model.model.corners, [](const auto& corner) { return corner.vertex == no_index; });
+    if (!model.added.empty()) {
+        std::vector<std::uint8_t> added;
+        added.reserve(origin.triangles.size());
+        for (const std::uint32_t t : origin.triangles) added.push_back(t == no_index ? 1 : model.added[t]);
+        model.added = std::move(added);
+    }
     model.origin = composed(model.origin, origin, model.source, model.model.soup);
     model.model.soup = std::move(soup);
 }

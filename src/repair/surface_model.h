@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "model/dataset.h"
 #include "model/origin.h"
+#include "repair/removed.h"
 #include "topology/lengths.h"
 #include "topology/soup_front.h"
 
@@ -48,6 +50,11 @@ struct SurfaceModel {
     /// Per patch the one that its triangles belong to now; no_index: it was removed, as it was asked for. May be shorter than the
     /// patches: the others are themselves.
     std::vector<std::uint32_t> became;
+
+    /// Per triangle of the soup 1 where a step put it beside a border; empty: none is. See is_added().
+    std::vector<std::uint8_t> added;
+    std::vector<RemovedTriangle> removed;           ///< what steps left out, in their order
+    std::vector<std::array<Vec3, 2>> erased_edges;  ///< of what was read: edges of traces of which a vertex was erased
 
     topology::Lengths lengths;           ///< by which it is mended, from the input or as given
     std::vector<std::uint32_t> objects;  ///< of the Dataset that are in it, ascending

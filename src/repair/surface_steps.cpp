@@ -60,13 +60,12 @@ const SurfaceStepRow* surface_step(std::string_view name) {
     return found == steps.end() ? nullptr : &*found;
 }
 
-Displacement displacement(const TriangleSoup& before, const TriangleSoup& after, const Origin& origin) {
+Displacement displacement(const TriangleSoup& before, const TriangleSoup& after, std::span<const std::uint32_t> becomes) {
     Displacement d;
     double sum = 0;
-    for (std::size_t v = 0; v < after.vertices.size(); ++v) {
-        const std::uint32_t from = origin.vertices[v].vertex;
-        if (from == no_index) continue;
-        const Vec3 move = minus(after.vertices[v], before.vertices[from]);
+    for (std::size_t v = 0; v < becomes.size(); ++v) {
+        if (becomes[v] == no_index) continue;
+        const Vec3 move = minus(after.vertices[becomes[v]], before.vertices[v]);
         const double distance = std::sqrt(dot(move, move));
         if (distance == 0) continue;
         ++d.moved;

@@ -79,8 +79,9 @@ struct Displacement {
     std::uint64_t moved = 0;
     double largest = 0, mean = 0;
 };
-/// Of the vertices of `after` that are vertices of `before`, by its origin. Linear.
-Displacement displacement(const TriangleSoup& before, const TriangleSoup& after, const Origin& origin);
+/// Of the vertices of `before`, those that became one with others, too. \param becomes per vertex the one that it is in `after`, or
+/// no_index. Linear.
+Displacement displacement(const TriangleSoup& before, const TriangleSoup& after, std::span<const std::uint32_t> becomes);
 
 // The steps.
 Result<StepOutcome> edit_surfaces(SurfaceModel&, const SurfaceStepOptions&);

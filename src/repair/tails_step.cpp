@@ -157,7 +157,10 @@ Result<StepOutcome> remove_tails(SurfaceModel& model, const SurfaceStepOptions& 
     if (!narrow) return narrow.why();
     auto outside = outside_of_boundary(model, keep);
     if (!outside) return std::move(outside).why();
+    std::vector<std::uint8_t> noted(keep.size(), 1);
+    note_removed(model, keep, noted, Removal::tail);
     for (const std::uint32_t t : *outside) keep[t] = 0;
+    note_removed(model, keep, noted, Removal::outside);
     StepOutcome outcome;
     outcome.changed = narrow->triangles + outside->size();
     if (outcome.changed == 0) {

@@ -42,6 +42,31 @@ Json contacts_json(const ReportedStep& s) {
     return contacts;
 }
 
+// What a repair left out, in pieces; those that are alike in all and have no files of their own as one.
+Json removed_json(const ReportedChanges& changes) {
+    Json all = Json::array();
+    for (const ReportedRemoval& r : changes.removed) {
+        Json one{{"step", r.step}, {"surface", r.part.name}, {"kind", r.word}, {"why", r.why}};
+        const std::size_t triangles = r.part.triangles.size();
+        const auto alike = r.debris.empty() ? std::ranges::find_if(all,
+                                                                   [&](const Json& other) {
+                                                                       return !other.contains("debris") && other["step"] == r.step &&
+                                                                              other["surface"] == r.part.name && other["kind"] == r.word;
+                                                                   })
+                                            : all.end();
+        if (alike != all.end()) {
+            (*alike)["pieces"] = (*alike)["pieces"].get<std::size_t>() + 1;
+            (*alike)["triangles"] = (*alike)["triangles"].get<std::size_t>() + triangles;
+            continue;
+        }
+        one["pieces"] = 1;
+        one["triangles"] = triangles;
+        if (!r.debris.empty()) one["debris"] = r.debris;
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
 Json step_json(const ReportedStep& s) {
     Json step{{"step", s.step}, {"name", s.step}, {"kept", s.kept}, {"changed", s.changed}};
     step["max_displacement"] = s.max_displacement;
@@ -116,6 +141,7 @@ Json file_json(const ReportedFile& file, std::size_t most) {
     }
     if (file.findings.size() > listed.size()) j["not_listed"] = file.findings.size() - listed.size();
     j["findings"] = std::move(findings);
+    if (file.changes && !file.changes->removed.empty()) j["removed"] = removed_json(*file.changes);
     if (file.steps.empty()) return j;
     Json steps = Json::array();
     for (const ReportedStep& s : file.steps) {

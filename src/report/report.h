@@ -11,6 +11,7 @@
 
 #include "base/monitor.h"
 #include "base/result.h"
+#include "report/changes.h"
 #include "report/run_summary.h"
 #include "report/scene.h"
 
@@ -122,6 +123,7 @@ struct ReportedFile {
     std::vector<std::string> companions;           ///< paths of further files that were read for it, ascending
     std::optional<SeverityCounts> known;           ///< findings that an earlier report has, too, and that are left out here
     std::vector<std::vector<std::string>> debris;  ///< files written for each finding; empty where none were
+    std::optional<ReportedChanges> changes;        ///< by a repair, for pages and where debris was written
     std::optional<Scene> scene;                    ///< for pages; its marks are those of `findings`, in the same order
 };
 

@@ -48,6 +48,12 @@ Json part_json(const ScenePart& part, const Vec3& origin) {
     points.add_all(part.points);
     Json j{{"kind", part.kind}, {"name", part.name}, {"role", to_string(part.role)}, {"points", points.text()}};
     if (part.id >= 0) j["id"] = part.id;
+    if (part.change != PartChange::none) j["change"] = to_string(part.change);
+    if (!part.moved.empty()) {
+        std::vector<std::uint32_t> words;
+        for (const float by : part.moved) words.push_back(std::bit_cast<std::uint32_t>(by));
+        j["moved"] = base64_of_words(words);
+    }
     if (!part.triangles.empty()) j["triangles"] = base64_of_words({part.triangles.front().data(), 3 * part.triangles.size()});
     if (part.polylines.empty()) return j;
     std::vector<std::uint32_t> flat;
@@ -110,10 +116,11 @@ std::size_t put_marks(const ReportedFile& file, std::span<const Finding* const> 
     return left_out;
 }
 
-Json scene_json(const Scene& whole, std::size_t most_triangles) {
+// \param origin what positions are relative to
+Json scene_json(const Scene& whole, const Vec3& origin, std::size_t most_triangles) {
     Scene scene;
     scene.parts = whole.parts;
-    scene.origin = whole.origin;
+    scene.origin = origin;
     scene.simplified = whole.simplified;
     thin(scene, most_triangles);
     std::size_t drawn = 0;
@@ -127,6 +134,24 @@ Json scene_json(const Scene& whole, std::size_t most_triangles) {
                 {"triangles", whole.triangles},
                 {"drawn", drawn},
                 {"parts", std::move(parts)}};
+}
+
+// The unit of lengths, where all axes have one.
+std::string unit_of(const CoordinateSystem& crs) { return axis_units_agree(crs) ? crs.axis_units[0] : std::string(); }
+
+Json changes_json(const ReportedChanges& changes, const Scene& after, std::size_t most_triangles) {
+    Json j{{"errors_before", changes.errors_before},
+           {"warnings_before", changes.warnings_before},
+           {"vertices", changes.vertices},
+           {"moved", changes.moved},
+           {"largest", changes.largest},
+           {"mean", changes.mean},
+           {"unit", unit_of(after.crs)},
+           {"added", changes.added},
+           {"cut_edges", changes.cut_edges},
+           {"joined_edges", changes.joined_edges},
+           {"before", scene_json(changes.before, after.origin, most_triangles)}};
+    return j;
 }
 
 bool is_empty(const Scene& scene) { return scene.parts.empty() && std::ranges::all_of(scene.marks, &SceneMark::empty); }
@@ -144,7 +169,9 @@ Json file_with_scene(const ReportedFile& file, const Report& report, std::size_t
     }
     const std::size_t unmarked = put_marks(file, listed, room, j["findings"]);
     if (!file.scene || is_empty(*file.scene)) return j;
-    j["scene"] = scene_json(*file.scene, page_triangles(report.files.size()));
+    const std::size_t scenes = report.files.size() + (file.changes ? 1 : 0);
+    j["scene"] = scene_json(*file.scene, file.scene->origin, page_triangles(scenes));
+    if (file.changes) j["changes"] = changes_json(*file.changes, *file.scene, page_triangles(scenes));
     if (unmarked > 0) j["scene"]["unmarked"] = unmarked;
     return j;
 }

@@ -15,6 +15,18 @@
 
 namespace geomend {
 
+/// What a repair did to a part, as far as that makes it a part of its own.
+enum class PartChange : std::uint8_t {
+    none,
+    added,    ///< triangles of the result that were not there
+    cut,      ///< lines of the result at which something was cut
+    joined,   ///< lines of the result where borders became one
+    removed,  ///< triangles that were left out
+    erased    ///< lines that nothing needed any more
+};
+/// "added", "cut", ...; "none".
+const char* to_string(PartChange change);
+
 /// One thing of a model as triangles, lines or points. A part without triangles and lines is drawn as points.
 struct ScenePart {
     std::string kind;  ///< as in EntityRef: surface, line, corner, corner-point-grid, ...
@@ -24,6 +36,8 @@ struct ScenePart {
     std::vector<Vec3> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::vector<std::uint32_t>> polylines;
+    PartChange change = PartChange::none;
+    std::vector<float> moved;  ///< per point how far a repair moved it; empty: nowhere
 };
 
 /// Where a finding is: its points and lines, and the elements that it lists.
@@ -49,7 +63,8 @@ void finish(Scene& scene);
 
 /// Where a scene has more triangles, puts points that lie in one box of a lattice together, in all parts alike, so that
 /// what fits stays fitting, and drops the triangles and lines that collapse. The lattice is as fine as the bound allows,
-/// by about a quarter. Marks stay as they are. Cost: linear, some ten times.
+/// by about a quarter. Of points that come together the one that moved farthest tells how far. Marks stay as they are. Cost: linear, some
+/// ten times.
 void thin(Scene& scene, std::size_t most_triangles);
 
 }  // namespace geomend

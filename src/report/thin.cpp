@@ -90,11 +90,14 @@ void thin_part(ScenePart& part, const Lattice& lattice, const Representatives& p
     std::unordered_map<std::uint64_t, std::uint32_t> number;
     std::vector<std::uint32_t> becomes(part.points.size());
     std::vector<Vec3> points;
+    std::vector<float> moved;
     for (std::size_t i = 0; i < part.points.size(); ++i) {
         const std::uint64_t box = lattice.box(part.points[i]);
         const auto [at, is_new] = number.try_emplace(box, static_cast<std::uint32_t>(points.size()));
         if (is_new) points.push_back(positions.at(box));
+        if (is_new && !part.moved.empty()) moved.push_back(0);
         becomes[i] = at->second;
+        if (!part.moved.empty()) moved[at->second] = std::max(moved[at->second], part.moved[i]);
     }
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (const auto& [a, b, c] : part.triangles) {
@@ -107,10 +110,16 @@ void thin_part(ScenePart& part, const Lattice& lattice, const Representatives& p
     }
     std::erase_if(part.polylines, [](const auto& line) { return line.size() < 2; });
     part.points = std::move(points);
+    part.moved = std::move(moved);
     part.triangles = std::move(triangles);
 }
 
 }  // namespace
+
+const char* to_string(PartChange change) {
+    constexpr const char* words[] = {"none", "added", "cut", "joined", "removed", "erased"};
+    return words[static_cast<std::size_t>(change)];
+}
 
 void finish(Scene& scene) {
     const Bounds bounds = bounds_of(scene);

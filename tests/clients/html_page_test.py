@@ -215,6 +215,82 @@ class Page(unittest.TestCase):
         self.assertQuiet()
 
 
+class RepairPage(unittest.TestCase):
+    """A repair: the model before and after, side by side."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        recipe = os.path.join(cls.folder.name, "recipe.toml")
+        with open(recipe, "w", encoding="utf-8") as file:
+            file.write('[[edit]]\naction = "move"\nsurface = "H2"\nby = [0, 0, -20]\n')
+        cls.page = os.path.join(cls.folder.name, "page.html")
+        sample = os.path.join(os.environ["GEOMEND_SOURCE_DIR"], "samples", "layered_box.ml")
+        subprocess.run([PROGRAM, "repair", "--quiet", "--recipe", recipe, sample, "-o", os.path.join(cls.folder.name, "out.ml"),
+                        "--report", cls.page], check=True, timeout=60)
+        with open(cls.page, encoding="utf-8") as file:
+            cls.has_vtk = "GeomendVtkView=" in file.read()
+        cls.browser = browser.Browser(1600, 900)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.folder.cleanup()
+
+    settle, open_in, assertQuiet = Page.settle, Page.open_in, Page.assertQuiet
+
+    def box(self, name):
+        return self.browser.ask(f"(() => {{ const b = document.getElementById('{name}').getBoundingClientRect();"
+                                " return [b.x + 10, b.y + 260, b.width - 20, b.height - 400]; })()")
+
+    def pictures(self):
+        return [self.browser.picture(self.box(name)) for name in ("before-view", "view")]
+
+    @in_each_view
+    def test_stands_side_by_side_and_turns_as_one(self):
+        before, after = self.box("before-view"), self.box("view")
+        self.assertEqual(before[1:], after[1:])
+        self.assertLess(before[0] + before[2], after[0])
+        one, other = self.pictures()
+        x, y, width, height = after
+        self.browser.drag(x + width / 2, y + height / 2, -120, 30)
+        self.settle()
+        self.settle()
+        turned_one, turned_other = self.pictures()
+        self.assertGreater(self.browser.changed(other, turned_other), 0.05, "the result turns")
+        self.assertGreater(self.browser.changed(one, turned_one), 0.05, "and what was read with it")
+        self.assertEqual(self.browser.ask("JSON.stringify(geomendReport.poses()[0])"), self.browser.ask("JSON.stringify(geomendReport.poses()[1])"))
+        x, y, width, height = before
+        self.browser.drag(x + width / 2, y + height / 2, 120, -30)
+        self.settle()
+        self.settle()
+        self.assertGreater(self.browser.changed(turned_other, self.pictures()[1]), 0.05, "also when the other one is turned")
+        self.assertQuiet()
+
+    @in_each_view
+    def test_colours_what_moved_and_says_how_far(self):
+        text = self.browser.ask("document.getElementById('scale').textContent")
+        self.assertIn("Largest 20 m", text)
+        self.assertIn("mean 20 m", text)
+        coloured = self.pictures()
+        self.browser.click_on("#by-move")
+        self.settle()
+        plain = self.pictures()
+        self.assertGreater(self.browser.changed(coloured[1], plain[1]), 0.05, "roles instead of moves")
+        self.assertLess(self.browser.changed(coloured[0], plain[0]), 0.001, "before nothing had moved")
+        self.assertQuiet()
+
+    def test_tells_the_steps_and_what_was_found_before_and_after(self):
+        self.open_in("plain")
+        steps = self.browser.ask("document.querySelector('#steps ol').textContent")
+        self.assertIn("'H2' moved by 20", steps)
+        self.assertIn("kept", steps)
+        self.assertTrue(self.browser.ask("document.getElementById('steps').open"))
+        self.assertIn("0 errors", self.browser.ask("document.getElementById('before-caption').textContent"))
+        self.assertIn("0 errors", self.browser.ask("document.getElementById('after-caption').textContent"))
+        self.assertIn("lines cut (after)", self.browser.ask("document.getElementById('legend').textContent"))
+
+
 class PageWithoutWebGl(unittest.TestCase):
     def test_takes_the_plain_view(self):
         with tempfile.TemporaryDirectory() as folder, browser.Browser(webgl=False) as without:

@@ -30,7 +30,7 @@ USES = {
     "volume": ("repair", "remesh"),
     "gridding": ("repair",),
     "hexes": ("volume", "gridding"),
-    "drawing": ("grid", "report"),
+    "drawing": ("repair", "report"),
     "pipeline": ("formats", "report", "hexes", "complexity"),
     "cli": ("pipeline", "drawing"),
 }

@@ -87,6 +87,37 @@ TEST(Debris, NumbersGoOnFromFileToFileAndStopWhereTheListStops) {
     EXPECT_NE(second.debris[1].at(0).find("/0002-B08-"), std::string::npos);
 }
 
+TEST(Debris, HoldsEachPieceThatARepairLeftOutWithItsReason) {
+    const test::TemporaryFolder folder;
+    DebrisFolder debris(folder.path().string());
+    ReportedFile file = reported();
+    ASSERT_TRUE(debris.write(file));
+    ReportedChanges changes;
+    for (const char* word : {"tail", "overlap"}) {
+        ReportedRemoval removed{"tails", word, "it is in the way", {}, {}};
+        removed.part.name = "F}1/a";
+        removed.part.points = {{4e5, 0, -5}, {4e5 + 1, 0, -5}, {4e5, 1, -5}};
+        removed.part.triangles = {{0, 1, 2}};
+        changes.removed.push_back(removed);
+    }
+    CoordinateSystem crs;
+    crs.stated = true;
+    crs.z_positive = ZPositive::depth;
+    ASSERT_TRUE(debris.write(changes, crs));
+    const std::string start = folder.path().string() + "/";
+    EXPECT_EQ(changes.removed[0].debris, (std::vector<std::string>{start + "0004-tail-F_1_a.vtp", start + "0004-tail-F_1_a.ts"}))
+        << "numbers go on behind those of findings";
+    EXPECT_EQ(changes.removed[1].debris.at(1), start + "0005-overlap-F_1_a.ts");
+    for (const std::string& path : changes.removed[0].debris) {
+        const auto back = load(path, {});
+        ASSERT_TRUE(back) << path;
+        ASSERT_EQ(back->objects.size(), 1u) << path;
+        EXPECT_EQ(std::get<Surface>(back->objects[0]).points, changes.removed[0].part.points) << path;
+        EXPECT_NE(test::read_file(path).find("it is in the way (tails)"), std::string::npos) << path;
+    }
+    EXPECT_NE(test::read_file(changes.removed[0].debris[1]).find("ZPOSITIVE Depth"), std::string::npos);
+}
+
 TEST(Debris, OfAnEarlierRunIsNotMixedWithNew) {
     const test::TemporaryFolder folder;
     test::write_file(folder / "notes.txt", "mine");

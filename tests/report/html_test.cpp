@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -216,6 +217,90 @@ TEST(HtmlReport, TellsHowManyFindingsAreNotMarkedWhereThereAreTooMany) {
     EXPECT_EQ(file["scene"]["unmarked"], 1);
     EXPECT_FALSE(file["findings"][0].contains("mark"));
     EXPECT_TRUE(file["findings"][1].contains("mark"));
+}
+
+// A repair of which something is known: two sheets before, one after, 7 m away.
+Report of_a_repair() {
+    Report report = with_one_finding(finding("m"));
+    ReportedFile& file = report.files[0];
+    file.scene.emplace();
+    file.scene->crs.axis_units = {"m", "m", "m"};
+    file.scene->parts = {square(3, "s")};
+    file.scene->parts[0].moved.assign(9, 0.0f);
+    file.scene->parts[0].moved[4] = 0.25f;
+    file.scene->parts.push_back(square(2, "strip"));
+    file.scene->parts[1].change = PartChange::added;
+    finish(*file.scene);
+    file.changes.emplace();
+    file.changes->before.parts = {square(3, "s"), square(2, "tail")};
+    for (ScenePart& part : file.changes->before.parts) {
+        for (Vec3& p : part.points) p[0] += 7;
+    }
+    file.changes->before.parts[1].change = PartChange::removed;
+    finish(file.changes->before);
+    file.changes->vertices = 9;
+    file.changes->moved = 1;
+    file.changes->largest = file.changes->mean = 0.25;
+    return report;
+}
+
+TEST(HtmlReport, ARepairHasItsModelBeforeAndAfterInOneSpace) {
+    const Json file = Json::parse(data_of(report_html(of_a_repair())))["files"][0];
+    const Json &changes = file["changes"], &before = changes["before"], &after = file["scene"];
+    EXPECT_EQ(before["origin"], after["origin"]);
+    const auto was = floats(before["parts"][0]["points"]), is = floats(after["parts"][0]["points"]);
+    for (std::size_t i = 0; i < is.size(); ++i) EXPECT_EQ(was[i], is[i] + (i % 3 == 0 ? 7 : 0)) << i;
+    EXPECT_EQ(floats(after["parts"][0]["moved"]), (std::vector<float>{0, 0, 0, 0, 0.25f, 0, 0, 0, 0}));
+    EXPECT_FALSE(after["parts"][0].contains("change"));
+    EXPECT_EQ(after["parts"][1]["change"], "added");
+    EXPECT_FALSE(after["parts"][1].contains("moved"));
+    EXPECT_EQ(before["parts"][1]["change"], "removed");
+    EXPECT_EQ(changes["unit"], "m");
+    EXPECT_EQ(changes["largest"], 0.25);
+}
+
+TEST(HtmlReport, UnitsThatDifferAreNotSaidOfLengths) {
+    Report report = of_a_repair();
+    report.files[0].scene->crs.axis_units = {"m", "m", "ft"};
+    EXPECT_EQ(Json::parse(data_of(report_html(report)))["files"][0]["changes"]["unit"], "");
+}
+
+TEST(HtmlReport, ALargeRepairIsDrawnWithinBoundsBeforeAndAfter) {
+    Report report = of_a_repair();
+    report.files[0].scene->parts[0] = square(500, "s");
+    report.files[0].scene->parts[0].moved.assign(500 * 500, 0.0f);
+    report.files[0].scene->parts[0].moved[777] = 2.5f;
+    report.files[0].changes->before.parts[0] = square(500, "s");
+    finish(*report.files[0].scene);
+    finish(report.files[0].changes->before);
+    const std::string page = report_html(report);
+    const Json file = Json::parse(data_of(page))["files"][0];
+    for (const Json& scene : {file["scene"], file["changes"]["before"]}) {
+        EXPECT_TRUE(scene["simplified"]);
+        EXPECT_LE(scene["drawn"], page_triangles(2));
+        EXPECT_GE(scene["drawn"], 100000);
+    }
+    EXPECT_LT(page.size(), 30u << 20);
+    const auto moved = floats(file["scene"]["parts"][0]["moved"]);
+    EXPECT_EQ(moved.size(), floats(file["scene"]["parts"][0]["points"]).size() / 3);
+    EXPECT_EQ(*std::ranges::max_element(moved), 2.5f) << "what moved farthest is not thinned away";
+}
+
+TEST(HtmlReport, WhatARepairLeftOutIsListedOnceForEachReason) {
+    Report report = of_a_repair();
+    for (int n = 0; n < 3; ++n)
+        report.files[0].changes->removed.push_back({"tails", n < 2 ? "tail" : "outside", "</script>", square(2, "<b>"), {}});
+    const std::string page = report_html(report);
+    const Json removed = Json::parse(data_of(page))["files"][0]["removed"];
+    ASSERT_EQ(removed.size(), 2u);
+    EXPECT_EQ(removed[0]["pieces"], 2);
+    EXPECT_EQ(removed[0]["triangles"], 4);
+    EXPECT_EQ(removed[0]["surface"], "<b>");
+    EXPECT_EQ(occurrences(page, "</script"), occurrences(report_html(Report{}), "</script"));
+    report.files[0].changes->removed[1].debris = {"d/0002-tail-b.ts"};
+    const Json json = Json::parse(report_json(report))["files"][0]["removed"];
+    ASSERT_EQ(json.size(), 3u);
+    EXPECT_EQ(json[1]["debris"][0], "d/0002-tail-b.ts");
 }
 
 TEST(HtmlReport, TellsThatALargeModelIsDrawnSimplified) {

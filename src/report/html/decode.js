@@ -25,7 +25,8 @@ function decodedPart(part) {
   let at = 0;
   for (const length of lengths) lines.push(flat.subarray(at, at += length));
   return {kind: part.kind, name: part.name, id: part.id, role: part.role,
-          points: floatsOf(part.points), triangles: countsOf(part.triangles), lines};
+          points: floatsOf(part.points), triangles: countsOf(part.triangles), lines, change: part.change || '',
+          moved: part.moved ? floatsOf(part.moved) : null};
 }
 
 // A finding's mark: points, lines and outlines (arrays of xyz each), triangles (nine numbers each).

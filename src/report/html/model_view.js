@@ -10,27 +10,43 @@ class ModelView {
     this.hidden = new Set();  // roles, or 'lines'
     this.strong = new Set();  // part numbers
     this.shown = [];
+    this.views = [];
     document.body.classList.toggle('flat', !report.files.some((file) => file.scene));
     if (document.body.classList.contains('flat')) return;
+    this.changes = report.files.length === 1 ? report.files[0].changes : undefined;  // of a repair: before and after
     this.marks = new Marks($('marks'));
-    this.view = this.makeView();
+    $('before').hidden = !this.changes;
+    document.body.classList.toggle('repair', Boolean(this.changes));
+    this.view = this.makeView($('view'), () => {
+      this.drawMarks();
+      this.follow(this.view, this.other);
+    });
+    if (this.changes) this.other = this.makeView($('before-view'), () => this.follow(this.other, this.view));
+    this.views = [this.view, this.other].filter((view) => view);
     this.listen();
     new ResizeObserver(() => this.resize()).observe($('view'));
     this.resize();
   }
 
   // vtk.js where it is in the page and the browser can do with it, else the plain view.
-  makeView() {
-    const changed = () => this.drawMarks();
+  makeView(container, changed) {
     if (typeof GeomendVtkView !== 'undefined' && location.hash !== '#plain') {
       try {
-        return new GeomendVtkView.VtkView($('view'), changed);
+        return new GeomendVtkView.VtkView(container, changed);
       } catch (error) {
-        $('view').replaceChildren();
+        container.replaceChildren();
         console.info(`the plain view is taken: ${error.message}`);
       }
     }
-    return new PlainView($('view'), changed);
+    return new PlainView(container, changed);
+  }
+
+  // The two views look from the same place.
+  follow(leader, follower) {
+    if (this.following || !leader || !follower || !leader.parts || !follower.parts) return;
+    this.following = true;
+    follower.take(leader.pose());
+    this.following = false;
   }
 
   kind() { return this.view ? this.view.kind : 'none'; }
@@ -38,7 +54,7 @@ class ModelView {
   resize() {
     const box = $('view').getBoundingClientRect();
     if (!(box.width > 0 && box.height > 0)) return;
-    this.view.resize(box.width, box.height, window.devicePixelRatio || 1);
+    for (const view of this.views) view.resize(box.width, box.height, window.devicePixelRatio || 1);
     this.marks.resize(box.width, box.height, window.devicePixelRatio || 1);
     this.drawMarks();
   }
@@ -47,22 +63,73 @@ class ModelView {
     if (!this.view || index === this.file) return;
     this.file = index;
     const scene = this.report.files[index].scene;
-    if (scene && !scene.decoded) scene.decoded = scene.parts.map(decodedPart);
-    this.parts = scene ? scene.decoded : [];
-    for (const part of this.parts) part.group = part.triangles.length ? part.role : 'lines';
+    this.parts = this.decoded(scene);
+    this.before = this.changes ? this.decoded(this.changes.before) : [];
     this.partBounds = this.parts.map((part) => grow(noBounds(), part.points));
     this.bounds = noBounds();
     for (const b of this.partBounds) if (b[3] >= b[0]) grow(this.bounds, b);
+    for (const part of this.before) grow(this.bounds, part.points);
     if (!(this.bounds[3] >= this.bounds[0])) {
       for (const row of this.rows) if (row.fileIndex === index && this.markOf(row)) grow(this.bounds, row.bounds);
     }
     this.strong.clear();
-    this.view.show(this.parts.map((part) => ({...part, colour: roleColours[part.role] || roleColours.unknown})), this.bounds);
+    const coloured = (part) => ({...part, colour: changeColours[part.change] || roleColours[part.role] || roleColours.unknown,
+                                 colours: part.triangles.length ? this.pointColours(part) : null});
+    this.following = true;
+    this.view.show(this.parts.map(coloured), this.bounds);
+    if (this.other) this.other.show(this.before.map(coloured), this.bounds);
+    this.following = false;
     this.stretchLimit();
     this.drawLegend();
+    this.drawScale();
     this.drawNote(scene);
     this.look();
     this.view.reset();
+  }
+
+  decoded(scene) {
+    if (!scene) return [];
+    if (!scene.decoded) scene.decoded = scene.parts.map(decodedPart);
+    for (const part of scene.decoded) part.group = part.change || (part.triangles.length ? part.role : 'lines');
+    return scene.decoded;
+  }
+
+  // ---- what a repair did
+
+  // The colours of the points of a part by how far they moved; null where there is nothing to tell by them.
+  pointColours(part) {
+    if (!this.changes || !(this.changes.largest > 0) || part.change || !this.parts.includes(part)) return null;
+    const colours = new Uint8Array(part.points.length);
+    for (let i = 0; 3 * i < colours.length; ++i) colours.set(movedColour(part.moved ? part.moved[i] / this.changes.largest : 0), 3 * i);
+    return colours;
+  }
+
+  drawScale() {
+    const c = this.changes, box = $('scale');
+    box.hidden = !c;
+    if (!c) return;
+    const unit = c.unit ? ` ${c.unit}` : '', file = this.report.files[this.file];
+    const found = (errors, warnings) => `${counted(errors, severityWords.error)}, ${counted(warnings, severityWords.warning)}`;
+    $('before-caption').replaceChildren(make('b', {}, 'Before'), found(c.errors_before, c.warnings_before));
+    $('after-caption').replaceChildren(make('b', {}, 'After'), found(file.counts.error, file.counts.warning));
+    $('after-caption').hidden = false;
+    if (!(c.largest > 0)) {
+      box.replaceChildren(make('b', {}, 'No vertex that was read has moved'), make('p', {}, `${grouped(c.vertices)} of them are in the result.`));
+      return;
+    }
+    const bar = make('div', {class: 'bar'}), mean = make('i', {title: 'mean'}), use = make('input', {type: 'checkbox', id: 'by-move'});
+    const stops = Array.from({length: 11}, (_, i) => `rgb(${movedColour(i / 10).join(',')}) ${10 * i}%`);
+    bar.style.background = `linear-gradient(to right, ${stops.join(', ')})`;
+    mean.style.left = `calc(${100 * c.mean / c.largest}% - 1px)`;
+    bar.append(mean);
+    use.checked = true;
+    use.addEventListener('change', () => this.look());
+    box.replaceChildren(make('b', {}, 'How far vertices moved'), bar,
+                        make('div', {class: 'ends'}, make('span', {}, `0${unit}`), make('span', {}, `${figure(c.largest)}${unit}`)),
+                        make('p', {}, `Largest ${figure(c.largest)}${unit}, mean ${figure(c.mean)}${unit} (the mark), of ` +
+                             `${grouped(c.moved)} that moved; ${grouped(c.vertices)} were read and are still there.` +
+                             (c.unit ? '' : ' The file states no unit.')),
+                        make('label', {}, use, 'Colour the result by it'));
   }
 
   // Once the page around it has its size.
@@ -87,14 +154,20 @@ class ModelView {
     const opacity = Number($('opacity').value) / 100;
     // The box around a model must not hide what is in it, nor anything what is chosen.
     const opacityOf = (part, i) => {
+      if (part.change && part.role !== 'boundary') return 1;
       if (this.strong.has(i)) return Math.max(opacity, 0.8);
       return (part.role === 'boundary' ? opacity * opacity : opacity) * (this.strong.size ? 0.4 : 1);
     };
-    this.view.setLook({stretch, opacityOf, visible: (part) => !this.hidden.has(part.group)});
+    const pointColours = Boolean($('by-move') && $('by-move').checked), visible = (part) => !this.hidden.has(part.group);
+    this.following = true;
+    this.view.setLook({stretch, opacityOf, pointColours, visible});
+    if (this.other) this.other.setLook({stretch, opacityOf: (part) => opacityOf(part, -1), pointColours: false, visible});
+    this.following = false;
   }
 
   drawLegend() {
     const found = new Map();
+    for (const part of this.before) if (part.change) found.set(part.group, (found.get(part.group) || 0) + 1);
     for (const part of this.parts) found.set(part.group, (found.get(part.group) || 0) + 1);
     const roles = Object.keys(groupColours).filter((role) => found.has(role));
     $('legend').replaceChildren(...roles.map((role) => {
@@ -106,7 +179,7 @@ class ModelView {
         else this.hidden.add(role);
         this.look();
       });
-      return make('label', {}, box, patch, {unknown: 'no role', lines: 'lines and points'}[role] || role, make('small', {}, grouped(found.get(role))));
+      return make('label', {}, box, patch, groupWords[role] || role, make('small', {}, grouped(found.get(role))));
     }));
   }
 
@@ -114,6 +187,8 @@ class ModelView {
     const notes = [];
     if (!scene) notes.push('There is nothing to draw of this file.');
     else if (scene.simplified) notes.push(`Surfaces are drawn simplified: ${grouped(scene.drawn)} of ${grouped(scene.triangles)} triangles. Marks are exact.`);
+    if (this.changes && this.changes.before.simplified)
+      notes.push(`Before: ${grouped(this.changes.before.drawn)} of ${grouped(this.changes.before.triangles)} triangles.`);
     if (scene && scene.unmarked) notes.push(`${counted(scene.unmarked, ['finding is', 'findings are'])} not marked: there are too many.`);
     $('note').textContent = notes.join(' ');
   }

@@ -9,7 +9,19 @@ const severityWords = {error: ['error', 'errors'], warning: ['warning', 'warning
 const roleColours = {
   fault: [0.75, 0.36, 0.26], fracture: [0.60, 0.42, 0.66], horizon: [0.87, 0.68, 0.30], unconformity: [0.46, 0.58, 0.36],
   intrusion: [0.74, 0.47, 0.55], boundary: [0.56, 0.65, 0.72], topography: [0.38, 0.58, 0.44], unknown: [0.62, 0.62, 0.60]};
-const groupColours = {...roleColours, lines: [0.15, 0.19, 0.23]};
+// What a repair did, where that makes parts of their own.
+const changeColours = {
+  removed: [0.82, 0.10, 0.48], erased: [0.82, 0.10, 0.48], added: [0.10, 0.64, 0.36], cut: [0.42, 0.12, 0.80], joined: [0.00, 0.56, 0.60]};
+const groupColours = {...roleColours, lines: [0.15, 0.19, 0.23], ...changeColours};
+const groupWords = {unknown: 'no role', lines: 'lines and points', removed: 'left out (before)', erased: 'lines erased (before)',
+                    added: 'added (after)', cut: 'lines cut (after)', joined: 'borders joined (after)'};
+// From what did not move to what moved farthest: red, green and blue up to 255.
+const movedStops = [[0, [208, 212, 216]], [0.12, [253, 224, 128]], [0.4, [249, 152, 64]], [0.7, [214, 48, 62]], [1, [92, 12, 104]]];
+function movedColour(share) {
+  const s = Math.min(1, Math.max(0, share));
+  const next = Math.max(1, movedStops.findIndex(([at]) => at >= s)), [from, low] = movedStops[next - 1], [to, high] = movedStops[next];
+  return low.map((v, k) => Math.round(v + (high[k] - v) * (s - from) / (to - from)));
+}
 const pageOfRows = 500;
 
 // ---- small helpers
@@ -157,20 +169,35 @@ function drawVerdict() {
 }
 
 // What a repair did, step by step, with what it decided about borders.
+function stepItem(step, unit) {
+  const decided = (step.contacts || []).filter((c) => c.decision !== 'left' || (c.on !== '' && c.gap > 0));
+  const contacts = decided.map((c) => make('li', {}, `border of '${c.border}'` + (c.on ? ` near '${c.on}'` : '') +
+    (c.gap > 0 ? `, gap ${figure(c.gap)}${unit}` : '') + `: ${c.decision}` + (c.why ? `, ${c.why}` : '')));
+  const facts = [step.kept ? 'kept' : null, step.changed > 0 ? `${grouped(step.changed)} changed` : null,
+                 step.max_displacement > 0 ? `vertices moved by at most ${figure(step.max_displacement)}${unit}, mean ${figure(step.mean_displacement)}${unit}` : null,
+                 step.seconds > 0 ? `${figure(Number(step.seconds.toFixed(3)))} s` : null].filter((f) => f);
+  return make('li', {}, make('b', {}, step.step), `: ${step.message}. `,
+              step.kept ? null : make('span', {class: 'undone'}, `Undone: ${step.why}.`), make('div', {class: 'facts'}, facts.join(' · ')),
+              contacts.length ? make('details', {}, make('summary', {}, counted(contacts.length, ['border', 'borders'])), make('ul', {}, ...contacts)) : null);
+}
+
+// What became of the names of regions, and what was left out.
+function ledger(file) {
+  const names = file.steps.flatMap((step) => step.names || []).map((n) => make('li', {}, `region '${n.name}': ` +
+    (n.from ? `a part of what was '${n.from}'` : n.change)));
+  const removed = (file.removed || []).map((r) => make('li', {}, `${r.step}: ${counted(r.pieces, ['piece', 'pieces'])} of '${r.surface}' ` +
+    `(${counted(r.triangles, ['triangle', 'triangles'])}): ${r.why}` + (r.debris ? ` \u2192 ${r.debris.join(', ')}` : '')));
+  const list = (title, items) => items.length ? [make('h3', {}, title), make('ul', {}, ...items)] : [];
+  return [...list('Names', names), ...list('Left out', removed)];
+}
+
 function drawSteps() {
-  const steps = (report.files[state.file] || {}).steps || [], box = $('steps');
+  const file = report.files[state.file] || {}, steps = file.steps || [], box = $('steps');
+  const unit = file.changes && file.changes.unit ? ` ${file.changes.unit}` : '';
   box.hidden = steps.length === 0;
-  const item = (step) => {
-    const decided = (step.contacts || []).filter((c) => c.decision !== 'left' || (c.on !== '' && c.gap > 0));
-    const contacts = decided.map((c) => make('li', {}, `border of '${c.border}'` + (c.on ? ` near '${c.on}'` : '') +
-      (c.gap > 0 ? `, gap ${figure(c.gap)}` : '') + `: ${c.decision}` + (c.why ? `, ${c.why}` : '')));
-    const names = (step.names || []).map((n) => make('li', {}, `region '${n.name}': ` + (n.from ? `a part of what was '${n.from}'` : n.change)));
-    const moved = step.max_displacement > 0 ? ` Vertices moved by at most ${figure(step.max_displacement)}.` : '';
-    return make('li', {}, make('b', {}, step.step), `: ${step.message}.${moved}` + (step.kept ? '' : ` Undone: ${step.why}.`),
-                contacts.length + names.length ? make('ul', {}, ...contacts, ...names) : null);
-  };
   box.querySelector('summary').textContent = counted(steps.length, ['step of repair', 'steps of repair']);
-  box.querySelector('ol').replaceChildren(...steps.map(item));
+  box.querySelector('ol').replaceChildren(...steps.map((step) => stepItem(step, unit)));
+  $('ledger').replaceChildren(...(steps.length ? ledger(file) : []));
 }
 
 function drawSeverities() {
@@ -310,11 +337,15 @@ function start() {
     event.preventDefault();
     step(by);
   });
+  if (model.changes) {  // what was done comes first, and notes would lie on it
+    $('steps').open = true;
+    state.severities.delete('info');
+  }
   chooseFile(state.file);
   model.fit();
   // For tests: what is shown and chosen, and where a mark stands on the screen.
   window.geomendReport = {state, rows, choose: (n) => choose(rows[n], true), view: () => model.kind(), at: (n) => model.placeOf(rows[n]),
-                          settled: () => model.settled()};
+                          settled: () => model.settled(), poses: () => model.views.map((view) => view.pose())};
   document.documentElement.dataset.ready = model.kind();
 }
 

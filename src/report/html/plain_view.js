@@ -29,7 +29,8 @@ class PlainView {
     this.reset();
   }
 
-  setLook(look) {  // {stretch, visible(part), opacityOf(part, number)}
+  setLook(look) {  // {stretch, visible(part), opacityOf(part, number), pointColours}
+    this.pointColours = look.pointColours;
     this.centre[2] *= look.stretch / this.stretch;
     this.stretch = look.stretch;
     this.parts.forEach((part, i) => {
@@ -62,6 +63,14 @@ class PlainView {
   flyTo(centre, radius) {
     this.centre = [centre[0], centre[1], centre[2] * this.stretch];
     this.half = radius * Math.max(1, this.height / this.width || 1);
+    this.render();
+  }
+
+  // What another view needs to look at the same from the same place.
+  pose() { return [this.turn, this.tilt, ...this.centre, this.half]; }
+  take(pose) {
+    if (pose.every((v, i) => v === this.pose()[i])) return;
+    [this.turn, this.tilt, this.centre[0], this.centre[1], this.centre[2], this.half] = pose;
     this.render();
   }
 
@@ -140,7 +149,7 @@ class PlainView {
   paintTriangle(c, part, at) {
     const t = part.triangles, s = part.screen, a = 3 * t[at], b = 3 * t[at + 1], d = 3 * t[at + 2];
     const light = this.light(part.points, a, b, d);
-    const [r, g, blue] = part.colour.map((v) => Math.round(255 * v * light));
+    const [r, g, blue] = this.colourOf(part, a, b, d).map((v) => Math.round(v * light));
     c.globalAlpha = part.opacity;
     c.fillStyle = `rgb(${r},${g},${blue})`;
     c.beginPath();
@@ -149,6 +158,13 @@ class PlainView {
     c.lineTo(s[d], s[d + 1]);
     c.closePath();
     c.fill();
+  }
+
+  // From 0 to 255, unlit; where points have colours of their own their mean.
+  colourOf(part, a, b, d) {
+    const c = part.colours;
+    if (!c || !this.pointColours) return part.colour.map((v) => 255 * v);
+    return [0, 1, 2].map((k) => (c[a + k] + c[b + k] + c[d + k]) / 3);
   }
 
   // How bright a triangle is: by the angle between its normal and the way to the viewer.
@@ -162,11 +178,11 @@ class PlainView {
 
   paintLines() {
     const c = this.context;
-    c.lineWidth = 1;
-    for (const part of this.parts) {
+    for (const part of [...this.parts].sort((a, b) => Number(a.change !== '') - Number(b.change !== ''))) {
       if (!part.visible) continue;
       const s = part.screen;
-      c.strokeStyle = 'rgba(30,40,50,0.7)';
+      c.lineWidth = part.change ? 2 : 1;
+      c.strokeStyle = part.change ? `rgb(${part.colour.map((v) => Math.round(255 * v)).join(',')})` : 'rgba(30,40,50,0.7)';
       c.beginPath();
       for (const line of part.lines) line.forEach((n, i) => c[i ? 'lineTo' : 'moveTo'](s[3 * n], s[3 * n + 1]));
       c.stroke();

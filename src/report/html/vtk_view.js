@@ -37,6 +37,7 @@ function polyDataOf(part) {
     for (let i = 0; i < count; ++i) cells.set([1, i], 2 * i);
     data.getVerts().setData(cells);
   }
+  if (part.colours) data.getPointData().setScalars(vtkDataArray.newInstance({name: 'colours', numberOfComponents: 3, values: part.colours}));
   return data;
 }
 
@@ -79,7 +80,13 @@ export class VtkView {
       const actor = vtkActor.newInstance();
       actor.setMapper(mapper);
       const look = actor.getProperty(), solid = part.triangles.length > 0;
-      look.setColor(...(solid ? part.colour : [0.15, 0.19, 0.23]));
+      look.setColor(...(solid || part.change ? part.colour : [0.15, 0.19, 0.23]));
+      if (part.change) {  // lies on what is drawn, too
+        mapper.setResolveCoincidentTopologyToPolygonOffset();
+        mapper.setRelativeCoincidentTopologyPolygonOffsetParameters(-2, -2);
+        mapper.setRelativeCoincidentTopologyLineOffsetParameters(-4, -4);
+        if (!solid) look.setLineWidth(2);
+      }
       look.setAmbient(solid ? 0.45 : 1);
       look.setDiffuse(solid ? 0.65 : 0);
       look.setPointSize(5);
@@ -101,6 +108,7 @@ export class VtkView {
       const part = this.parts[i], solid = part.triangles.length > 0;
       actor.setScale(1, 1, look.stretch);
       actor.setVisibility(look.visible(part) && (look.opacityOf(part, i) > 0 || !solid));
+      actor.getMapper().setScalarVisibility(Boolean(part.colours && look.pointColours));
       actor.getProperty().setOpacity(solid ? look.opacityOf(part, i) : 1);
     });
     this.renderer.resetCameraClippingRange();
@@ -121,6 +129,18 @@ export class VtkView {
     const centre = [(b[0] + b[3]) / 2, (b[1] + b[4]) / 2, f * (b[2] + b[5]) / 2];
     const from = [-0.5, -0.75, 0.45].map((v) => v / Math.hypot(0.5, 0.75, 0.45)), way = this.distanceOfBox(centre, from);
     this.place(centre, centre.map((v, a) => v + way * from[a]));
+  }
+
+  // What another view needs to look at the same from the same place.
+  pose() { return [...this.camera.getFocalPoint(), ...this.camera.getPosition(), ...this.camera.getViewUp()]; }
+  take(pose) {
+    if (pose.every((v, i) => v === this.pose()[i])) return;
+    this.stop();
+    this.camera.setFocalPoint(...pose.slice(0, 3));
+    this.camera.setPosition(...pose.slice(3, 6));
+    this.camera.setViewUp(...pose.slice(6, 9));
+    this.renderer.resetCameraClippingRange();
+    this.render();
   }
 
   // How far away, in a direction, all corners of the bounds are in the picture.
