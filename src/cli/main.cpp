@@ -29,7 +29,7 @@ ExitStatus run(int argc, char** argv) {
     program.require_subcommand(1);
     program.footer(
         "Exit status: 0 done, 1 findings, 2 wrong command line, 3 an input cannot be read, 4 the output cannot be written or hold\n"
-        "the model, 5 a limit was hit, 6 repaired but still not valid, 70 internal fault,\n"
+        "the model, 5 a limit was hit, 6 repaired but still not valid, or not meshed, 70 internal fault,\n"
         "130 stopped by a signal. See geomend(1).");
     ExitStatus status = ExitStatus::done;
     geomend::cli::add_info(program, status);

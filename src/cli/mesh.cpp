@@ -34,7 +34,8 @@ std::string region_lines(const MeshReport& report, bool all_tries) {
             text += "not filled\n";
         }
         cells += r.cells;
-        if (!all_tries && r.filled()) continue;
+        if (r.filled() && !r.as_asked) text += "    shapes and sizes are not as asked for:\n";
+        if (!all_tries && r.filled() && r.as_asked) continue;
         for (const std::string& why : r.why_not) text += "    " + why + '\n';
     }
     if (report.is_written)
@@ -103,13 +104,11 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
         ->check(is_length());
     command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
         ->type_name("R")
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(is_length());
     command->add_option("--time-limit", o->seconds, "Most time for one try to fill a region; 0 is no limit (default 120)")
         ->type_name("SECONDS")
-        ->check(CLI::NonNegativeNumber);
-    command->add_option("--memory-limit", o->megabytes, "Most memory for it; 0 is no limit (default)")
-        ->type_name("MB")
-        ->check(CLI::NonNegativeNumber);
+        ->check(is_length());
+    command->add_option("--memory-limit", o->megabytes, "Most memory for it; 0 is no limit (default)")->type_name("MB")->check(is_length());
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
     add_common_options(*command, *o, true);
     command->callback([o, &status] { status = run(*o); });

@@ -78,6 +78,7 @@ Result<void> fill(Dataset& dataset, const MeshRequest& request, MeshReport& repo
     auto filled = volumes::fill_regions(*model, request.fill);
     if (!filled) return std::move(filled).why();
     report.regions = std::move(filled->regions);
+    for (Loss& loss : filled->losses) add_loss(dataset.losses, std::move(loss));
     list_face_sets(filled->brep, report);
     if (!std::ranges::all_of(report.regions, &volumes::FilledRegion::filled))
         return cannot_fill(request.files.inputs.front(), "not all regions could be filled");
@@ -123,6 +124,7 @@ std::string mesh_json(const MeshReport& report) {
                     {"cells", {{"tetrahedron", r.cells}}},
                     {"new_vertices", r.new_vertices},
                     {"rung", r.rung},
+                    {"as_asked", r.as_asked},
                     {"seconds", r.seconds},
                     {"min_dihedral", r.least_dihedral}};
         if (!r.why_not.empty()) region["why_not"] = r.why_not;

@@ -20,6 +20,7 @@ struct Rung {
     const char* name;
     std::string switches;
     VertexOrder order;
+    bool has_shapes = false;  ///< and sizes, as asked for
 };
 
 std::string number(double value) {
@@ -37,8 +38,8 @@ std::vector<Rung> rungs_for(const RegionFacets& facets, const FillOptions& optio
     std::vector<Rung> rungs;
     if (options.ratio > 0) {
         const std::string good = "QpYMT1e-14q" + number(options.ratio) + most;
-        rungs.push_back({"tetgen pYqa", good, {}});
-        for (std::uint32_t shuffle = 1; shuffle <= 2; ++shuffle) rungs.push_back({"tetgen pYqa, shuffled", good, {shuffle}});
+        rungs.push_back({"tetgen pYqa", good, {}, true});
+        for (std::uint32_t shuffle = 1; shuffle <= 2; ++shuffle) rungs.push_back({"tetgen pYqa, shuffled", good, {shuffle}, true});
     }
     const std::string any = "QpYMT1e-14";
     rungs.push_back({"tetgen pY", any, {}});
@@ -54,7 +55,9 @@ struct OneRegion {
 OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, FilledRegion& report) {
     OneRegion result;
     const auto begin = std::chrono::steady_clock::now();
+    std::string too_slow;  // the switches of a try that ran out of time: another order of vertices takes no less
     for (const Rung& rung : rungs_for(facets, options)) {
+        if (rung.switches == too_slow) continue;
         auto all = tetrahedra_of(facets, rung.switches, rung.order, options.limits, options.monitor);
         if (!all && all.why().kind == FailureKind::cancelled) {
             result.stopped = all.why();
@@ -63,9 +66,11 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
         auto cells = all ? cells_of_region(facets, std::move(*all)) : Result<RegionCells>(all.why());
         if (!cells) {
             report.why_not.push_back(std::string(rung.name) + ": " + cells.why().error.message);
+            if (cells.why().error.code == "F023") too_slow = rung.switches;
             continue;
         }
         report.rung = rung.name;
+        report.as_asked = rung.has_shapes || !(options.ratio > 0);
         result.cells = std::move(*cells);
         break;
     }
@@ -98,9 +103,15 @@ void put_in(BrepData& brep, const RegionFacets& facets, RegionCells cells) {
     region.volume_known = true;
 }
 
-/// What cells had is gone with them.
-void empty_regions(BrepData& brep) {
+/// Cells that regions held give way, and what they had goes with them.
+void empty_regions(BrepData& brep, std::vector<Loss>& losses) {
     for (BrepData::Region& region : brep.regions) {
+        const char* why = "new cells take their place";
+        if (!region.cell_types.empty()) losses.push_back({LossClass::identity, region.name, "cells", why, region.cell_types.size()});
+        for (const Attribute& a : region.attributes) {
+            if (a.location != AttributeLocation::object)
+                losses.push_back({LossClass::substance, region.name, "values of '" + a.name + "'", why, 1});
+        }
         region.nodes.clear();
         region.cell_types.clear();
         region.cell_offsets = {0};
@@ -110,7 +121,30 @@ void empty_regions(BrepData& brep) {
         region.face_nodes.clear();
         std::erase_if(region.attributes, [](const Attribute& a) { return a.location != AttributeLocation::object; });
     }
+    for (const Attribute& a : brep.vertex_attributes)
+        losses.push_back(
+            {LossClass::substance, brep.name, "values of '" + a.name + "' at points of cells", "new cells take their place", 1});
     brep.vertex_attributes.clear();
+}
+
+/// Vertices that only cells used are gone with them; the others keep their order.
+void drop_unused_vertices(BrepData& brep) {
+    std::vector<std::uint32_t> number(brep.vertices.size(), no_index);
+    const auto each = [&](const auto& visit) {
+        for (auto& corner : brep.corners) visit(corner.vertex);
+        for (auto& line : brep.lines) std::ranges::for_each(line.vertices, visit);
+        for (auto& surface : brep.surfaces) std::ranges::for_each(surface.nodes, visit);
+        for (auto& region : brep.regions) std::ranges::for_each(region.nodes, visit);
+    };
+    each([&](VertexId& v) { number[v.value] = 0; });
+    std::uint32_t kept = 0;
+    for (std::uint32_t v = 0; v < number.size(); ++v) {
+        if (number[v] == no_index) continue;
+        number[v] = kept;
+        brep.vertices[kept++] = brep.vertices[v];
+    }
+    brep.vertices.resize(kept);
+    each([&](VertexId& v) { v.value = number[v.value]; });
 }
 
 }  // namespace
@@ -118,7 +152,7 @@ void empty_regions(BrepData& brep) {
 Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOptions& options) {
     auto facets = facets_of_regions(model);
     if (!facets) return std::move(facets).why();
-    Filled filled{*model.brep, {}};
+    Filled filled{*model.brep, {}, {}};
     for (const auto& region : filled.brep.regions) {
         filled.regions.emplace_back().name = region.name;
     }
@@ -130,11 +164,12 @@ Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOption
         const RegionFacets& region = (*facets)[order[i]];
         results[order[i]] = fill_one(region, options, filled.regions[region.region]);
     });
-    empty_regions(filled.brep);
+    empty_regions(filled.brep, filled.losses);
     for (std::size_t i = 0; i < results.size(); ++i) {
         if (results[i].stopped) return *results[i].stopped;
         put_in(filled.brep, (*facets)[i], std::move(results[i].cells));
     }
+    drop_unused_vertices(filled.brep);
     return filled;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/monitor.h"
 #include "base/result.h"
+#include "model/loss.h"
 #include "topology/assemble.h"
 #include "volume/tetrahedra.h"
 
@@ -26,6 +27,7 @@ struct FilledRegion {
     double surface_volume = 0;         ///< enclosed by its surfaces
     double least_dihedral = 0;         ///< degrees
     std::string rung;                  ///< the method that served; empty: none did
+    bool as_asked = true;              ///< false: shapes and sizes that were asked for could not be had
     std::vector<std::string> why_not;  ///< why those before it did not
     double seconds = 0;                ///< on the wall
     bool filled() const { return !rung.empty(); }
@@ -34,6 +36,7 @@ struct FilledRegion {
 struct Filled {
     BrepData brep;                      ///< the model with tetrahedra in its regions; those that were not filled are empty
     std::vector<FilledRegion> regions;  ///< as those of the boundary representation
+    std::vector<Loss> losses;           ///< cells that regions had before, and their values
 };
 
 /// Fills all regions of a sealed model with tetrahedra. Surfaces stay as they are: each of their triangles is a face of one cell on

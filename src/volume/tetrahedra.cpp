@@ -63,7 +63,7 @@ Failure failure_of(const WorkerEnd& end, const ChildLimits& limits) {
         case WorkerEnd::How::stopped:
             return failure(FailureKind::cancelled, "F022", {}, "stopped");
         case WorkerEnd::How::timed_out:
-            return gave_up("TetGen did not end in " + rounded(limits.seconds) + " s");
+            return failure(FailureKind::limit, "F023", {}, "TetGen did not end in " + rounded(limits.seconds) + " s");
         case WorkerEnd::How::too_much_output:
             return gave_up("TetGen made too many cells");
         case WorkerEnd::How::signalled:

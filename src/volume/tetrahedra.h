@@ -32,7 +32,8 @@ struct VertexOrder {
 
 /// All tetrahedra that TetGen makes of the facets, outside of the region too where facets close there. `switches` as of tetgen(1);
 /// with Y facets stay as they are.
-/// Failure (limit, F026) where the child hit a limit, crashed or gave up; the message says which. Cost: that of a process.
+/// Failure (limit) where the child ran out of time (F023), crashed, ran out of memory or gave up (F026); the message says which. Cost: that
+/// of a process.
 Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const std::string& switches, VertexOrder order, const ChildLimits& limits,
                                  const Monitor* monitor);
 

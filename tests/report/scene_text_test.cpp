@@ -10,9 +10,16 @@ namespace {
 
 Scene made_scene() {
     Scene scene;
-    scene.parts.push_back(
-        {"surface", "fault \"1\"", 7, FeatureRole::fault, {{0.1, 2, 3}, {1e17, 0, 0}, {0, 0, -1}}, {{0, 1, 2}}, {{0, 1}, {2}}});
-    scene.parts.push_back({"points", "", -1, FeatureRole::unknown, {{1, 1, 1}}, {}, {}});
+    scene.parts.push_back({"surface",
+                           "fault \"1\"",
+                           7,
+                           FeatureRole::fault,
+                           {{0.1, 2, 3}, {1e17, 0, 0}, {0, 0, -1}},
+                           {{0, 1, 2}},
+                           {{0, 1}, {2}},
+                           PartChange::none,
+                           {}});
+    scene.parts.push_back({"points", "", -1, FeatureRole::unknown, {{1, 1, 1}}, {}, {}, PartChange::none, {}});
     SceneMark mark;
     mark.points = {{1, 2, 3}};
     mark.polylines = {{{0, 0, 0}, {1, 1, 1}}, {}};

@@ -101,6 +101,29 @@ TEST(Mesh, ATargetWithoutCellsRefusesThem) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.ml"));
 }
 
+TEST(Mesh, CellsOfASolidGiveWayAndTheirValuesAreLostOnlyWhenAllowed) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.vtu";
+    const auto refused = run_geomend({"mesh", sample("layered_box.so"), "-o", out});
+    EXPECT_EQ(refused.status, 4) << refused.err;
+    EXPECT_NE(refused.err.find("porosity"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(out));
+    const json report = mesh(sample("layered_box.so"), out, {"--lossy"});
+    ASSERT_TRUE(report.is_object() && report["written"] == true);
+    EXPECT_FALSE(report["loss"].empty());
+    const auto judged = run_geomend({"validate", out, "--fail-on", "warning"});  // no point that nothing uses
+    EXPECT_EQ(judged.status, 0) << judged.out;
+}
+
+TEST(Mesh, OptionsThatAreNoNumbersAreRefused) {
+    const TemporaryFolder folder;
+    for (const char* option : {"--size", "--ratio", "--time-limit", "--memory-limit"}) {
+        for (const char* value : {"nan", "-1", "x"})
+            EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu", option, value}).status, 2)
+                << option << ' ' << value;
+    }
+}
+
 TEST(Mesh, SurfacesWithoutARegionAreRefused) {
     const TemporaryFolder folder;
     const auto run = run_geomend({"mesh", sample("open_layers.ts"), "-o", folder / "out.vtu"});
