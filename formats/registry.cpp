@@ -10,6 +10,7 @@
 #include "formats/gocad/gocad.h"
 #include "formats/grdecl/grdecl.h"
 #include "formats/horizon/horizon.h"
+#include "formats/meshes/meshes.h"
 #include "formats/ringmesh/ringmesh.h"
 #include "formats/roff/roff.h"
 #include "formats/surfaces/surfaces.h"
@@ -22,7 +23,7 @@ namespace {
 std::vector<Format> gather() {
     std::vector<Format> all;
     for (const auto rows : {gocad::formats(), vtk::formats(), gmsh::formats(), horizon::formats(), grdecl::formats(), eclipse::formats(),
-                            roff::formats(), surfaces::formats(), ringmesh::formats()}) {
+                            roff::formats(), surfaces::formats(), ringmesh::formats(), meshes::formats()}) {
         all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;
@@ -44,6 +45,12 @@ bool has_extension(const Format& format, std::string_view extension) {
 std::span<const Format> all_formats() {
     static const std::vector<Format> all = gather();
     return all;
+}
+
+const MeshFormat* mesh_format(const Format& format) {
+    const auto rows = meshes::mesh_formats();
+    const auto found = std::ranges::find(rows, format.name, &MeshFormat::name);
+    return found == rows.end() ? nullptr : &*found;
 }
 
 const Format* format_by_name(std::string_view name) {

@@ -3,12 +3,15 @@
 
 #include <span>
 
-#include "formats/format.h"
+#include "formats/mesh_format.h"
 
 namespace geomend {
 
 /// All formats, in the order in which they are listed for people.
 std::span<const Format> all_formats();
+
+/// What writes a mesh in a format that takes a prepared VolumeMesh; nullptr for formats that take a Dataset.
+const MeshFormat* mesh_format(const Format& format);
 
 /// The format of a name (--from, --to), or nullptr. A family name ("gocad") finds its first row.
 const Format* format_by_name(std::string_view name);

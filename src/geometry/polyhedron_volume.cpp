@@ -50,8 +50,11 @@ std::vector<EdgeUse> sorted_edges(const CellMesh& mesh, std::size_t first_face, 
     return edges;
 }
 
-/// Per face whether it must be turned to agree with the first face of its shell; empty where nothing is to be turned.
-std::vector<bool> faces_to_turn(const CellMesh& mesh, std::size_t first_face, std::size_t last_face) {
+}  // namespace
+
+std::vector<bool> faces_to_turn(const CellMesh& mesh, std::size_t cell) {
+    const auto first_face = static_cast<std::size_t>(mesh.cell_faces[cell]),
+               last_face = static_cast<std::size_t>(mesh.cell_faces[cell + 1]);
     const std::vector<EdgeUse> edges = sorted_edges(mesh, first_face, last_face);
     struct Link {
         std::uint32_t face, other;
@@ -91,12 +94,10 @@ std::vector<bool> faces_to_turn(const CellMesh& mesh, std::size_t first_face, st
     return turn;
 }
 
-}  // namespace
-
 double polyhedron_volume(const CellMesh& mesh, std::size_t cell) {
     const auto first = static_cast<std::size_t>(mesh.cell_faces[cell]), last = static_cast<std::size_t>(mesh.cell_faces[cell + 1]);
     if (first == last || face_of(mesh, first).empty()) return 0;
-    const std::vector<bool> turn = faces_to_turn(mesh, first, last);
+    const std::vector<bool> turn = faces_to_turn(mesh, cell);
     const Vec3 origin = mesh.points[face_of(mesh, first)[0]];
     double sum = 0;
     for (std::size_t f = first; f < last; ++f) {

@@ -25,11 +25,16 @@ enum CellKinds : std::uint8_t {
 
 /// The kind of a type of volume cell. \pre dimension(type) is 3
 CellKinds kind_of(CellType type);
+/// Whether a second-order type has nodes in the middle of faces or of the cell.
+bool has_middle_nodes(CellType type);
 
 enum class CellOrder : std::uint8_t { any, by_type, by_region, by_region_and_type };
 /// Along which surfaces the mesh must be doubled.
 enum class Splitting : std::uint8_t { none, as_given, on_faults, on_all_surfaces };
 enum class CornerOrder : std::uint8_t { outward, either };
+/// How a target calls regions and sets: by numbers; by words (letters, digits, '_' and '-', a letter first, either case the same); by
+/// any text.
+enum class Naming : std::uint8_t { numbers, words, texts };
 
 /// What a target can keep of a mesh and what it asks for. One row a target; a writer prints what was prepared for its row.
 struct MeshNeeds {
@@ -39,7 +44,8 @@ struct MeshNeeds {
     CellOrder sorted;
     Splitting splitting;
     CornerOrder winding;
-    bool regions;  ///< names of regions; a number alone loses the names
+    bool middle_nodes;  ///< of second-order cells: nodes in the middle of faces and of cells, beside those on edges
+    Naming names;       ///< of regions and sets; numbers alone lose the names
     bool face_sets, face_sides, edge_sets, node_sets;
     bool point_values, cell_values;
     std::uint16_t longest_name;  ///< characters; 0: as long as they are

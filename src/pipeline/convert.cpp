@@ -12,7 +12,9 @@
 #include "pipeline/grid_origin.h"
 #include "pipeline/grids.h"
 #include "pipeline/merge.h"
+#include "pipeline/mesh_output.h"
 #include "pipeline/shape.h"
+#include "topology/brep_from_dataset.h"
 
 namespace geomend {
 
@@ -132,6 +134,17 @@ bool loses_substance(const std::vector<Loss>& losses) {
 
 Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "stopped; nothing was written"); }
 
+/// Writes the mesh of cells of a dataset, whose models are built, in a format that takes such a mesh.
+Result<std::vector<Loss>> write_mesh(Dataset& dataset, const MeshFormat& format, OutputSet& output, const WriteOptions& options) {
+    std::vector<Loss> losses;
+    const auto mesh = volume_mesh_in(dataset, losses);
+    if (!mesh) return mesh.why();
+    auto written = write_volume_mesh(*mesh, format, output, options);
+    if (!written) return written;
+    for (Loss& loss : *written) add_loss(losses, std::move(loss));
+    return losses;
+}
+
 Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const DatasetChange& change) {
     const auto format = target_format(request);
     if (!format) return format.why();
@@ -152,14 +165,17 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Dat
     if (auto moved = move_grid_origins(*dataset, **format, options.options); !moved) return std::move(moved).why();
     list_text_losses(*dataset, **format);
     if (auto shaped = shape_grids(*dataset, **format, options.options); !shaped) return std::move(shaped).why();
-    shape_for(*dataset, **format);
+    const MeshFormat* mesh = mesh_format(**format);
+    if (mesh != nullptr) topology::build_breps(*dataset);
+    else shape_for(*dataset, **format);
 
     ConvertReport report;
     report.format = (*format)->name;
     report.findings = std::move(dataset->findings);
     report.losses = std::move(dataset->losses);
     OutputSet output(request.output);
-    auto written = (*format)->write(*dataset, output, {options.options, monitor});
+    const WriteOptions how{options.options, monitor};
+    auto written = mesh != nullptr ? write_mesh(*dataset, *mesh, output, how) : (*format)->write(*dataset, output, how);
     if (!written) return std::move(written).why();
     for (Loss& loss : *written) add_loss(report.losses, std::move(loss));
     std::ranges::stable_sort(report.losses, {}, &Loss::loss_class);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/wording.h"
+#include "exchange/turned_cell.h"
 #include "geometry/measures.h"
 #include "model/attribute_operations.h"
 #include "topology/near_weld.h"
@@ -34,28 +35,6 @@ bool is_solid(CellType type) {
             return true;
         default:
             return false;
-    }
-}
-
-/// Pairs of nodes that change places where a cell is turned; none: it cannot be.
-std::vector<std::pair<unsigned, unsigned>> turning(CellType type) {
-    switch (type) {
-        case CellType::tetrahedron:
-            return {{0, 1}};
-        case CellType::quadratic_tetrahedron:
-            return {{0, 1}, {5, 6}, {7, 8}};
-        case CellType::hexahedron:
-            return {{0, 4}, {1, 5}, {2, 6}, {3, 7}};
-        case CellType::wedge:
-            return {{0, 3}, {1, 4}, {2, 5}};
-        case CellType::pyramid:
-            return {{1, 3}};
-        case CellType::pentagonal_prism:
-            return {{0, 5}, {1, 6}, {2, 7}, {3, 8}, {4, 9}};
-        case CellType::hexagonal_prism:
-            return {{0, 6}, {1, 7}, {2, 8}, {3, 9}, {4, 10}, {5, 11}};
-        default:
-            return {};
     }
 }
 
@@ -109,13 +88,8 @@ private:
     }
 
     void turn(std::size_t c) {
-        const auto pairs = turning(m_.types[c]);
-        if (pairs.empty()) {
-            ++done_.left;
-            return;
-        }
         std::uint32_t* nodes = m_.nodes.data() + m_.offsets[c];
-        for (const auto& [a, b] : pairs) std::swap(nodes[a], nodes[b]);
+        for (const auto& [a, b] : exchange::turning_swaps(m_.types[c])) std::swap(nodes[a], nodes[b]);
         ++done_.turned;
         const bool tagged = m_.types[c] == CellType::tetrahedron && !m_.facet_tags.empty();
         if (tagged) std::swap(m_.facet_tags[4 * tetrahedron_number(c)], m_.facet_tags[4 * tetrahedron_number(c) + 1]);
@@ -248,7 +222,6 @@ std::string cleaning_text(const CellCleaning& c) {
     add(c.doubles, "double", "doubles", " left out");
     add(c.merged, "node", "nodes", " merged with others within the tolerance");
     add(c.unused, "node", "nodes", " left out that nothing used");
-    add(c.left, "cell", "cells", " left that are inside out, of a type that is not turned");
     return text;
 }
 

@@ -16,14 +16,13 @@ struct CellCleaning {
     std::uint64_t flat = 0;      ///< cells left out, since they had no volume
     std::uint64_t doubles = 0;   ///< cells left out, since another one had the same nodes
     std::uint64_t unused = 0;    ///< nodes left out, since nothing used them
-    std::uint64_t left = 0;      ///< cells that are inside out, of a type that is not turned
     std::uint64_t changes() const { return merged + turned + repeated + flat + doubles + unused; }
 };
 
 /// Cleans a mesh of cells: nodes within the tolerance of each other, but not equal, become one, so that the cells on both sides hang
 /// together; nodes at one position stay two, since that is how cells are parted on purpose, as along faults. Cells that use a node
-/// twice, have no volume or repeat another one are left out; cells whose nodes are ordered inside out (VTK's order, linear types
-/// and tetrahedra of second order) are turned. Nodes that nothing uses any more are left out where the mesh states no aliases. Attributes,
+/// twice, have no volume or repeat another one are left out; cells whose nodes are ordered inside out (VTK's order) are turned.
+/// Nodes that nothing uses any more are left out where the mesh states no aliases. Attributes,
 /// sets, labels, entities and facet tags go with their cells and nodes. Cells below three dimensions stay.
 /// \param tolerance above 0. Cost: n log n.
 CellCleaning clean_cells(CellMesh& mesh, double tolerance);
