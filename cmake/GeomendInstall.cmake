@@ -5,7 +5,7 @@ install(TARGETS ${rooms} geomend EXPORT geomendTargets
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/geomend FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE)
 install(DIRECTORY validators DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/geomend FILES_MATCHING PATTERN "*.h")
 # Of the families only what their tables of formats show.
-install(FILES formats/format.h formats/option_row.h formats/options.h formats/registry.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/geomend/formats)
+install(FILES formats/format.h formats/mesh_format.h formats/option_row.h formats/options.h formats/registry.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/geomend/formats)
 
 # Builds all that an install needs, and no tests.
 add_custom_target(installed DEPENDS ${rooms} geomend)
