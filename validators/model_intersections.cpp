@@ -129,13 +129,9 @@ class Gathering {
 public:
     explicit Gathering(const ModelScope& scope)
         : scope_(scope),
-          surfaces_(scope.triangles().size()),
+          surfaces_(scope.surfaces_of_triangles()),
           parts_(intersection_parts(scope.tree())),
-          meets_others_(scope.brep().surfaces.size()) {
-        for (std::uint32_t s = 0; s < scope.brep().surfaces.size(); ++s) {
-            for (std::uint32_t t = scope.first_triangle(s); t < scope.first_triangle(s + 1); ++t) surfaces_[t] = s;
-        }
-    }
+          meets_others_(scope.brep().surfaces.size()) {}
 
     /// Whether surfaces that meet were passed over in run().
     bool has_more_pairs() const { return has_more_pairs_; }
@@ -176,7 +172,7 @@ private:
     };
 
     const ModelScope& scope_;
-    std::vector<std::uint32_t> surfaces_;  // of the triangles
+    std::span<const std::uint32_t> surfaces_;  // of the triangles
     std::vector<Part> parts_;
     std::map<SurfacePair, Common> all_;
     std::vector<std::uint8_t> meets_others_;  // of the surfaces

@@ -205,9 +205,7 @@ void check_near_misses(const ModelScope& scope, std::vector<Finding>& findings) 
     // Where very many surfaces lie across each other everything is near everything, and that has been told.
     if (std::ranges::any_of(findings, [](const Finding& f) { return f.code == "B08" && f.entities.empty(); })) return;
     if (scope.triangles().empty() || scope.stopped()) return;
-    std::vector<std::uint32_t> surface_of;
-    for (std::uint32_t s = 0; s < scope.brep().surfaces.size(); ++s) surface_of.resize(scope.first_triangle(s + 1), s);
-    const SurfaceDistance soup(scope.tree(), surface_of);
+    const SurfaceDistance soup(scope.tree(), scope.surfaces_of_triangles());
     Reported reported(findings);
     for (const Borders& some : borders_by_lengths(scope)) {
         if (some.lengths.near > 0 && !scope.stopped()) report_borders(scope, some, soup, reported, findings);

@@ -144,6 +144,7 @@ ModelScope::ModelScope(const Dataset& dataset, const topology::JudgedModel& mode
         }
     }
     first_triangle_.push_back(static_cast<std::uint32_t>(triangles_.size()));
+    for (std::uint32_t s = 0; s + 1 < first_triangle_.size(); ++s) surface_of_.resize(first_triangle_[s + 1], s);
     std::vector<std::uint32_t> uses(b.lines.size(), 0);
     for (const auto& surface : b.surfaces) {
         for (const auto& use : surface.lines) ++uses[use.line.value];
@@ -169,16 +170,9 @@ void ModelScope::find_twin_nodes() {
 
 const TriangleTree& ModelScope::tree() const {
     if (!tree_) {
-        std::vector<std::uint32_t> surfaces;
-        for (std::uint32_t s = 0; s < brep().surfaces.size(); ++s) surfaces.resize(first_triangle(s + 1), s);
-        tree_ = std::make_unique<TriangleTree>(brep().vertices, triangles_, 0, surfaces);
+        tree_ = std::make_unique<TriangleTree>(brep().vertices, triangles_, 0, surface_of_);
     }
     return *tree_;
-}
-
-std::uint32_t ModelScope::surface_of(std::uint32_t triangle) const {
-    const auto above = std::upper_bound(first_triangle_.begin(), first_triangle_.end(), triangle);
-    return static_cast<std::uint32_t>(above - first_triangle_.begin() - 1);
 }
 
 std::uint32_t ModelScope::polygon_of(std::uint32_t triangle) const {

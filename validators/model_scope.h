@@ -46,7 +46,9 @@ public:
     /// All polygons as triangles over model vertices, surface by surface; polygons are fans of their first corner.
     std::span<const std::array<std::uint32_t, 3>> triangles() const { return triangles_; }
     std::uint32_t first_triangle(std::uint32_t surface) const { return first_triangle_[surface]; }
-    std::uint32_t surface_of(std::uint32_t triangle) const;
+    std::uint32_t surface_of(std::uint32_t triangle) const { return surface_of_[triangle]; }
+    /// The same for all triangles().
+    std::span<const std::uint32_t> surfaces_of_triangles() const { return surface_of_; }
     /// The polygon of its surface that a triangle is a part of.
     std::uint32_t polygon_of(std::uint32_t triangle) const;
     /// The file's own number of a polygon, from 1 in its object.
@@ -68,6 +70,7 @@ private:
     const Monitor* monitor_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
     std::vector<std::uint32_t> first_triangle_;  // per surface, and the end
+    std::vector<std::uint32_t> surface_of_;      // per triangle
     std::vector<std::uint32_t> polygon_;         // per triangle; empty where all polygons are triangles
     std::vector<std::uint8_t> free_line_, has_twin_nodes_;
 

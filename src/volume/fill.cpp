@@ -23,21 +23,15 @@ struct Rung {
     bool has_shapes = false;  ///< and sizes, as asked for
 };
 
-std::string number(double value) {
-    std::string text;
-    append_number(text, value);
-    return text;
-}
-
 /// The volume of a regular tetrahedron.
 double volume_of_edge(double edge) { return edge * edge * edge / (6 * std::sqrt(2.0)); }
 
 std::vector<Rung> rungs_for(const RegionFacets& facets, const FillOptions& options) {
     const double edge = options.size > 0 ? options.size : facets.median_edge;
-    const std::string most = edge > 0 ? "a" + number(volume_of_edge(edge)) : std::string();
+    const std::string most = edge > 0 ? "a" + number_text(volume_of_edge(edge)) : std::string();
     std::vector<Rung> rungs;
     if (options.ratio > 0) {
-        const std::string good = "QpYMT1e-14q" + number(options.ratio) + most;
+        const std::string good = "QpYMT1e-14q" + number_text(options.ratio) + most;
         rungs.push_back({"tetgen pYqa", good, {}, true});
         for (std::uint32_t shuffle = 1; shuffle <= 2; ++shuffle) rungs.push_back({"tetgen pYqa, shuffled", good, {shuffle}, true});
     }

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <map>
 
 #include "base/vectors.h"
 #include "pipeline/load.h"
+#include "support/base64_values.h"
 #include "support/program.h"
 
 // What the page of a repair says of the model before and after, and what --debris holds: compared with what the files say, which are
@@ -35,21 +35,7 @@ json page_of(const std::string& path) {
 
 template <class Value>
 std::vector<Value> values(const json& part, const char* key) {
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/", text = part.value(key, std::string());
-    std::string bytes;
-    unsigned bits = 0;
-    int count = 0;
-    for (const char c : text) {
-        if (c == '=') break;
-        bits = bits << 6 | static_cast<unsigned>(digits.find(c));
-        count += 6;
-        if (count < 8) continue;
-        count -= 8;
-        bytes += static_cast<char>(bits >> count & 0xffu);
-    }
-    std::vector<Value> all(bytes.size() / sizeof(Value));
-    std::memcpy(all.data(), bytes.data(), sizeof(Value) * all.size());
-    return all;
+    return test::base64_values<Value>(part.value(key, std::string()));
 }
 
 std::string change_of(const json& part) { return part.value("change", "none"); }

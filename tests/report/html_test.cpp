@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "report/base64.h"
 #include "report/page_pieces.h"
 #include "report/report.h"
+#include "support/base64_values.h"
 
 namespace geomend {
 namespace {
@@ -67,23 +67,7 @@ ScenePart square(std::uint32_t n, const std::string& name) {
     return part;
 }
 
-std::vector<float> floats(const std::string& base64) {
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string bytes;
-    unsigned bits = 0;
-    int count = 0;
-    for (const char c : base64) {
-        if (c == '=') break;
-        bits = bits << 6 | static_cast<unsigned>(digits.find(c));
-        count += 6;
-        if (count < 8) continue;
-        count -= 8;
-        bytes += static_cast<char>(bits >> count & 0xffu);
-    }
-    std::vector<float> values(bytes.size() / 4);
-    std::memcpy(values.data(), bytes.data(), 4 * values.size());
-    return values;
-}
+std::vector<float> floats(const std::string& base64) { return test::base64_values<float>(base64); }
 
 TEST(HtmlReport, TextOfFilesNeverBecomesMarkup) {
     const std::string evil = "</script><img src=x onerror=alert(1)> <!-- ' \" & \\ ]]> \u2028 {{";
