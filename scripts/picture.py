@@ -5,21 +5,11 @@ import sys
 
 import vtk
 
+import picture_parts
+
 LAYERS = {"1": (0.91, 0.78, 0.47), "2": (0.42, 0.62, 0.55), "3": (0.55, 0.46, 0.62)}
 FAULT = (0.80, 0.22, 0.16)
 APART = 0.16
-
-
-def blocks(data, group=""):
-    """(group, name, leaf) of each block."""
-    for i in range(data.GetNumberOfBlocks()):
-        info = data.GetMetaData(i) if data.HasMetaData(i) else None
-        name = info.Get(vtk.vtkCompositeDataSet.NAME()) if info else ""
-        block = data.GetBlock(i)
-        if isinstance(block, vtk.vtkMultiBlockDataSet):
-            yield from blocks(block, name or group)
-        elif block is not None:
-            yield group, name or "", block
 
 
 def centre(data):
@@ -48,10 +38,7 @@ def actor(data, colour, shift, opacity=1.0, edges=True):
 
 
 def main(model, picture):
-    reader = vtk.vtkXMLMultiBlockDataReader()
-    reader.SetFileName(model)
-    reader.Update()
-    all_blocks = list(blocks(reader.GetOutput()))
+    all_blocks = picture_parts.blocks_of(model)
     regions = [(name, data) for group, name, data in all_blocks if group == "Regions"]
     faults = [data for group, name, data in all_blocks if group == "Surfaces" and name.startswith("fault")]
     if len(regions) != 6 or not faults:
@@ -68,27 +55,10 @@ def main(model, picture):
     for data in faults:
         renderer.AddActor(actor(data, FAULT, [0, 0, APART * (centre(data)[2] - middle[2])], edges=False))
 
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(1200, 800)
+    window = picture_parts.window_of(1200, 800)
     window.AddRenderer(renderer)
-    camera = renderer.GetActiveCamera()
-    camera.SetFocalPoint(*middle)
-    camera.SetPosition(middle[0] + 1300, middle[1] - 2400, middle[2] + 1000)
-    camera.SetViewUp(0, 0, 1)
-    renderer.ResetCamera()
-    camera.Zoom(1.03)
-    renderer.ResetCameraClippingRange()
-    window.Render()
-
-    grab = vtk.vtkWindowToImageFilter()
-    grab.SetInput(window)
-    grab.ReadFrontBufferOff()
-    writer = vtk.vtkPNGWriter()
-    writer.SetFileName(picture)
-    writer.SetInputConnection(grab.GetOutputPort())
-    writer.Write()
+    picture_parts.look_at(renderer, middle, 1.03)
+    picture_parts.write(window, picture)
 
 
 main(*sys.argv[1:])

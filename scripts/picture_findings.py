@@ -7,19 +7,9 @@ import sys
 
 import vtk
 
+import picture_parts
+
 ROCK, RED = (0.55, 0.66, 0.70), (0.85, 0.10, 0.05)
-
-
-def surfaces(data, group=""):
-    """The blocks of the surfaces."""
-    for i in range(data.GetNumberOfBlocks()):
-        info = data.GetMetaData(i) if data.HasMetaData(i) else None
-        name = info.Get(vtk.vtkCompositeDataSet.NAME()) if info else ""
-        block = data.GetBlock(i)
-        if isinstance(block, vtk.vtkMultiBlockDataSet):
-            yield from surfaces(block, name or group)
-        elif block is not None and group == "Surfaces":
-            yield block
 
 
 def actor(data, colour, opacity, edges=True):
@@ -67,14 +57,11 @@ def ball(point, radius):
 
 
 def view(model, report, left, right):
-    reader = vtk.vtkXMLMultiBlockDataReader()
-    reader.SetFileName(model)
-    reader.Update()
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.SetViewport(left, 0, right, 1)
     bounds = vtk.vtkBoundingBox()
-    for block in surfaces(reader.GetOutput()):
+    for block in [block for group, _, block in picture_parts.blocks_of(model) if group == "Surfaces"]:
         renderer.AddActor(actor(block, ROCK, 0.35))
         bounds.AddBounds(block.GetBounds())
     size = bounds.GetDiagonalLength()
@@ -88,32 +75,16 @@ def view(model, report, left, right):
             renderer.AddActor(actor(ball(point, 0.010 * size), RED, 1, False))
     middle = [0.0, 0.0, 0.0]
     bounds.GetCenter(middle)
-    camera = renderer.GetActiveCamera()
-    camera.SetFocalPoint(*middle)
-    camera.SetPosition(middle[0] + 1300, middle[1] - 2400, middle[2] + 1000)
-    camera.SetViewUp(0, 0, 1)
-    renderer.ResetCamera()
-    camera.Zoom(1.05)
-    renderer.ResetCameraClippingRange()
+    picture_parts.look_at(renderer, middle, 1.05)
     return renderer
 
 
 def main(picture, *pairs):
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
     views = len(pairs) // 2
-    window.SetSize(1200, 800 if views == 1 else 480)
+    window = picture_parts.window_of(1200, 800 if views == 1 else 480)
     for i in range(views):
         window.AddRenderer(view(pairs[2 * i], pairs[2 * i + 1], i / views, (i + 1) / views))
-    window.Render()
-    grab = vtk.vtkWindowToImageFilter()
-    grab.SetInput(window)
-    grab.ReadFrontBufferOff()
-    writer = vtk.vtkPNGWriter()
-    writer.SetFileName(picture)
-    writer.SetInputConnection(grab.GetOutputPort())
-    writer.Write()
+    picture_parts.write(window, picture)
 
 
 main(*sys.argv[1:])
