@@ -12,6 +12,7 @@
 #include "validators/cell_findings.h"
 #include "validators/model_checks.h"
 #include "validators/polyline_join.h"
+#include "validators/single_valued_surfaces.h"
 #include "validators/triangle_overlap.h"
 
 namespace geomend::validators {
@@ -137,6 +138,7 @@ public:
     bool has_more_pairs() const { return has_more_pairs_; }
 
     std::map<SurfacePair, Common> run() {
+        const std::vector<std::uint32_t> proven = single_valued_surfaces(scope_);
         visit_intersections(
             scope_.tree(), [&](std::size_t part) -> PairTaker& { return taker_of(parts_[part]); },
             [&](std::size_t first, std::size_t last) {
@@ -148,7 +150,7 @@ public:
                     parts_[part] = {};
                 }
             },
-            scope_.monitor());
+            scope_.monitor(), proven);
         return std::move(all_);
     }
 

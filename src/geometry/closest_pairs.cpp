@@ -229,7 +229,7 @@ public:
     /// False when stopped.
     bool find_places(const Monitor* monitor) {
         const std::size_t level = std::min(chunk_level, soup_.tree().levels().size() - 1);
-        const NodeGroups groups(soup_, level + 1);
+        const NodeGroups groups(soup_.groups(), level + 1);
         std::vector<std::vector<Place>> parts(soup_.tree().levels()[level].size());
         std::vector<std::uint8_t> crowded(parts.size(), 0);
         parallel_for_each_index(parts.size(), [&](std::size_t part) {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
+#include "geometry/node_groups.h"
 #include "geometry/separation.h"
 
 namespace geomend {
@@ -18,17 +20,22 @@ constexpr std::size_t chunks_per_round = 64;  // between looks at the limit and 
 /// Pairs of the triangles in one node with these and those that come after them in the tree's order.
 class NodeSearch {
 public:
-    NodeSearch(const TriangleTree& tree, PairTaker& taker) : tree_(tree), taker_(taker) {}
+    /// \param groups of the triangles that need no look at pairs of their own, and of the nodes; may be empty
+    NodeSearch(const TriangleTree& tree, PairTaker& taker, std::span<const std::uint32_t> groups, const NodeGroups& nodes)
+        : tree_(tree), taker_(taker), groups_(groups), nodes_(nodes) {}
 
     void run(std::size_t level, std::size_t node) {
         const std::size_t size = std::size_t{4} << (2 * level), end = std::min(tree_.size(), (node + 1) * size);
         first_ = node * size;
-        for (std::size_t i = first_; i < end; ++i) own_.emplace_back(corners(i));
+        own_.resize(end - first_);
         const auto with = [&](std::size_t other) {
             if (other < node || taker_.is_full) return;
-            tree_.visit_pairs(level, node, other, [&](std::size_t i, std::size_t first, unsigned hits) {
+            const auto is_clear = [&](std::size_t l, std::size_t a, std::size_t b) { return !groups_.empty() && nodes_.are_one(l, a, b); };
+            tree_.visit_pairs(level, node, other, is_clear, [&](std::size_t i, std::size_t first, unsigned hits) {
                 if (taker_.is_full) return;
-                visit_bits(hits, [&](std::size_t k) { test(i, first + k); });
+                visit_bits(hits, [&](std::size_t k) {
+                    if (groups_.empty() || groups_[i] == NodeGroups::mixed || groups_[i] != groups_[first + k]) test(i, first + k);
+                });
             });
         };
         if (level + 1 == tree_.levels().size()) with(node);
@@ -38,8 +45,10 @@ public:
 private:
     const TriangleTree& tree_;
     PairTaker& taker_;
+    std::span<const std::uint32_t> groups_;
+    const NodeGroups& nodes_;
     std::size_t first_ = 0;
-    std::vector<Separator> own_;  ///< of the triangles of the node, from first_ on
+    std::vector<std::optional<Separator>> own_;  ///< of the triangles of the node, from first_ on; made when first needed
 
     std::array<Vec3, 3> corners(std::size_t i) const {
         const Triangle& t = tree_.triangle(i);
@@ -58,7 +67,8 @@ private:
                 b_shared |= same << n;
             }
         }
-        const Separator& own = own_[i - first_];
+        if (!own_[i - first_]) own_[i - first_].emplace(corners(i));
+        const Separator& own = *own_[i - first_];
         const std::array<Vec3, 3> other = corners(j);
         const bool is_the_same = a_shared == 7;  // a triangle that is there twice: no corner is left to be on one side
         if (!is_the_same && (own.clear_of(other, a_shared, b_shared) || Separator(other).clear_of(own.corners(), b_shared, a_shared)))
@@ -113,15 +123,18 @@ std::size_t intersection_parts(const TriangleTree& tree) {
 }
 
 void visit_intersections(const TriangleTree& tree, const std::function<PairTaker&(std::size_t part)>& taker_of,
-                         const std::function<void(std::size_t first, std::size_t last)>& after_round, const Monitor* monitor) {
+                         const std::function<void(std::size_t first, std::size_t last)>& after_round, const Monitor* monitor,
+                         std::span<const std::uint32_t> groups) {
     const std::size_t chunks = intersection_parts(tree);
+    if (chunks == 0) return;
+    const std::size_t level = std::min(chunk_level, tree.levels().size() - 1);
+    const NodeGroups nodes(groups, groups.empty() ? 0 : level + 1);
     for (std::size_t round = 0; round < chunks; round += chunks_per_round) {
         if (monitor != nullptr && monitor->stopped()) break;
         const std::size_t size = std::min(chunks_per_round, chunks - round);
-        const std::size_t level = std::min(chunk_level, tree.levels().size() - 1);
         parallel_for_each_index(size, [&](std::size_t part) {
             PairTaker& taker = taker_of(round + part);
-            if (!taker.is_full) NodeSearch(tree, taker).run(level, round + part);
+            if (!taker.is_full) NodeSearch(tree, taker, groups, nodes).run(level, round + part);
         });
         after_round(round, round + size);
         if (monitor != nullptr) monitor->progress("intersections", static_cast<double>(round + size) / static_cast<double>(chunks));

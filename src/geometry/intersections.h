@@ -47,7 +47,10 @@ std::size_t intersection_parts(const TriangleTree& tree);
 /// other in the order of the tree, and what they are handed does not depend on the number of threads.
 /// \param taker_of makes the taker of a part; called by the thread that works on it, which then calls the taker
 /// \param after_round called between rounds, on one thread, with the first part that was done since and the one behind the last
+/// \param groups of the triangles, in the tree's order, of which it is known that they do not meet themselves (is_single_valued()):
+/// pairs in one are passed over; NodeGroups::mixed for triangles in none. May be empty
 void visit_intersections(const TriangleTree& tree, const std::function<PairTaker&(std::size_t part)>& taker_of,
-                         const std::function<void(std::size_t first, std::size_t last)>& after_round, const Monitor* monitor = nullptr);
+                         const std::function<void(std::size_t first, std::size_t last)>& after_round, const Monitor* monitor = nullptr,
+                         std::span<const std::uint32_t> groups = {});
 
 }  // namespace geomend

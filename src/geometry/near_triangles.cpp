@@ -5,21 +5,6 @@
 
 namespace geomend {
 
-NodeGroups::NodeGroups(const SurfaceDistance& soup, std::size_t levels) : groups_(levels) {
-    const auto unite = [](std::vector<std::uint32_t>& nodes, std::size_t count, const auto& group_of) {
-        nodes.resize((count + 3) / 4);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t group = group_of(i);
-            if (i % 4 == 0) nodes[i / 4] = group;
-            if (nodes[i / 4] != group) nodes[i / 4] = mixed;
-        }
-    };
-    for (std::size_t level = 0; level < levels; ++level) {
-        if (level == 0) unite(groups_[0], soup.tree().size(), [&](std::size_t i) { return soup.group(static_cast<std::uint32_t>(i)); });
-        else unite(groups_[level], groups_[level - 1].size(), [&](std::size_t i) { return groups_[level - 1][i]; });
-    }
-}
-
 bool NearTriangles::collect(std::size_t level, std::size_t node, std::size_t most) {
     pairs_.clear();
     most_ = most;

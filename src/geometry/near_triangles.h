@@ -7,26 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/node_groups.h"
 #include "geometry/surface_distance.h"
 #include "geometry/triangle_tree.h"
 
 namespace geomend {
-
-/// Which nodes of a tree hold triangles of one group alone, level by level as in TriangleTree::levels().
-class NodeGroups {
-public:
-    static constexpr std::uint32_t mixed = 0xffffffff;
-
-    /// \param levels so many of the tree's, from below. Cost: linear
-    NodeGroups(const SurfaceDistance& soup, std::size_t levels);
-    /// The group of all triangles under a node, or mixed.
-    std::uint32_t at(std::size_t level, std::size_t node) const { return groups_[level][node]; }
-    /// Whether all triangles under two nodes are of one group.
-    bool are_one(std::size_t level, std::size_t a, std::size_t b) const { return at(level, a) != mixed && at(level, a) == at(level, b); }
-
-private:
-    std::vector<std::vector<std::uint32_t>> groups_;
-};
 
 /// For the triangles of one node of a tree, those that come after them in the tree's order, are of other groups, by their boxes near
 /// and share no vertex with them: nodes are gone down two at a time, and two nodes of one group are passed over.

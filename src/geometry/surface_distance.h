@@ -24,6 +24,7 @@ public:
     const Vec3& position(std::uint32_t vertex) const { return vertices_[vertex]; }
     const Triangle& triangle(std::uint32_t t) const { return tree_.triangle(t); }
     std::uint32_t group(std::uint32_t t) const { return groups_[t]; }
+    std::span<const std::uint32_t> groups() const { return groups_; }
     std::span<const std::uint32_t> around(std::uint32_t vertex) const { return around_.at(vertex); }
     std::array<Vec3, 3> corners(std::uint32_t t) const {
         const Triangle& v = tree_.triangle(t);

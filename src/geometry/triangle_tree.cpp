@@ -192,9 +192,14 @@ void TriangleTree::make_boxes(double margin) {
     if (triangles_.empty()) return;
     levels_.reserve(18);  // 4^17 triangles and more than 32 bits can number: references stay valid
     make_level(triangles_.size(), [&](std::size_t i) {
-        Box all = empty_box;
-        for (const std::uint32_t v : triangles_[i]) enclose(all, box(vertices_[v], vertices_[v], margin / 2));
-        return all;
+        const auto& [a, b, c] = triangles_[i];
+        const Vec3 &p = vertices_[a], &q = vertices_[b], &r = vertices_[c];
+        Vec3 low, high;  // squeezing keeps the order along each axis
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min({p[k], q[k], r[k]});
+            high[k] = std::max({p[k], q[k], r[k]});
+        }
+        return box(low, high, margin / 2);
     });
     while (levels_.back().size() > 1) {
         const std::vector<FourBoxes>& below = levels_.back();

@@ -117,8 +117,10 @@ public:
 
     /// For nodes a <= b of one level: calls visit(i, first, hits) where the box of triangle i under a overlaps those of
     /// triangles first + k under b for each bit k of hits. Each pair of triangles comes once, i before the other.
-    template <class Visit>
-    void visit_pairs(std::size_t level, std::size_t a, std::size_t b, const Visit& visit) const {
+    /// \param is_clear asked with (level, a, b) of two nodes: true where no pair of theirs is wanted
+    template <class IsClear, class Visit>
+    void visit_pairs(std::size_t level, std::size_t a, std::size_t b, const IsClear& is_clear, const Visit& visit) const {
+        if (is_clear(level, a, b)) return;
         const FourBoxes &first = levels_[level][a], &second = levels_[level][b];
         const unsigned near = a != b && level + 1 < levels_.size() ? first.overlapping(outer_box(level, b)) : 15u;
         visit_bits(near, [&](std::size_t i) {
@@ -128,9 +130,15 @@ public:
                 if (hits != 0) visit(4 * a + i, 4 * b, hits);
             } else {
                 if (a == b) hits &= ~0u << i;
-                visit_bits(hits, [&](std::size_t j) { visit_pairs(level - 1, 4 * a + i, 4 * b + j, visit); });
+                visit_bits(hits, [&](std::size_t j) { visit_pairs(level - 1, 4 * a + i, 4 * b + j, is_clear, visit); });
             }
         });
+    }
+
+    template <class Visit>
+    void visit_pairs(std::size_t level, std::size_t a, std::size_t b, const Visit& visit) const {
+        visit_pairs(
+            level, a, b, [](std::size_t, std::size_t, std::size_t) { return false; }, visit);
     }
 
     /// Calls visit(i) for each triangle in the tree's order, ascending, whose box overlaps the given one.
