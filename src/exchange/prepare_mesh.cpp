@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 
 #include "exchange/kept_cells.h"
+#include "exchange/split_mesh.h"
 #include "exchange/target_names.h"
 
 namespace geomend::exchange {
@@ -21,34 +21,19 @@ Failure cannot_take(const MeshNeeds& needs, const std::string& why) {
     return failure(FailureKind::cannot_hold, "F021", {}, std::string(needs.target) + " " + why);
 }
 
-/// Whether faces on both sides of a surface, of a fault only or of any, have the same vertices.
-bool hangs_together(const Data& mesh, bool faults_only) {
-    std::set<CellFaceRef> parted;
-    for (const Data::SplitPair& pair : mesh.split_pairs) parted.insert(pair.faces.begin(), pair.faces.end());
-    std::map<std::uint32_t, std::set<FaceSide>> sides;
-    for (const Data::FaceSet& set : mesh.face_sets) sides[set.surface].insert(set.side);
-    return std::ranges::any_of(mesh.face_sets, [&](const Data::FaceSet& set) {
-        if (set.surface == no_index || sides[set.surface].size() < 2 || (faults_only && set.role != FeatureRole::fault)) return false;
-        return std::ranges::any_of(set.faces, [&](const CellFaceRef& face) { return !parted.contains(face); });
-    });
-}
-
-Result<void> check_splitting(const Data& mesh, const MeshNeeds& needs) {
-    const char* no_way = "; meshes are written as they are split";
+/// Split along the surfaces where the target wants that, or joined where it wants none.
+Result<VolumeMesh> split_for(const VolumeMesh& mesh, const MeshNeeds& needs, std::vector<Loss>& losses) {
     switch (needs.splitting) {
-        case Splitting::as_given:
-            return {};
         case Splitting::none:
-            if (mesh.vertex_origins.empty()) return {};
-            return cannot_take(needs, std::string("asks for a mesh that is not split, and this one is") + no_way);
+            return joined(mesh, losses);
         case Splitting::on_faults:
-            if (!hangs_together(mesh, true)) return {};
-            return cannot_take(needs, std::string("asks for a mesh that is split along its faults, and this one is not") + no_way);
+            return split_along(mesh, faults_of(mesh));
         case Splitting::on_all_surfaces:
-            if (!hangs_together(mesh, false)) return {};
-            return cannot_take(needs, std::string("asks for a mesh that is split along all surfaces, and this one is not") + no_way);
+            return split_along(mesh, std::vector<std::uint8_t>(mesh->surfaces.size(), 1));
+        case Splitting::as_given:
+            break;
     }
-    return {};
+    return mesh;
 }
 
 /// Cells and nodes that the target knows.
@@ -175,10 +160,14 @@ void drop_attributes(Data& mesh, const MeshNeeds& needs) {
 }  // namespace
 
 Result<PreparedMesh> prepare(const VolumeMesh& mesh, const MeshNeeds& needs) {
-    if (auto fits = check_splitting(*mesh, needs); !fits) return std::move(fits).why();
     std::vector<Loss> lost = losses(mesh, needs);
-    Data data = known_cells(*mesh, needs);
-    if (data.blocks.empty()) return cannot_take(needs, "has no cell of the kinds of this mesh");
+    Data known = known_cells(*mesh, needs);
+    if (known.blocks.empty()) return cannot_take(needs, "has no cell of the kinds of this mesh");
+    auto kept = VolumeMesh::make(std::move(known));
+    if (!kept) return std::move(kept).why();
+    auto split = split_for(*kept, needs, lost);
+    if (!split) return std::move(split).why();
+    Data data = **split;
     drop_attributes(data, needs);
     join_sets(data, needs);
     rename_all(data, needs, lost);

@@ -21,8 +21,8 @@ struct PreparedMesh {
 /// numbers only, a face belongs to the first set that has it. Each of these is listed.
 /// The cells of a VolumeMesh are sorted by region and type, with their corners in VTK's order: a writer goes through the blocks in the
 /// order in which its format has them.
-/// Failure (cannot_hold) where no cell would be left, and where the target asks for doubled faces that the mesh does not have, or
-/// for none where it has some: the mesh is taken as it is split. n log n.
+/// Where the target wants the mesh split along its faults or all surfaces, or not at all, it is split or joined (split_mesh.h).
+/// Failure (cannot_hold) where no cell would be left, and where cells of the second order would have to be split or joined. n log n.
 Result<PreparedMesh> prepare(const VolumeMesh& mesh, const MeshNeeds& needs);
 
 }  // namespace geomend::exchange

@@ -137,15 +137,19 @@ TEST(VolumeMeshOf, PolyhedraAreWoundOutwards) {
     EXPECT_TRUE(is_cycle(mesh.nodes_of({0, 3}), {0, 3, 2}));
 }
 
-TEST(Prepare, ATargetThatNeedsSplitFaultsTakesThemOrRefuses) {
+TEST(Prepare, AMeshIsSplitAlongFaultsOrJoinedAsTheTargetNeedsIt) {
     std::vector<Loss> losses;
     const MeshNeeds& needs = *find_mesh_needs("code-aster");
-    const auto whole = prepare(made_of(two_boxes(false), losses), needs);
-    ASSERT_FALSE(whole);
-    EXPECT_EQ(whole.why().kind, FailureKind::cannot_hold);
-    EXPECT_NE(whole.why().error.message.find("split along its faults"), std::string::npos);
-    EXPECT_TRUE(prepare(made_of(two_boxes(true), losses), needs));
-    EXPECT_FALSE(prepare(made_of(two_boxes(true), losses), *find_mesh_needs("feflow"))) << "which has no doubled faces";
+    for (const bool is_split : {false, true}) {
+        const auto split = prepare(made_of(two_boxes(is_split), losses), needs);
+        ASSERT_TRUE(split);
+        EXPECT_EQ(split->mesh->vertices.size(), 16u);
+        ASSERT_EQ(split->mesh->split_pairs.size(), 1u);
+        EXPECT_NE(split->mesh->split_pairs[0].sides[0], split->mesh->split_pairs[0].sides[1]);
+        const auto joined = prepare(made_of(two_boxes(is_split), losses), *find_mesh_needs("feflow"));
+        ASSERT_TRUE(joined);
+        EXPECT_EQ(joined->mesh->vertices.size(), 12u) << "which has no doubled faces";
+    }
 }
 
 TEST(Prepare, SecondOrderBecomesFirstAndItsNodesAreGone) {
