@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <type_traits>
 
 namespace geomend::meshes {
 
@@ -20,6 +21,22 @@ std::string in_a_line(std::string_view name) {
     std::ranges::replace_if(
         line, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, ' ');
     return line;
+}
+
+bool is_text(const Attribute& a) { return std::holds_alternative<std::vector<std::string>>(a.values); }
+
+void write_attribute_values(OutputFile& file, const Attribute& a, std::size_t thing) {
+    std::visit(
+        [&](const auto& values) {
+            using Value = typename std::decay_t<decltype(values)>::value_type;
+            for (std::size_t k = 0; k < a.components; ++k) {
+                [[maybe_unused]] const Value& value = values[thing * a.components + k];
+                if constexpr (std::is_floating_point_v<Value>) file << ' ', file.number(value);
+                else if constexpr (std::is_signed_v<Value>) file << ' ', file.number(static_cast<std::int64_t>(value));
+                else if constexpr (std::is_integral_v<Value>) file << ' ', file.number(static_cast<std::uint64_t>(value));
+            }
+        },
+        a.values);
 }
 
 std::vector<VolumeMeshData::Block> blocks_of(const VolumeMesh& mesh, CellType type) {

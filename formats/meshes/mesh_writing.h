@@ -20,6 +20,10 @@ std::vector<Loss> common_losses(const VolumeMesh& mesh, std::string_view title);
 /// A name for a comment: control characters, such as the end of a line, become blanks.
 std::string in_a_line(std::string_view name);
 
+bool is_text(const Attribute& a);
+/// Writes the values of an attribute of numbers at one thing as they are, each after a blank.
+void write_attribute_values(OutputFile& file, const Attribute& a, std::size_t thing);
+
 /// Writes the nodes of a cell in the order of the target, counted from 1, each after a separator.
 /// \param order per node of the target its number in our order
 template <class Order>

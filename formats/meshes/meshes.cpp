@@ -4,14 +4,25 @@
 #include <array>
 
 #include "formats/meshes/write_abaqus.h"
+#include "formats/meshes/write_code_aster.h"
+#include "formats/meshes/write_gprs.h"
 #include "formats/meshes/write_medit.h"
+#include "formats/meshes/write_mfem.h"
+#include "formats/meshes/write_modflow.h"
+#include "formats/meshes/write_openfoam.h"
+#include "formats/meshes/write_pflotran.h"
 #include "formats/meshes/write_tetgen.h"
+#include "formats/meshes/write_tough2.h"
+#include "formats/meshes/write_ucd.h"
 
 namespace geomend::meshes {
 
 namespace {
 
-constexpr std::string_view medit_extensions[] = {".mesh"}, tetgen_extensions[] = {".node", ".ele"}, abaqus_extensions[] = {".inp"};
+constexpr std::string_view medit_extensions[] = {".mesh"}, tetgen_extensions[] = {".node", ".ele"}, abaqus_extensions[] = {".inp"},
+                           code_aster_extensions[] = {".mail"}, openfoam_extensions[] = {".foam"}, pflotran_extensions[] = {".uge"},
+                           modflow_extensions[] = {".disu"}, ucd_extensions[] = {".ucd", ".avs"}, mfem_extensions[] = {".mfem"},
+                           gprs_extensions[] = {".gprs"}, tough2_extensions[] = {".tough2"};
 constexpr std::string_view tried = "fixtures and clients: no real file was found";
 
 /// A mesh has to be made and prepared before it is written: see MeshFormat.
@@ -62,9 +73,71 @@ constexpr Format abaqus_row() {
     return format;
 }
 
-constexpr std::array rows = {abaqus_row(), medit_row(), tetgen_row()};
-constexpr std::array mesh_rows = {MeshFormat{"abaqus", "abaqus", write_abaqus}, MeshFormat{"medit", "medit", write_medit},
-                                  MeshFormat{"tetgen", "tetgen", write_tetgen}};
+constexpr Format code_aster_row() {
+    Format format = row("code-aster", "Code_Aster: elements split along faults, and groups of elements and nodes", code_aster_extensions,
+                        "substance: polyhedra, second order, attributes, points, grids, wells; identity: names that are no words of 24 "
+                        "characters, roles, units, coordinate system");
+    format.keeps.fault_faces = Keeping::yes;
+    format.keeps.names = Keeping::partly;
+    format.keeps.exact_coordinates = Keeping::yes;
+    return format;
+}
+
+constexpr Format openfoam_row() {
+    Format format = row("openfoam", "OpenFOAM: constant/polyMesh beside a .foam file, with patches and zones", openfoam_extensions,
+                        "substance: second order, edge sets, attributes, points, grids, wells; identity: names that are no words, roles, "
+                        "units, coordinate system");
+    format.keeps.fault_faces = Keeping::yes;
+    format.keeps.names = Keeping::partly;
+    format.keeps.exact_coordinates = Keeping::yes;
+    return format;
+}
+
+constexpr Format ucd_row() {
+    Format format = row("avs-ucd", "AVS UCD: cells with numbers of regions, values at points and in cells", ucd_extensions,
+                        "substance: polyhedra, second order, sets, texts, points, grids, wells; identity: names, coordinate system");
+    format.keeps.attributes = Keeping::partly;
+    format.keeps.exact_coordinates = Keeping::yes;
+    return format;
+}
+
+constexpr Format mfem_row() {
+    Format format = row("mfem", "MFEM mesh v1.0: tetrahedra and hexahedra with numbers of regions and of faces of sets", mfem_extensions,
+                        "substance: other cells, second order, edge and node sets, attributes, points, grids, wells; identity: names, "
+                        "sides, units, coordinate system");
+    format.keeps.exact_coordinates = Keeping::yes;
+    return format;
+}
+
+constexpr Format network_row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions) {
+    return row(name, title, extensions,
+               "substance: shapes of cells, edge and node sets, attributes, points, grids, wells; identity: names that are too long or no "
+               "words, units, coordinate system");
+}
+
+constexpr std::array rows = {
+    abaqus_row(),
+    ucd_row(),
+    code_aster_row(),
+    network_row("gprs", "GPRS: a network of pipes between cells, with volumes, centres and areas", gprs_extensions),
+    medit_row(),
+    mfem_row(),
+    network_row("modflow-disu", "MODFLOW 6: the package DISU of unstructured cells", modflow_extensions),
+    openfoam_row(),
+    network_row("pflotran", "PFLOTRAN: explicit unstructured grid, with files of regions and of faces", pflotran_extensions),
+    tetgen_row(),
+    network_row("tough2", "TOUGH2: elements and connections of a MESH file", tough2_extensions)};
+constexpr std::array mesh_rows = {MeshFormat{"abaqus", "abaqus", write_abaqus},
+                                  MeshFormat{"avs-ucd", "avs-ucd", write_ucd},
+                                  MeshFormat{"code-aster", "code-aster", write_code_aster},
+                                  MeshFormat{"gprs", "gprs", write_gprs},
+                                  MeshFormat{"medit", "medit", write_medit},
+                                  MeshFormat{"mfem", "mfem", write_mfem},
+                                  MeshFormat{"modflow-disu", "modflow-disu", write_modflow},
+                                  MeshFormat{"openfoam", "openfoam", write_openfoam},
+                                  MeshFormat{"pflotran", "pflotran", write_pflotran},
+                                  MeshFormat{"tetgen", "tetgen", write_tetgen},
+                                  MeshFormat{"tough2", "tough2", write_tough2}};
 
 }  // namespace
 

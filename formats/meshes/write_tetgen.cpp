@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
 
 #include "base/text_cursor.h"
 #include "formats/meshes/mesh_writing.h"
@@ -32,29 +31,12 @@ private:
     std::string main_;
 };
 
-bool is_text(const Attribute& a) { return std::holds_alternative<std::vector<std::string>>(a.values); }
-
 std::vector<const Attribute*> number_attributes(const VolumeMesh& mesh) {
     std::vector<const Attribute*> found;
     for (const Attribute& a : mesh->attributes) {
         if (a.location == AttributeLocation::point && !is_text(a)) found.push_back(&a);
     }
     return found;
-}
-
-/// Writes the values of an attribute at a vertex as they are.
-void write_values(OutputFile& file, const Attribute& a, std::size_t vertex) {
-    std::visit(
-        [&](const auto& values) {
-            using Value = typename std::decay_t<decltype(values)>::value_type;
-            for (std::size_t k = 0; k < a.components; ++k) {
-                [[maybe_unused]] const Value& value = values[vertex * a.components + k];
-                if constexpr (std::is_floating_point_v<Value>) file << ' ', file.number(value);
-                else if constexpr (std::is_signed_v<Value>) file << ' ', file.number(static_cast<std::int64_t>(value));
-                else if constexpr (std::is_integral_v<Value>) file << ' ', file.number(static_cast<std::uint64_t>(value));
-            }
-        },
-        a.values);
 }
 
 void write_nodes_file(const VolumeMesh& mesh, OutputFile& file) {
@@ -70,7 +52,7 @@ void write_nodes_file(const VolumeMesh& mesh, OutputFile& file) {
     for (std::size_t v = 0; v < mesh->vertices.size() && file.good(); ++v) {
         file.number(static_cast<std::uint64_t>(v + 1));
         for (const double x : mesh->vertices[v]) file << ' ', file.number(x);
-        for (const Attribute* a : attributes) write_values(file, *a, v);
+        for (const Attribute* a : attributes) write_attribute_values(file, *a, v);
         file << '\n';
     }
 }

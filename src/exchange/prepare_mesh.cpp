@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "exchange/cell_network_of.h"
 #include "exchange/kept_cells.h"
 #include "exchange/split_mesh.h"
 #include "exchange/target_names.h"
@@ -171,6 +172,7 @@ Result<PreparedMesh> prepare(const VolumeMesh& mesh, const MeshNeeds& needs) {
     drop_attributes(data, needs);
     join_sets(data, needs);
     rename_all(data, needs, lost);
+    if (needs.network) data.network = cell_network_of(data);
     auto made = VolumeMesh::make(std::move(data));
     if (!made) return std::move(made).why();
     if (needs.names == Naming::numbers && needs.face_sets) return PreparedMesh{with_faces_once(*made, needs, lost), std::move(lost)};

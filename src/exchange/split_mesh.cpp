@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
-#include "exchange/each_face.h"
+#include "exchange/inner_faces.h"
 #include "model/attribute_operations.h"
 
 namespace geomend::exchange {
@@ -19,34 +19,10 @@ namespace {
 using Data = VolumeMeshData;
 
 /// A face that two cells share.
-struct InnerFace {
-    std::array<CellFaceRef, 2> faces;
+struct SharedFace {
+    InnerFace faces;
     bool is_split = false;
 };
-
-std::vector<InnerFace> inner_faces(const Data& mesh) {
-    struct Side {
-        std::array<std::uint32_t, 3> lowest;
-        std::uint32_t corners;
-        CellFaceRef face;
-        auto operator<=>(const Side&) const = default;
-    };
-    std::vector<Side> sides;
-    sides.reserve(4 * mesh.cell_count());
-    for (const Data::Block& block : mesh.blocks) {
-        each_face(mesh, block, [&](const CellFaceRef& face, std::vector<std::uint32_t>& nodes) {
-            std::ranges::partial_sort(nodes, nodes.begin() + 3);
-            sides.push_back({{nodes[0], nodes[1], nodes[2]}, static_cast<std::uint32_t>(nodes.size()), face});
-        });
-    }
-    std::ranges::sort(sides);
-    std::vector<InnerFace> inner;
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        if (sides[i].lowest == sides[i - 1].lowest && sides[i].corners == sides[i - 1].corners)
-            inner.push_back({{sides[i - 1].face, sides[i].face}});
-    }
-    return inner;
-}
 
 /// The faces of surfaces that are to be split, ascending, with their sides.
 std::vector<std::pair<CellFaceRef, FaceSide>> faces_to_split(const Data& mesh, std::span<const std::uint8_t> split) {
@@ -74,33 +50,20 @@ FaceSide opposite(FaceSide side) {
     }
 }
 
-/// The vertices of a face as its cell has them.
-std::vector<std::uint32_t> nodes_of(const Data& mesh, const CellFaceRef& face) {
-    const auto block = std::ranges::upper_bound(mesh.blocks, face.cell, {}, [](const Data::Block& b) { return b.first; }) - 1;
-    if (block->type == CellType::polyhedron) {
-        const std::uint64_t f = mesh.cell_faces[face.cell] + face.face;
-        return {mesh.face_nodes.begin() + static_cast<std::ptrdiff_t>(mesh.face_offsets[f]),
-                mesh.face_nodes.begin() + static_cast<std::ptrdiff_t>(mesh.face_offsets[f + 1])};
-    }
-    std::vector<std::uint32_t> nodes;
-    for (const std::uint8_t corner : faces_of(block->type)[face.face].corners()) nodes.push_back(mesh.nodes_of(face.cell)[corner]);
-    return nodes;
-}
-
 /// Parts of the cells around vertices; a corner is a place in cell_nodes.
 class Parts {
 public:
-    Parts(const Data& mesh, std::span<const InnerFace> faces)
+    Parts(const Data& mesh, std::span<const SharedFace> faces)
         : mesh_(mesh), on_split_(mesh.vertices.size(), 0), parts_(mesh.cell_nodes.size()), all_(0) {
-        for (const InnerFace& face : faces) {
+        for (const SharedFace& face : faces) {
             if (!face.is_split) continue;
             for (const std::uint32_t v : nodes_of(mesh, face.faces[0])) on_split_[v] = 1;
         }
-        for (const InnerFace& face : faces) {
+        for (const SharedFace& face : faces) {
             if (!face.is_split) join(parts_, face);
         }
         all_ = parts_;
-        for (const InnerFace& face : faces) {
+        for (const SharedFace& face : faces) {
             if (face.is_split) join(all_, face);
         }
     }
@@ -134,7 +97,7 @@ private:
         while (mesh_.cell_nodes[corner] != vertex) ++corner;
         return static_cast<std::uint32_t>(corner);
     }
-    void join(DisjointSets& sets, const InnerFace& face) const {
+    void join(DisjointSets& sets, const SharedFace& face) const {
         for (const std::uint32_t v : nodes_of(mesh_, face.faces[0])) {
             if (on_split_[v] != 0) sets.join(corner_of(face.faces[0].cell, v), corner_of(face.faces[1].cell, v));
         }
@@ -213,12 +176,12 @@ std::vector<std::uint32_t> sorted(std::vector<std::uint32_t> nodes) {
     return nodes;
 }
 
-void add_pairs(Data& mesh, std::span<const InnerFace> faces, std::span<const std::pair<CellFaceRef, FaceSide>> split) {
+void add_pairs(Data& mesh, std::span<const SharedFace> faces, std::span<const std::pair<CellFaceRef, FaceSide>> split) {
     const auto side_of = [&](const CellFaceRef& face) {
         const auto at = std::ranges::lower_bound(split, face, {}, [](const auto& s) { return s.first; });
         return at != split.end() && at->first == face ? at->second : FaceSide::none;
     };
-    for (const InnerFace& face : faces) {
+    for (const SharedFace& face : faces) {
         if (!face.is_split || sorted(nodes_of(mesh, face.faces[0])) == sorted(nodes_of(mesh, face.faces[1]))) continue;
         std::array<FaceSide, 2> sides{side_of(face.faces[0]), side_of(face.faces[1])};
         if (sides[0] == FaceSide::none) sides[0] = opposite(sides[1]);
@@ -266,12 +229,13 @@ std::vector<std::uint8_t> faults_of(const VolumeMesh& mesh) {
 Result<VolumeMesh> split_along(const VolumeMesh& mesh, std::span<const std::uint8_t> split) {
     if (has_nodes_between_corners(*mesh)) return second_order_stays();
     const auto to_split = faces_to_split(*mesh, split);
-    std::vector<InnerFace> faces = inner_faces(*mesh);
+    std::vector<SharedFace> faces;
+    for (const InnerFace& face : inner_faces(*mesh)) faces.push_back({face, false});
     const auto is_to_split = [&](const CellFaceRef& face) {
         const auto at = std::ranges::lower_bound(to_split, face, {}, [](const auto& s) { return s.first; });
         return at != to_split.end() && at->first == face;
     };
-    for (InnerFace& face : faces) face.is_split = is_to_split(face.faces[0]) || is_to_split(face.faces[1]);
+    for (SharedFace& face : faces) face.is_split = is_to_split(face.faces[0]) || is_to_split(face.faces[1]);
     std::vector<std::uint32_t> made_from;
     const std::vector<std::uint32_t> of_corner = Parts(*mesh, faces).vertices(made_from);
     if (made_from.empty()) return mesh;

@@ -49,6 +49,7 @@ struct MeshNeeds {
     bool face_sets, face_sides, edge_sets, node_sets;
     bool point_values, cell_values;
     std::uint16_t longest_name;  ///< characters; 0: as long as they are
+    bool network = false;        ///< volumes and centres of cells, and connections, are wanted
 };
 
 /// All rows, ascending by target.

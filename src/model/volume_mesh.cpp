@@ -228,6 +228,17 @@ Result<void> check_split(const Data& d) {
     return {};
 }
 
+Result<void> check_network(const Data& d) {
+    if (d.network.empty()) return {};
+    if (d.network.volumes.size() != d.cell_count() || d.network.centres.size() != d.cell_count())
+        return bad_mesh("volumes and centres do not match the cells:", d.network.volumes.size());
+    for (std::size_t i = 0; i < d.network.connections.size(); ++i) {
+        const auto& c = d.network.connections[i];
+        if (c.from >= c.to || c.to >= d.cell_count()) return bad_mesh("no two cells: connection", i);
+    }
+    return {};
+}
+
 Result<void> check_places_and_attributes(const Data& d) {
     if (!d.vertex_places.empty() && d.vertex_places.size() != d.vertices.size())
         return bad_mesh("places of vertices:", d.vertex_places.size());
@@ -268,7 +279,7 @@ const char* to_string(FaceSide side) {
 
 Result<VolumeMesh> VolumeMesh::make(VolumeMeshData data) {
     for (const auto check : {check_vertices, check_blocks, check_cells, check_polyhedra, check_neighbours, check_sets, check_split,
-                             check_places_and_attributes}) {
+                             check_places_and_attributes, check_network}) {
         auto checked = check(data);
         if (!checked) return std::move(checked).why();
     }
@@ -276,6 +287,8 @@ Result<VolumeMesh> VolumeMesh::make(VolumeMeshData data) {
 }
 
 const VolumeMeshData::Block& VolumeMesh::block_of(std::uint32_t cell) const { return block_at(data_, cell); }
+
+std::uint32_t VolumeMesh::face_count(std::uint32_t cell) const { return static_cast<std::uint32_t>(geomend::face_count(data_, cell)); }
 
 std::vector<std::uint32_t> VolumeMesh::nodes_of(const CellFaceRef& face) const {
     std::vector<std::uint32_t> nodes;

@@ -12,6 +12,7 @@
 #include "base/result.h"
 #include "base/vec3.h"
 #include "model/attribute.h"
+#include "model/cell_network.h"
 #include "model/coordinate_system.h"
 #include "model/feature.h"
 #include "model/objects.h"
@@ -91,6 +92,7 @@ struct VolumeMeshData {
     std::vector<VertexPlace> vertex_places;  ///< one per vertex, or empty where it is not known
 
     std::vector<Attribute> attributes;  ///< over vertices (point), cells (cell), or the whole (object)
+    CellNetwork network;                ///< where a target asked for it; else empty
 
     std::size_t cell_count() const { return cell_offsets.size() - 1; }
     std::span<const std::uint32_t> nodes_of(std::size_t cell) const {
@@ -112,6 +114,8 @@ public:
 
     /// The block of a cell. Logarithmic in the number of blocks. \pre cell < cell_count()
     const VolumeMeshData::Block& block_of(std::uint32_t cell) const;
+    /// How many faces a cell has. \pre cell < cell_count()
+    std::uint32_t face_count(std::uint32_t cell) const;
     /// The vertices of a face, wound outwards. \pre a face of this mesh
     std::vector<std::uint32_t> nodes_of(const CellFaceRef& face) const;
 

@@ -111,5 +111,23 @@ TEST(Clients, TetGenReadsItsFilesAgain) {
     }
 }
 
+TEST(Clients, OpenFoamChecksTheTopologyOfItsMesh) {
+    if (!is_installed("checkMesh")) GTEST_SKIP() << "checkMesh (openfoam) is not installed";
+    const TemporaryFolder folder;
+    write(two_boxes(false), "openfoam", folder / "case.foam");
+    std::filesystem::create_directory(folder / "system");
+    for (const std::string name : {"controlDict", "fvSchemes", "fvSolution"}) {
+        write_file(folder / "system" / name,
+                   "FoamFile { version 2.0; format ascii; class dictionary; object " + name +
+                       "; }\napplication x; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1; "
+                       "writeControl timeStep; writeInterval 1; gradSchemes{} divSchemes{} laplacianSchemes{} "
+                       "interpolationSchemes{} snGradSchemes{} ddtSchemes{} solvers{}\n");
+    }
+    const std::string log = run(folder, "WM_PROJECT_DIR=/usr/share/openfoam timeout 60 checkMesh -allTopology");
+    EXPECT_EQ(count_of(log, "***"), 0u) << log;
+    EXPECT_EQ(count_of(log, "Upper triangular ordering OK."), 1u) << log;
+    EXPECT_EQ(count_of(log, "hexahedra:     2"), 1u) << log;
+}
+
 }  // namespace
 }  // namespace geomend::test
