@@ -15,6 +15,7 @@
 #include "formats/roff/roff.h"
 #include "formats/surfaces/surfaces.h"
 #include "formats/vtk/vtk.h"
+#include "formats/wells/wells.h"
 
 namespace geomend {
 
@@ -23,7 +24,7 @@ namespace {
 std::vector<Format> gather() {
     std::vector<Format> all;
     for (const auto rows : {gocad::formats(), vtk::formats(), gmsh::formats(), horizon::formats(), grdecl::formats(), eclipse::formats(),
-                            roff::formats(), surfaces::formats(), ringmesh::formats(), meshes::formats()}) {
+                            roff::formats(), surfaces::formats(), ringmesh::formats(), meshes::formats(), wells::formats()}) {
         all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;

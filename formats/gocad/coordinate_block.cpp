@@ -7,8 +7,26 @@ namespace geomend::gocad {
 
 namespace {
 
-void take_three(std::array<std::string, 3>& names, TextCursor& line) {
-    for (std::string& name : names) name = line.quoted_token();
+/// Three words behind a keyword. Fewer, more or a second such line are reported.
+void take_three(std::string_view keyword, std::array<std::string, 3>& names, TextCursor& line, ObjectLog& log) {
+    const std::string word(keyword);
+    if (!names[0].empty()) {
+        log.add(
+            "F166", line.line(), 1, [&] { return "a second " + word + " in this coordinate system: it takes the place of the first"; },
+            word + " again");
+        names = {};
+    }
+    std::size_t given = 0;
+    for (std::string& name : names) {
+        bool quoted = false;
+        name = line.quoted_token(&quoted);
+        given += quoted || !name.empty() ? 1 : 0;
+    }
+    if (!line.at_line_end()) given = 4;
+    if (given != names.size())
+        log.add(
+            "F166", line.line(), 1,
+            [&] { return "expected three words after " + word + ", found " + (given > 3 ? "more" : std::to_string(given)); }, word);
 }
 
 std::string unquoted(std::string_view text) {
@@ -43,8 +61,8 @@ void read_coordinate_block(TextCursor& line, CoordinateSystem& crs, ObjectLog& l
         if (is("NAME")) crs.name = unquoted(line.rest());
         else if (is("PROJECTION")) crs.projection = unquoted(line.rest());
         else if (is("DATUM")) crs.datum = unquoted(line.rest());
-        else if (is("AXIS_NAME")) take_three(crs.axis_names, line);
-        else if (is("AXIS_UNIT")) take_three(crs.axis_units, line);
+        else if (is("AXIS_NAME")) take_three(keyword, crs.axis_names, line, log);
+        else if (is("AXIS_UNIT")) take_three(keyword, crs.axis_units, line, log);
         else if (is("ZPOSITIVE")) {
             const std::uint32_t column = line.column();
             const std::string_view word = line.quoted_token();

@@ -139,6 +139,7 @@ private:
         ObjectFrame frame;
         while (p != line_end && is_blank(*p)) ++p;
         frame.type = first_word(p, line_end);
+        frame.version = trimmed({p + frame.type.size(), static_cast<std::size_t>(line_end - p) - frame.type.size()});
         frame.line = line_;
         frame.body_line = line_ + 1;
         frame.body = {next_, 0};

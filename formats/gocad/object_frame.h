@@ -17,6 +17,7 @@ namespace geomend::gocad {
 /// One object of a file, found but not yet read. The views point into the file's bytes.
 struct ObjectFrame {
     std::string_view type;        ///< the word after GOCAD, as written; empty where it is missing
+    std::string_view version;     ///< what follows the type on its line
     std::string_view body;        ///< from the line after `GOCAD ...` up to the END line; groups: up to BEGIN_MEMBERS
     std::string_view tail;        ///< groups: between END_MEMBERS and END
     std::uint64_t line = 0;       ///< of `GOCAD ...`

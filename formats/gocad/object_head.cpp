@@ -61,10 +61,19 @@ std::optional<std::string_view> name_of(std::string_view entry) {
 
 void ObjectHead::annotate(std::string key, std::string value) { info.annotations.push_back({std::move(key), std::move(value)}); }
 
-void ObjectHead::header_entry(std::string_view entry) {
+void ObjectHead::header_entry(std::string_view entry, std::uint64_t line) {
     entry = trimmed(entry);
     if (entry.empty()) return;
     const auto name = name_of(entry);
+    if (name && name->empty()) scanner_.log.add("F166", line, 1, "the name in this HEADER is empty", "name");
+    if (entry.find(':') == std::string_view::npos && entry.front() != '#') {
+        scanner_.log.add(
+            "F166", line, 1,
+            [&] {
+                return "expected 'key:value' in this HEADER, found '" + std::string(entry.substr(0, 60)) + "': it is kept as it stands";
+            },
+            "entry");
+    }
     if (name && !name_found_) {
         info.name = *name;
         name_found_ = true;
@@ -74,14 +83,18 @@ void ObjectHead::header_entry(std::string_view entry) {
 
 void ObjectHead::read_header(TextCursor& line) {
     const std::uint64_t first = line.line();
+    // Wells have one for their status, too.
+    if (++headers_ > 1 && !same_word(scanner_.frame.type, "Well"))
+        scanner_.log.add("F166", first, 1, "this object has a HEADER already: the lines of both are kept, the name is that of the first",
+                         "HEADER");
     std::string_view rest = line.rest();
     if (!rest.empty() && rest.front() == '{') rest.remove_prefix(1);
-    else if (!rest.empty()) return header_entry(rest);  // a brace is missing: take it as a line of its own
+    else if (!rest.empty()) return header_entry(rest, first);  // a brace is missing: take it as a line of its own
     for (;;) {
         rest = trimmed(rest);
         const bool closes = !rest.empty() && rest.back() == '}';
         if (closes) rest.remove_suffix(1);
-        header_entry(rest);
+        header_entry(rest, line.line());
         if (closes) return;
         const char* next = line.next_line_begin();
         const std::uint64_t number = line.line() + 1;
@@ -148,7 +161,7 @@ bool ObjectHead::take_known(std::string_view keyword, TextCursor& line) {
     if (is("HEADER")) {
         read_header(line);
     } else if (is("HDR")) {
-        header_entry(line.rest());
+        header_entry(line.rest(), line.line());
     } else if (is("GOCAD_ORIGINAL_COORDINATE_SYSTEM")) {
         read_coordinate_block(line, info.crs, scanner_.log);
     } else if (is("GEOLOGICAL_FEATURE")) {

@@ -59,7 +59,7 @@ public:
 
 private:
     void read_header(TextCursor& line);
-    void header_entry(std::string_view entry);
+    void header_entry(std::string_view entry, std::uint64_t line);
     void read_class_header(std::string_view keyword, TextCursor& line);
     bool region_line(std::string_view keyword, TextCursor& line);
     std::string whole_record(std::string_view keyword, TextCursor& line);
@@ -68,6 +68,7 @@ private:
     ObjectScanner& scanner_;
     bool name_found_ = false;
     std::size_t kept_records_ = 0;
+    std::size_t headers_ = 0;
 };
 
 // --- writing ---

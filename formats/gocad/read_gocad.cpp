@@ -117,6 +117,16 @@ private:
 
     static void read_object(Part& part, const ObjectFrame& frame) {
         ObjectScanner& scanner = *part.scanner;
+        double version = 1;  // some programs write none, or 1.0
+        if (!frame.version.empty() && (parse_real(frame.version, version) != NumberStatus::ok || version < 1 || version >= 2)) {
+            scanner.log.add(
+                "F166", frame.line, 0,
+                [&] {
+                    return "version '" + std::string(frame.version.substr(0, 20)) + "' of a " + std::string(frame.type) +
+                           " is not known: it is read as version 1";
+                },
+                "version");
+        }
         if (scanner.stopped()) {
             part.failure = scanner.stop();
         } else if (same_word(frame.type, "Model3d")) {

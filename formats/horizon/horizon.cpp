@@ -7,8 +7,10 @@
 #include "formats/horizon/irap_grid.h"
 #include "formats/horizon/irap_points.h"
 #include "formats/horizon/lines_formats.h"
+#include "formats/horizon/named_points.h"
 #include "formats/horizon/petrel_points.h"
 #include "formats/horizon/zmap.h"
+#include "formats/horizon/zmap_lines.h"
 
 namespace geomend::horizon {
 
@@ -22,7 +24,11 @@ constexpr std::string_view cps3_lines_extensions[] = {".cps3lines", ".flt"};
 constexpr std::string_view petrel_extensions[] = {".petrelpoints"};
 constexpr std::string_view polygons_extensions[] = {".pol", ".irapl"};
 
-constexpr std::string_view tried = "fixtures only: no real file was found";
+constexpr std::string_view zmap_lines_extensions[] = {".zmaplines"};
+constexpr std::string_view table_extensions[] = {".csv"};
+constexpr std::string_view ijxyz_extensions[] = {".ijxyz"};
+
+constexpr std::string_view tried = "real files", untried = "fixtures only: no real file was found";
 constexpr std::string_view grid_note =
     "substance: second and further objects, other attributes, rotation where it has none; identity: role, units, coordinate system, sign "
     "of z";
@@ -72,17 +78,23 @@ constexpr std::array rows = {
     Format{"zmap", "horizon", "ZMAP+ grid", zmap_extensions, sniff_zmap, read_zmap, write_zmap, WriterWants::objects,
            grid_keeps(Keeping::yes, Keeping::yes, Keeping::partly), grid_note, tried, grid_options},
     Format{"cps3", "horizon", "CPS-3 grid", cps3_extensions, sniff_cps3_grid, read_cps3_grid, write_cps3_grid, WriterWants::objects,
-           grid_keeps(Keeping::yes, Keeping::yes, Keeping::yes), grid_note, tried, grid_options},
+           grid_keeps(Keeping::yes, Keeping::yes, Keeping::yes), grid_note, untried, grid_options},
     Format{"cps3-lines", "horizon", "CPS-3 lines", cps3_lines_extensions, sniff_cps3_lines, read_cps3_lines, write_cps3_lines,
-           WriterWants::objects, lines_keeps(Keeping::partly), plain_note, tried, line_options},
+           WriterWants::objects, lines_keeps(Keeping::partly), plain_note, untried, line_options},
     Format{"irap-points", "horizon", "IRAP/RMS points (attributes with --option attributes=rms)", points_extensions, sniff_irap_points,
            read_irap_points, write_irap_points, WriterWants::objects, points_keeps(Keeping::partly, Keeping::no), plain_note, tried,
            irap_points_options},
     Format{"petrel-points", "horizon", "Petrel points with attributes", petrel_extensions, sniff_petrel_points, read_petrel_points,
            write_petrel_points, WriterWants::objects, points_keeps(Keeping::yes, Keeping::partly),
-           "substance: second and further objects; identity: name, role, units of attributes, sign of z", tried, line_options},
+           "substance: second and further objects; identity: name, role, units of attributes, sign of z", untried, line_options},
     Format{"irap-polygons", "horizon", "IRAP/RMS polygons", polygons_extensions, sniff_irap_polygons, read_irap_polygons,
            write_irap_polygons, WriterWants::objects, lines_keeps(Keeping::no), plain_note, tried, line_options},
+    Format{"zmap-lines", "horizon", "ZMAP+ lines and points", zmap_lines_extensions, sniff_zmap_lines, read_zmap_lines, nullptr,
+           WriterWants::objects, lines_keeps(Keeping::partly), "read only", tried, line_options},
+    Format{"points-table", "horizon", "points as a table with a line of names", table_extensions, sniff_named_points, read_named_points,
+           nullptr, WriterWants::objects, points_keeps(Keeping::yes, Keeping::no), "read only", tried, line_options},
+    Format{"ijxyz", "horizon", "maps by inline and crossline (IJXYZ)", ijxyz_extensions, sniff_ijxyz, read_ijxyz, nullptr,
+           WriterWants::objects, grid_keeps(Keeping::no, Keeping::no, Keeping::partly), "read only", untried, line_options},
 };
 
 }  // namespace

@@ -228,8 +228,7 @@ int sniff_zmap(std::string_view head, std::string_view) {
         const std::size_t comma = line.find(',');
         if (comma == std::string_view::npos) return 0;
         const std::string_view kind = trimmed(line.substr(comma + 1, line.find(',', comma + 1) - comma - 1));
-        if (same_word(kind, "GRID")) return 98;
-        return same_word(kind, "DATA") || same_word(kind, "FAULT") || same_word(kind, "POLY") ? 60 : 0;
+        return same_word(kind, "GRID") ? 98 : 0;
     }
     return 0;
 }

@@ -55,12 +55,12 @@ private:
     std::optional<Failure> failure_;
 };
 
-bool is_comment(std::string_view line) { return line.starts_with('!') || line.starts_with('+'); }
+bool is_remark(std::string_view line) { return line.starts_with('!') || line.starts_with('+'); }
 
 /// Goes to the next line that is no comment; comments are kept.
 bool next_header_line(TextCursor& cursor, ZmapHeader& header) {
     while (cursor.next_line()) {
-        if (!is_comment(cursor.line_text())) return true;
+        if (!is_remark(cursor.line_text())) return true;
         header.comments.emplace_back(cursor.line_text());
     }
     return false;

@@ -86,7 +86,8 @@ bool Parser::whole() {
     const bool open_section = !file_.sections.empty() && file_.sections.back().arrays.empty() && file_.sections.back().count != 0;
     // Old writers announce POINT_DATA and CELL_DATA also where there is none.
     if (open_section && !open_line) note("F119", "the file ends after POINT_DATA or CELL_DATA: no array follows", end);
-    else if (open_line) note("F101", "the file ends without a line end: its last value may be cut", end);
+    else if (open_line && open_section) note("F101", "the file ends without a line end: it may have been cut short", end);
+    else if (open_line) note("F165", "the file ends without a line end, behind all that it states: its last value may be cut", end);
     return true;
 }
 
@@ -494,13 +495,24 @@ bool Parser::scalars(LegacyArray array) {
     return array_values(array, "SCALARS") && keep(std::move(array));
 }
 
+// Parts of the whole as VTK makes bytes of them: rounded, and from 0 to 255.
+static std::vector<std::uint8_t> bytes_of_shares(const std::vector<float>& shares) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(shares.size());
+    for (const float share : shares)
+        bytes.push_back(static_cast<std::uint8_t>(std::clamp(std::floor(double{share} * 255.0 + 0.5), 0.0, 255.0)));
+    return bytes;
+}
+
 bool Parser::color_scalars(LegacyArray array) {
     array.role = LegacyRole::color_scalars;
     array.name = percent_decoded(s_.word());
     array.tuples = file_.sections.back().count;
     if (!component_count(array)) return false;
     array.type = s_.binary ? LegacyType::unsigned_char : LegacyType::float32;  // bytes, or 0..1 in text
-    return array_values(array, "COLOR_SCALARS") && keep(std::move(array));
+    if (!array_values(array, "COLOR_SCALARS")) return false;
+    if (const auto* shares = std::get_if<std::vector<float>>(&array.values)) array.values = bytes_of_shares(*shares);
+    return keep(std::move(array));
 }
 
 bool Parser::lookup_table() {

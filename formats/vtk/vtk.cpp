@@ -18,8 +18,8 @@ constexpr Names pvtu{".pvtu"}, pvtp{".pvtp"}, pvts{".pvts"}, pvti{".pvti"}, pvtr
 template <int which>
 int sniff(std::string_view head, std::string_view) {
     constexpr std::string_view types[] = {
-        "UnstructuredGrid",  "PolyData",  "StructuredGrid",  "ImageData",  "RectilinearGrid", "vtkMultiBlockDataSet",
-        "PUnstructuredGrid", "PPolyData", "PStructuredGrid", "PImageData", "PRectilinearGrid"};
+        "UnstructuredGrid",  "PolyData",  "StructuredGrid",  "ImageData",  "RectilinearGrid",  "vtkMultiBlockDataSet",
+        "PUnstructuredGrid", "PPolyData", "PStructuredGrid", "PImageData", "PRectilinearGrid", "Collection"};
     return sniff_xml(head, types[which]);
 }
 
@@ -109,7 +109,7 @@ const std::array rows = {
                one_note, "fixtures and clients: no real file was found"}),
     of_family({"vtm", "vtk", "VTK XML multi-block: a block per corner, line, surface and region", vtm, sniff<5>, read_vtk_xml, write_vtm,
                WriterWants::brep, block_keeps(), wells_note, "real files and clients"}),
-    of_family({"pvd", "vtk", "ParaView series in time: a VTK XML file per report step", pvd, nullptr, nullptr, write_pvd,
+    of_family({"pvd", "vtk", "ParaView series in time: a VTK XML file per report step", pvd, sniff<11>, read_vtk_xml, write_pvd,
                WriterWants::objects, cell_keeps(), "substance: models; markers, zones and curves of wells",
                "fixtures and clients: made from restart files"}),
     of_family({"pvtu", "vtk", "VTK XML unstructured grid in pieces", pvtu, sniff<6>, read_vtk_xml, nullptr, WriterWants::objects,

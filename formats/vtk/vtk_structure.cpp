@@ -114,10 +114,36 @@ void put(Json& j, const StructuredGrid& grid) {
     if (!sets.empty()) j["face_sets"] = std::move(sets);
 }
 
+constexpr std::string_view ghost_array = "vtkGhostType";
+constexpr std::uint8_t hidden_point = 2;
+
+/// Samples whose height is missing, as VTK marks what is not to be drawn; empty where there are none.
+std::vector<std::uint8_t> hidden_samples(const Raster& raster) {
+    if (raster.height_attribute >= raster.info.attributes.size()) return {};
+    const Attribute& height = raster.info.attributes[raster.height_attribute];
+    if (height.components != 1 || value_count(height) != sample_count(raster.dims)) return {};
+    std::vector<std::uint8_t> marks(value_count(height), 0);
+    bool any = false;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        const double value = value_as_double(height, i);
+        if (std::isfinite(value) && !is_no_data(height, value)) continue;
+        marks[i] = hidden_point;
+        any = true;
+    }
+    return any ? marks : std::vector<std::uint8_t>();
+}
+
+/// Whether samples without a height are marked for VTK: where nothing of the raster's own is called like the marks.
+bool hides_heights(const Raster& raster) {
+    return find_attribute(raster.info.attributes, std::string(ghost_array), AttributeLocation::point) == nullptr &&
+           !hidden_samples(raster).empty();
+}
+
 void put(Json& j, const Raster& raster) {
     j["origin"] = point_json(raster.origin);
     j["step"] = Json::array({point_json(raster.step[0]), point_json(raster.step[1]), point_json(raster.step[2])});
     if (raster.height_attribute < raster.info.attributes.size()) j["height"] = raster.info.attributes[raster.height_attribute].name;
+    if (hides_heights(raster)) j["hidden"] = true;
 }
 
 void put(Json&, const Well&) {}
@@ -289,6 +315,9 @@ void take(const Json& j, Raster& raster) {
             raster.step = step;
         }
     }
+    if (member(j, "hidden") == Json(true))
+        std::erase_if(raster.info.attributes,
+                      [](const Attribute& a) { return a.name == ghost_array && a.location == AttributeLocation::point; });
     const std::vector<Attribute>& attributes = raster.info.attributes;
     for (std::uint32_t i = 0; i < attributes.size(); ++i) {
         const Attribute& a = attributes[i];
@@ -411,6 +440,8 @@ std::vector<Attribute> structure_arrays(const Object& object) {
             arrays.push_back(array(entity_array, AttributeLocation::cell, std::move(entity)));
         }
     }
+    if (const auto* raster = std::get_if<Raster>(&object); raster != nullptr && hides_heights(*raster))
+        arrays.push_back(array(ghost_array, AttributeLocation::point, hidden_samples(*raster)));
     for (const NamedSet& set : info_of(object).sets) {
         std::vector<std::uint8_t> marks(things_at(object, set.location), 0);
         for (const std::uint32_t m : set.members) {

@@ -263,6 +263,7 @@ Result<Dataset> read_document(const Input& input, const ReadOptions& options, Fi
         return unreadable("F012", document->where(root), "expected a VTKFile element, found " + std::string(root.name.substr(0, 40)));
     const std::string_view type = document->raw_attribute(root, "type");
     if (type == "vtkMultiBlockDataSet") return read_multiblock(*document, input, options, chain);
+    if (type == "Collection") return read_collection(*document, input, options, chain);
     bool parallel = false;
     const auto kind = kind_of_type(type, parallel);
     if (!kind)

@@ -7,7 +7,7 @@
 namespace geomend::vtk {
 
 /// Reads any VTK XML file: .vtu .vtp .vts .vti .vtr, the parallel forms of these (.pvtu, ...) with their pieces, and
-/// .vtm with its blocks. Source of the rules: the VTK file formats page, and files that VTK 9.1 writes.
+/// .vtm with its blocks and .pvd with its moments. Source of the rules: the VTK file formats page, and files that VTK 9.1 writes.
 /// Failures: see decode_array; F010 where a piece or block is missing; F017 where there is nothing inside.
 Result<Dataset> read_vtk_xml(const Input& input, const ReadOptions& options);
 
@@ -24,6 +24,9 @@ struct FileChain {
 Result<Dataset> read_chained(const Input& input, const ReadOptions& options, FileChain chain);
 /// The blocks of a .vtm.
 Result<Dataset> read_multiblock(const XmlDocument& document, const Input& input, const ReadOptions& options, FileChain chain);
+/// The files of a .pvd, at all moments: parts whose geometry stays are one object, whose attributes are those of each moment
+/// (Attribute::time; the time of ParaView as days) but for those that stay as they are.
+Result<Dataset> read_collection(const XmlDocument& document, const Input& input, const ReadOptions& options, FileChain chain);
 /// Opens a file that this one names; where only its folder is missing, the one beside, with a finding (F131). Else F010
 /// at that place.
 Result<Input> open_named(const XmlDocument& document, const XmlElement& element, const Input& input, const std::string& file,

@@ -154,7 +154,11 @@ constexpr std::array catalogue = {
     CodeInfo{"F161", info, "a grid has no geometry: only its records were checked"},
     CodeInfo{"F162", info, "the boundary representation of a grid was not judged, or not wholly",
              OtherSeverity{warning, "the attribute or the layers that were asked for are not there"}},
+    CodeInfo{"F163", info, "a well states no measured depths: its logs stand along the length of its path"},
     CodeInfo{"F164", warning, "numbers of elements are used more than once: the elements are numbered anew"},
+    CodeInfo{"F165", warning, "all that a file states is there, but no last line end: its last number may have lost digits"},
+    CodeInfo{"F166", warning,
+             "the head of an object is malformed: a second HEADER, a line that is no entry, an empty name, a version that is not known"},
     // Geology.
     CodeInfo{"G01", warning, "a name is used more than once: for regions, layers, fault blocks or surfaces",
              OtherSeverity{info, "the regions are parts of one group"}},

@@ -125,7 +125,10 @@ constexpr std::array unmended = {
     Unmended{"F160", reading},
     Unmended{"F161", reading},
     Unmended{"F162", reading},
+    Unmended{"F163", reading},
     Unmended{"F164", reading},
+    Unmended{"F165", reading},
+    Unmended{"F166", reading},
     // Geology.
     Unmended{"G01", geology},
     Unmended{"G02", geology},

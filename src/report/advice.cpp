@@ -136,7 +136,10 @@ constexpr std::array advice = {
     Advice{"F150", "see what is lost; convert asks for --lossy where it is substance"},
     Advice{"F153", "geomend repair --step minpv makes them inactive"},
     Advice{"F161", "give the file that holds COORD and ZCORN"},
+    Advice{"F163", "add a log MD with the measured depths"},
     Advice{"F164", "number the elements once through, as Gmsh does when it saves the mesh"},
+    Advice{"F165", "compare the last number with the source, and end the file with a line end"},
+    Advice{"F166", "correct the head of the object; writing the file anew puts it in order"},
     // Geology.
     Advice{"G01", "rename one of them"},
     Advice{"G02", "correct its list"},

@@ -134,6 +134,9 @@ CASES = {
     "F160": ({"a.wl": "GOCAD Well 1\nHEADER {\nname:w\n}\nWREF 0 0 0\nEND\n"}, "validate a.wl"),
     "F161": ({"a.grdecl": "SPECGRID\n 1 1 1 1 F /\nPORO\n 0.2 /\n"}, "validate a.grdecl"),
     "F162": ({"a.grdecl": DECK}, "validate a.grdecl --option as=brep --option regions=NONE"),
+    "F163": ({"a.w": "1.0\nUndefined\nA 1 2\n1\nGR API lin\n1 2 3 75\n1 2 4 80\n"}, "validate a.w"),
+    "F165": ({"a.vtk": VTK % "POLYDATA" + "POINTS 3 double\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2"}, "validate a.vtk"),
+    "F166": ({"a.ts": tsurf(TRIANGLE, head="name:a\nno entry")}, "validate a.ts"),
 }
 
 

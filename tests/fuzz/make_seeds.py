@@ -13,13 +13,15 @@ target = corpus / 'whole_path'
 program = pathlib.Path(sys.argv[1]).resolve()
 
 # Leading bytes that choose for the target of a reader, and the extensions that tell the formats apart.
-readers = {'eclipse': 1, 'gmsh': 0, 'gocad': 0, 'grdecl': 1, 'horizon': 2, 'ringmesh': 1, 'roff': 0, 'surface': 1, 'vtk_legacy': 0, 'vtk_xml': 0}
+readers = {'eclipse': 1, 'gmsh': 0, 'gocad': 0, 'grdecl': 1, 'horizon': 2, 'ringmesh': 1, 'roff': 0, 'surface': 1, 'vtk_legacy': 0, 'vtk_xml': 0, 'well': 1}
 extensions = {'bgrdecl': '.bgrdecl', 'egrid': '.egrid', 'fegrid': '.fegrid', 'fgrid': '.fgrid', 'finit': '.finit', 'funrst': '.funrst',
               'grid': '.grid', 'init': '.init', 'long_count': '.egrid', 'unrst': '.unrst', 'deck': '.data', 'cps3': '.cps3',
               'cps3_lines': '.cps3lines', 'irap_grid': '.irap', 'irap_grid_binary': '.gri', 'irap_grid_binary_little': '.gri',
               'irap_points': '.irapp', 'irap_polygons': '.pol', 'petrel_points': '.petrelpoints', 'rms_points': '.rmsattr', 'zmap': '.zmap',
               'zmap_implied': '.zmap', 'binary': '.roff', 'text': '.roffasc', 'stl_text': '.stl', 'stl_binary': '.stl', 'obj': '.obj', 'ply_text': '.ply',
-              'ply_little': '.ply', 'ply_big': '.ply', 'off': '.off'}
+              'ply_little': '.ply', 'ply_big': '.ply', 'off': '.off',
+              'zmap_lines': '.zmaplines', 'points_table': '.csv', 'ijxyz': '.ijxyz',
+              'rms_wells': '.rmswell', 'petrel_path': '.dev', 'path_table': '.dev', 'resinsight_path': '.dev'}
 
 deck = """SPECGRID
  2 2 3 1 F /

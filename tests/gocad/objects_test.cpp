@@ -345,5 +345,31 @@ TEST(GocadText, IsToldByItsFirstLine) {
     EXPECT_EQ(row.sniff("$MeshFormat\n", ""), 0);
 }
 
+// None of the real files has any of these.
+TEST(Gocad, MalformedHeadsAreReportedWithTheirLine) {
+    const std::string body = "VRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nTRGL 1 2 3\nEND\n";
+    const std::string header = "HEADER {\nname:a\n}\n",
+                      frame = "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\nAXIS_NAME \"X\" \"Y\" \"Z\"\n";
+    const std::string ends = "END_ORIGINAL_COORDINATE_SYSTEM\n";
+    const auto line_of = [&](const std::string& head) -> std::uint64_t {
+        const auto d = read_text(head + body);
+        if (!d.ok()) return 1000;
+        EXPECT_LE(d->findings.size(), 1u);
+        for (const Finding& f : d->findings) {
+            if (f.code == "F166") return f.where.line;
+        }
+        return 0;
+    };
+    EXPECT_EQ(line_of("GOCAD TSurf 1\n" + header + frame + ends), 0u);
+    EXPECT_EQ(line_of("GOCAD TSurf\n" + header), 0u);
+    EXPECT_EQ(line_of("GOCAD TSurf 3\n" + header), 1u);
+    EXPECT_EQ(line_of("GOCAD TSurf one\n" + header), 1u);
+    EXPECT_EQ(line_of("GOCAD TSurf 1\n" + header + header), 5u);
+    EXPECT_EQ(line_of("GOCAD TSurf 1\nHEADER {\nname:\n}\n"), 3u);
+    EXPECT_EQ(line_of("GOCAD TSurf 1\nHEADER {\nname:a\nnonsense\n}\n"), 4u);
+    EXPECT_EQ(line_of("GOCAD TSurf 1\n" + header + frame + "AXIS_NAME E N U\n" + ends), 8u);
+    EXPECT_EQ(line_of("GOCAD TSurf 1\n" + header + "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nAXIS_NAME \"X\" \"Y\"\n" + ends), 6u);
+}
+
 }  // namespace
 }  // namespace geomend::test

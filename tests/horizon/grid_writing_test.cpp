@@ -175,6 +175,7 @@ TEST(GridWriting, NothingToWriteIsAFailure) {
     Dataset d;
     d.objects.emplace_back(Surface{});
     for (const Format& row : horizon::formats()) {
+        if (row.write == nullptr) continue;
         const auto w = write(row.name, d);
         ASSERT_FALSE(w) << row.name;
         EXPECT_EQ(w.why().kind, FailureKind::cannot_hold) << row.name;

@@ -157,11 +157,21 @@ TEST(LegacyRead, BytesAfterTheLastRecordAreAFinding) {
 }
 
 TEST(LegacyRead, AFileWithoutItsLastLineEndMayBeCut) {
-    for (const char* rest : {"0 0 0.25", "0 0 0\nPOINT_DATA 1"}) {
+    // F165: all that is stated is there, so that the file can be converted.
+    for (const auto& [rest, code] : {std::pair("0 0 0.25", "F165"), std::pair("0 0 0\nPOINT_DATA 1", "F101")}) {
         const Dataset data = must_read(head + "DATASET POLYDATA\nPOINTS 1 float\n" + rest);
         ASSERT_EQ(data.findings.size(), 1u);
-        EXPECT_EQ(data.findings[0].code, "F101");
+        EXPECT_EQ(data.findings[0].code, code);
     }
+}
+
+// As VTK 9.1 reads them: bytes, rounded.
+TEST(LegacyRead, ColoursOfTextFilesAreBytes) {
+    const Dataset data =
+        must_read(head + "DATASET POLYDATA\nPOINTS 2 float\n0 0 0\n1 0 0\nPOINT_DATA 2\nCOLOR_SCALARS c 3\n0 0.5 1\n0.2 0.7 0.0019\n");
+    const auto& attributes = info_of(data.objects.at(0)).attributes;
+    ASSERT_EQ(attributes.size(), 1u);
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(attributes[0].values), (std::vector<std::uint8_t>{0, 128, 255, 51, 178, 0}));
 }
 
 // As old writers end their files, whose lines are whole.

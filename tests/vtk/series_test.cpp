@@ -48,5 +48,100 @@ TEST(Series, has_a_file_per_moment_with_what_holds_then) {
     EXPECT_EQ(value_as_double(*find_attribute(attributes, "FIP_OIL", AttributeLocation::cell), 0), 7);
 }
 
+TEST(Series, comes_back_as_one_object_with_the_values_of_each_moment) {
+    CellMesh mesh = one_cell();
+    add(mesh, "PORO", 0.2, nullptr, {});
+    add(mesh, "FIP_OIL_20200101", 5, "2020-01-01", 0);
+    add(mesh, "FIP_OIL_20200201", 7, "2020-02-01", 31.5);
+    Dataset dataset;
+    dataset.objects.emplace_back(std::move(mesh));
+    const TemporaryFolder folder;
+    OutputSet out(folder / "s.pvd");
+    ASSERT_TRUE(vtk::write_pvd(dataset, out, {}).ok());
+    ASSERT_TRUE(out.commit().ok());
+    const auto back = vtk::read_vtk_xml(*Input::open((folder / "s.pvd").string()), {});
+    ASSERT_TRUE(back.ok()) << back.why().error.message;
+    ASSERT_EQ(back->objects.size(), 1u);
+    const auto& attributes = info_of(back->objects[0]).attributes;
+    ASSERT_EQ(attributes.size(), 3u);
+    EXPECT_EQ(attributes[0].name, "PORO");
+    EXPECT_FALSE(attributes[0].time.has_value());
+    double sum = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+        ASSERT_TRUE(attributes[i].time.has_value());
+        EXPECT_EQ(*attributes[i].time->days, value_as_double(attributes[i], 0) == 5 ? 0 : 31.5);
+        sum += value_as_double(attributes[i], 0);
+    }
+    EXPECT_EQ(sum, 12);
+}
+
+std::string poly(double x, double value) {
+    const std::string at = std::to_string(x), v = std::to_string(value);
+    return "<VTKFile type=\"PolyData\" version=\"1.0\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><PointData>"
+           "<DataArray type=\"Float64\" Name=\"p\" format=\"ascii\">" +
+           v +
+           " 2 3</DataArray></PointData><Points>"
+           "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">" +
+           at +
+           " 0 0 1 0 0 0 1 0</DataArray></Points><Polys>"
+           "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>"
+           "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">3</DataArray></Polys></Piece></PolyData></VTKFile>";
+}
+
+std::string series_of(const std::string& sets) {
+    return "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>" + sets + "</Collection></VTKFile>";
+}
+
+TEST(Series, parts_and_changed_geometry_are_objects_of_their_own) {
+    const TemporaryFolder folder;
+    write_file(folder / "a.vtp", poly(0, 1));
+    write_file(folder / "b.vtp", poly(0, 4));
+    write_file(folder / "c.vtp", poly(0.5, 4));
+    write_file(
+        folder / "s.pvd",
+        series_of("<DataSet timestep=\"0\" part=\"0\" file=\"a.vtp\"/><DataSet timestep=\"0\" part=\"1\" name=\"second\" file=\"c.vtp\"/>"
+                  "<DataSet timestep=\"2.5\" part=\"0\" file=\"b.vtp\"/><DataSet timestep=\"2.5\" part=\"1\" file=\"a.vtp\"/>"));
+    const auto data = vtk::read_vtk_xml(*Input::open((folder / "s.pvd").string()), {});
+    ASSERT_TRUE(data.ok()) << data.why().error.message;
+    ASSERT_EQ(data->objects.size(), 3u);
+    EXPECT_EQ(info_of(data->objects[0]).name, "a");
+    EXPECT_EQ(info_of(data->objects[0]).attributes.size(), 2u);
+    EXPECT_EQ(info_of(data->objects[1]).name, "second");
+    EXPECT_EQ(info_of(data->objects[1]).attributes.size(), 1u);
+    EXPECT_EQ(info_of(data->objects[2]).attributes.at(0).time->days, 2.5);
+    EXPECT_EQ(info_of(data->objects[2]).name, "a");
+}
+
+TEST(Series, geometry_that_changes_under_one_name_is_numbered_by_its_moment) {
+    const TemporaryFolder folder;
+    write_file(folder / "a.vtp", poly(0, 1));
+    write_file(folder / "c.vtp", poly(0.5, 4));
+    write_file(folder / "s.pvd", series_of("<DataSet timestep=\"0\" name=\"top\" file=\"a.vtp\"/>"
+                                           "<DataSet timestep=\"1\" name=\"top\" file=\"c.vtp\"/>"));
+    const auto data = vtk::read_vtk_xml(*Input::open((folder / "s.pvd").string()), {});
+    ASSERT_TRUE(data.ok()) << data.why().error.message;
+    ASSERT_EQ(data->objects.size(), 2u);
+    EXPECT_EQ(info_of(data->objects[0]).name, "top");
+    EXPECT_EQ(info_of(data->objects[1]).name, "top_1");
+}
+
+TEST(Series, what_is_wrong_is_refused) {
+    const TemporaryFolder folder;
+    write_file(folder / "a.vtp", poly(0, 1));
+    const auto refused = [&](const std::string& sets) {
+        write_file(folder / "s.pvd", series_of(sets));
+        const auto data = vtk::read_vtk_xml(*Input::open((folder / "s.pvd").string()), {});
+        return data.ok() ? std::string("was read") : data.why().error.code;
+    };
+    EXPECT_EQ(refused(""), "F017");
+    EXPECT_EQ(refused("<DataSet timestep=\"x\" file=\"a.vtp\"/>"), "F005");
+    EXPECT_EQ(refused("<DataSet timestep=\"nan\" file=\"a.vtp\"/>"), "F005");
+    EXPECT_EQ(refused("<DataSet part=\"1.5\" file=\"a.vtp\"/>"), "F005");
+    EXPECT_EQ(refused("<DataSet timestep=\"0\"/>"), "F012");
+    EXPECT_EQ(refused("<DataSet file=\"missing.vtp\"/>"), "F010");
+    EXPECT_EQ(refused("<DataSet file=\"s.pvd\"/>"), "F014");  // it names itself
+    EXPECT_EQ(refused("<DataSet file=\"a.vtp\"/>"), "was read");
+}
+
 }  // namespace
 }  // namespace geomend::test

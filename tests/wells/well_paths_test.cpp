@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cmath>
+
+#include "wells/well_files.h"
+
+namespace geomend::test {
+namespace {
+
+constexpr std::string_view petrel =
+    "# WELL TRACE FROM PETREL\n# WELL NAME:              A 1\n# WELL HEAD X-COORDINATE: 686352.08000000 (m)\n"
+    "# WELL HEAD Y-COORDINATE: 3217437.84000000 (m)\n# WELL DATUM (KB, Kelly bushing, from MSL): 23.00000000 (m)\n"
+    "# WELL TYPE:              UNKNOWN\n#=====================\n"
+    "      MD            X            Y            Z           TVD           AZIM         INCL\n#=====================\n"
+    " 0.0000000000 686352.08000 3217437.8400 23.000000000 0.0 0.0 0.0\n 100.00000000 686353.08000 3217437.8400 -77.000000000 100.0 90.0 "
+    "0.5\n";
+
+TEST(WellPaths, AnExportOfPetrel) {
+    const Dataset data = good_wells("well-path", std::string(petrel));
+    ASSERT_EQ(data.objects.size(), 1u);
+    const Well& well = well_at(data, 0);
+    EXPECT_EQ(well.info.name, "A 1");
+    EXPECT_EQ(well.head, (Vec3{686352.08, 3217437.84, 0}));
+    EXPECT_EQ(well.kelly_bushing, 23);
+    EXPECT_EQ(well.path.at(1), (Vec3{686353.08, 3217437.84, -77}));
+    EXPECT_EQ(well.measured_depth, (std::vector<double>{0, 100}));
+    EXPECT_EQ(well.info.crs.z_positive, ZPositive::elevation);
+    ASSERT_EQ(well.curves.size(), 2u);  // the depth below the bushing follows from Z
+    EXPECT_EQ(well.curves[1].values.name, "INCL");
+}
+
+TEST(WellPaths, ATableOfSeveralWellsByTheNamesOfItsColumns) {
+    const Dataset data =
+        good_wells("well-path", "Well;MD [m];Easting (m);Northing (m);TVDSS;GR\nA;0;1;2;-20;\nA;10;1;2;-10;55\n\"B 2\";0;5;6;0;-999.25\n");
+    ASSERT_EQ(data.objects.size(), 2u);
+    const Well &a = well_at(data, 0), &b = well_at(data, 1);
+    EXPECT_EQ(a.info.name, "A");
+    EXPECT_EQ(a.path, (std::vector<Vec3>{{1, 2, 20}, {1, 2, 10}}));
+    EXPECT_EQ(a.info.crs.z_positive, ZPositive::depth);
+    EXPECT_TRUE(std::isnan(value_as_double(a.curves.at(0).values, 0)));
+    EXPECT_EQ(value_as_double(a.curves.at(0).values, 1), 55);
+    EXPECT_EQ(b.info.name, "B 2");
+    EXPECT_TRUE(is_no_data(b.curves.at(0).values, -999.25));
+}
+
+TEST(WellPaths, AColumnOfNamesIsNoNameOfAWell) {
+    const Dataset data = good_wells("well-path", "Name X Y Z MD\nA 1 2 3 0\nA 1 2 -7 10\n");
+    ASSERT_EQ(data.objects.size(), 1u);
+    EXPECT_EQ(well_at(data, 0).path.size(), 2u);
+}
+
+TEST(WellPaths, FilesOfResInsightNameWellsAndNoColumns) {
+    const Dataset data =
+        good_wells("well-path", "WELLNAME: 'B-H'\n# X Y TVDMSL MDMSL\n10 20 0 0\n10 20 30 31\n-999\nWELLNAME: C\n1 2 3 4\n");
+    ASSERT_EQ(data.objects.size(), 2u);
+    EXPECT_EQ(well_at(data, 0).info.name, "B-H");
+    EXPECT_EQ(well_at(data, 0).path, (std::vector<Vec3>{{10, 20, -0.0}, {10, 20, -30}}));
+    EXPECT_EQ(well_at(data, 0).measured_depth, (std::vector<double>{0, 31}));
+    EXPECT_EQ(well_at(data, 1).info.name, "C");
+}
+
+TEST(WellPaths, DepthsBelowTheBushingBecomeElevations) {
+    const Dataset data = good_wells("well-path", "# WELL DATUM (KB, Kelly bushing, from MSL): 25 (m)\nMD X Y TVD\n0 1 2 0\n100 1 2 100\n");
+    EXPECT_EQ(well_at(data, 0).path, (std::vector<Vec3>{{1, 2, 25}, {1, 2, -75}}));
+    EXPECT_EQ(well_at(data, 0).info.name, "a");
+}
+
+TEST(WellPaths, WhatIsWrongIsRefusedWithItsPlace) {
+    EXPECT_EQ(refused_well("well-path", "MD INCL AZIM\n0 0 0\n"), "F013 a.w:1");
+    EXPECT_EQ(refused_well("well-path", "MD X Y Z\n0 0 0\n"), "F012 a.w:2:1");
+    EXPECT_EQ(refused_well("well-path", "MD X Y Z\n0 0 0 a\n"), "F005 a.w:2:7");
+    EXPECT_EQ(refused_well("well-path", "MD X Y Z\n"), "F017 a.w:1");
+    for (std::size_t size = 0; size < petrel.size(); ++size) {
+        const auto data = read_wells("well-path", std::string(petrel.substr(0, size)));
+        EXPECT_TRUE(data.ok() || !data.why().error.code.empty());
+    }
+}
+
+TEST(WellPaths, AreToldFromOtherTables) {
+    const auto sniffed = [](std::string_view text) { return well_format("well-path").sniff(text, "a.txt"); };
+    EXPECT_GT(sniffed(petrel), 90);
+    EXPECT_GT(sniffed("MD X Y Z\n0 0 0 0\n"), 0);
+    EXPECT_GT(sniffed("WELLNAME: A\n0 0 0 0\n"), 0);
+    EXPECT_EQ(sniffed("X Y Z\n0 0 0\n"), 0);
+    EXPECT_EQ(sniffed("1 2 3\n"), 0);
+    EXPECT_EQ(well_format("rms-wells").sniff("1.0\nUndefined\nA 1 2\n0\n", "a.txt"), 90);
+    EXPECT_EQ(well_format("rms-wells").sniff("1 2 3\n4 5 6\n", "a.txt"), 0);
+}
+
+}  // namespace
+}  // namespace geomend::test
