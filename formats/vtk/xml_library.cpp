@@ -113,6 +113,12 @@ struct MakeArray {
 
 std::string role_of(const Attribute& a) { return std::string(annotation(a, attribute_role_key)); }
 
+/// VTK counts an array before it makes room for it, and walks past the end of its list where there is no memory for that: room first.
+void add_array(vtkFieldData& data, vtkAbstractArray* array) {
+    data.AllocateArrays(data.GetNumberOfArrays() + 1);
+    data.AddArray(array);
+}
+
 void mark_active(vtkDataSetAttributes& data, const std::string& role, const char* name) {
     if (role == "Scalars") data.SetActiveScalars(name);
     else if (role == "Vectors") data.SetActiveVectors(name);
@@ -137,10 +143,10 @@ void add_attribute(vtkDataObject& object, vtkPointData& point_data, vtkCellData&
                                  : a.location == AttributeLocation::cell ? static_cast<vtkDataSetAttributes*>(&cell_data)
                                                                          : nullptr;
     if (data == nullptr) {
-        object.GetFieldData()->AddArray(array);
+        add_array(*object.GetFieldData(), array);
         return;
     }
-    data->AddArray(array);
+    add_array(*data, array);
     mark_active(*data, role_of(a), array->GetName());
 }
 
@@ -150,7 +156,7 @@ void add_everything(vtkDataSet& data, ObjectInfo& info, std::span<const XmlField
         vtkNew<vtkStringArray> array;
         array->SetName(text.name.c_str());
         array->InsertNextValue(text.value);
-        data.GetFieldData()->AddArray(array);
+        add_array(*data.GetFieldData(), array);
     }
 }
 
