@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -16,9 +15,8 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <system_error>
 
-extern char** environ;
+#include "base/worker_process.h"
 
 namespace geomend {
 
@@ -29,75 +27,11 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kept_words = 4096;
 constexpr double seconds_to_stop = 2;
 
-std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
-
-// A pipe that only the ends which are handed over outlive the start of a program.
-struct Pipe {
-    std::array<int, 2> ends{-1, -1};
-
-    Pipe() = default;
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    ~Pipe() {
-        close_end(0);
-        close_end(1);
-    }
-    bool open() { return ::pipe2(ends.data(), O_CLOEXEC) == 0; }
-    void close_end(std::size_t end) {
-        if (ends[end] >= 0) ::close(ends[end]);
-        ends[end] = -1;
-    }
-};
-
-// What posix_spawn is told; its parts are set up and torn down together.
-class Start {
-public:
-    Start() {
-        ::posix_spawn_file_actions_init(&actions_);
-        ::posix_spawnattr_init(&attributes_);
-    }
-    ~Start() {
-        ::posix_spawn_file_actions_destroy(&actions_);
-        ::posix_spawnattr_destroy(&attributes_);
-    }
-    Start(const Start&) = delete;
-    Start& operator=(const Start&) = delete;
-
-    /// 0 or the error.
-    int spawn(const WorkerJob& job, const Pipe& out, const Pipe& err, pid_t& child) {
-        ::posix_spawn_file_actions_adddup2(&actions_, out.ends[1], STDOUT_FILENO);
-        ::posix_spawn_file_actions_adddup2(&actions_, err.ends[1], STDERR_FILENO);
-        short flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF;
-        sigset_t none, usual;
-        ::sigemptyset(&none);
-        ::sigemptyset(&usual);
-        for (const int s : {SIGINT, SIGTERM, SIGPIPE}) ::sigaddset(&usual, s);
-        ::posix_spawnattr_setsigmask(&attributes_, &none);
-        ::posix_spawnattr_setsigdefault(&attributes_, &usual);
-        if (!job.reads_standard_input) {
-            // A group of its own, so that it is we who stop it; one that reads the terminal must stay in ours.
-            ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-            ::posix_spawnattr_setpgroup(&attributes_, 0);
-            flags |= POSIX_SPAWN_SETPGROUP;
-        }
-        ::posix_spawnattr_setflags(&attributes_, flags);
-        std::vector<std::string> texts = job.command;
-        std::vector<char*> arguments;
-        for (std::string& text : texts) arguments.push_back(text.data());
-        arguments.push_back(nullptr);
-        return ::posix_spawn(&child, arguments[0], &actions_, &attributes_, arguments.data(), environ);
-    }
-
-private:
-    posix_spawn_file_actions_t actions_{};
-    posix_spawnattr_t attributes_{};
-};
-
 class Watch {
 public:
     Watch(pid_t child, const WorkerJob& job, const Monitor* monitor) : child_(child), job_(job), monitor_(monitor) {}
 
-    WorkerEnd until_the_end(Pipe& out, Pipe& err) {
+    WorkerEnd until_the_end(DescriptorPair& out, DescriptorPair& err) {
         int status = 0;
         while (!ended(status)) {
             take(out, err);
@@ -131,7 +65,7 @@ private:
     }
 
     // One end is open as long as the process lives, unless it closes both itself.
-    void take(Pipe& out, Pipe& err) {
+    void take(DescriptorPair& out, DescriptorPair& err) {
         std::array<pollfd, 2> ends{pollfd{out.ends[0], POLLIN, 0}, pollfd{err.ends[0], POLLIN, 0}};
         const bool both_closed = out.ends[0] < 0 && err.ends[0] < 0;
         if (::poll(ends.data(), ends.size(), both_closed ? 2 : 50) <= 0) return;
@@ -141,7 +75,7 @@ private:
         if (end_.output.size() > job_.most_output) kill_for(WorkerEnd::How::too_much_output);
     }
 
-    static bool read_some(Pipe& pipe, std::string& to) {
+    static bool read_some(DescriptorPair& pipe, std::string& to) {
         std::array<char, 1u << 16> buffer;
         const ssize_t got = ::read(pipe.ends[0], buffer.data(), buffer.size());
         if (got > 0) to.append(buffer.data(), static_cast<std::size_t>(got));
@@ -151,8 +85,8 @@ private:
 
     // What is still in the pipes; never waits, for a process that the worker started may hold them open. That one is
     // ended, too.
-    void drain(Pipe& out, Pipe& err) {
-        for (Pipe* pipe : {&out, &err}) {
+    void drain(DescriptorPair& out, DescriptorPair& err) {
+        for (DescriptorPair* pipe : {&out, &err}) {
             if (pipe->ends[0] < 0) continue;
             ::fcntl(pipe->ends[0], F_SETFL, O_NONBLOCK);
             std::string& to = pipe == &out ? end_.output : end_.last_words;
@@ -203,12 +137,12 @@ void be_first_when_memory_is_short() {
 }  // namespace
 
 Result<WorkerEnd> run_worker(const WorkerJob& job, const Monitor* monitor) {
-    Pipe out, err;
-    if (!out.open() || !err.open())
-        return failure(FailureKind::limit, "F023", {}, "cannot open a pipe to a worker process: " + reason(errno));
-    pid_t child = -1;
-    if (const int error = Start().spawn(job, out, err, child); error != 0)
-        return failure(FailureKind::limit, "F023", {}, "cannot start a worker process: " + reason(error));
+    DescriptorPair out, err;
+    if (!out.open() || !err.open()) return no_pipe();
+    StartPlan plan{job.command, -1, out.ends[1], err.ends[1], !job.reads_standard_input};
+    auto started = start_process(plan);
+    if (!started) return std::move(started).why();
+    const pid_t child = *started;
     out.close_end(1);
     err.close_end(1);
     WorkerEnd end = Watch(child, job, monitor).until_the_end(out, err);

@@ -91,12 +91,11 @@ Result<Report> judge_many(const CLI::App& command, const ValidateOptions& o, con
     return all;
 }
 
-// In a worker: one file, all that was found, and what pages and debris need of its model, on standard output.
-ExitStatus work(const ValidateOptions& o, const LoadOptions& load, const validators::CheckOptions& checks) {
+// In a worker: all that was found in one file, and what pages and debris need of its model.
+WorkerAnswer work(const ValidateOptions& o, const LoadOptions& load, const validators::CheckOptions& checks, const std::string& path) {
     const bool draw = draws_page(o) || !o.debris.empty();
     Report said = empty_report(o);
     said.most_findings = static_cast<std::size_t>(-1);
-    const std::string& path = o.files.front();
     auto file = validate(path, load, checks, [&](const Dataset& dataset, std::span<const Brep> breps, ReportedFile& found) -> Result<void> {
         if (!draw) return {};
         // As they will stand in the report: marks come in the order of their findings.
@@ -109,7 +108,7 @@ ExitStatus work(const ValidateOptions& o, const LoadOptions& load, const validat
     });
     const ExitStatus status = file ? ExitStatus::done : exit_status(file.why().kind);
     said.files.push_back(file ? std::move(*file) : unreadable_file(path, file.why()));
-    return worse(status, print(worker_report(said)));
+    return {status, worker_report(said)};
 }
 
 ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
@@ -123,7 +122,11 @@ ExitStatus run(const CLI::App& command, const ValidateOptions& o) {
     checks->target = o.target;
     if (auto known = checked_options(*options, {{}, nullptr, validate_option_rows()}); !known) return report(known.why());
     const LoadOptions load{o.from, std::move(*options), &monitor, validate_option_rows(), o.is_worker() && o.run_size > 1};
-    if (o.is_worker()) return work(o, load, *checks);
+    if (o.is_worker() && o.serves) return serve(o, o.threads, [&](const std::string& path) { return work(o, load, *checks, path); });
+    if (o.is_worker()) {
+        const WorkerAnswer answer = work(o, load, *checks, o.files.front());
+        return worse(answer.status, print(answer.report));
+    }
 
     DebrisFolder debris(o.debris, o.max_findings, &monitor);
     if (auto targets = check_targets(o, debris); !targets) return report(targets.why());

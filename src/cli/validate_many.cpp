@@ -8,6 +8,7 @@
 #include <string_view>
 #include <thread>
 
+#include "base/serving_worker.h"
 #include "base/worker.h"
 #include "cli/common_options.h"
 
@@ -28,6 +29,10 @@ std::vector<std::string> worker_command(const CLI::App& command, std::size_t fil
         for (const std::string& value : option->results()) all.push_back("--" + name + "=" + value);
     }
     return all;
+}
+
+double processor_seconds(const WorkerArguments& a, std::size_t threads) {
+    return a.seconds * static_cast<double>(std::max<std::size_t>(1, threads));
 }
 
 FailureKind kind_of(FileOutcome outcome) {
@@ -61,16 +66,30 @@ void add_worker_arguments(CLI::App& command, WorkerArguments& a) {
         ->check(CLI::NonNegativeNumber);
     command.add_option("--worker", a.parent)->group("");
     command.add_option("--worker-files", a.run_size)->group("");
+    command.add_flag("--worker-serves", a.serves)->group("");
 }
 
 void settle_worker(const WorkerArguments& a, std::size_t threads) {
     if (!a.is_worker()) return;
     OwnLimits limits;
     limits.parent = a.parent;
-    limits.processor_seconds = a.seconds * static_cast<double>(std::max<std::size_t>(1, threads));
+    if (!a.serves) limits.processor_seconds = processor_seconds(a, threads);  // else of each file
     // More than a machine has is no limit, and would not fit the number.
     limits.memory_bytes = a.megabytes < 1e12 ? static_cast<std::uint64_t>(a.megabytes * 1e6) : 0;
     become_worker(limits);
+}
+
+ExitStatus serve(const WorkerArguments& a, std::size_t threads, const std::function<WorkerAnswer(const std::string& path)>& judge) {
+    // Beyond this the next file had better find a process without a past.
+    constexpr std::uint64_t much = std::uint64_t{1} << 28;
+    const std::uint64_t at_first = memory_held();
+    while (const auto path = next_request()) {
+        renew_processor_time(processor_seconds(a, threads));
+        const WorkerAnswer answer = judge(*path);
+        const bool last = memory_held() > at_first + much;
+        if (!answer_request(static_cast<int>(answer.status), answer.report, last) || last) break;
+    }
+    return ExitStatus::done;
 }
 
 bool need_workers(const FoundFiles& files, const WorkerArguments& a) {

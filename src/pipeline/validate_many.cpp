@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "base/serving_worker.h"
 #include "base/worker.h"
 #include "pipeline/validate.h"
 #include "report/report_reading.h"
@@ -101,6 +102,13 @@ ReportedFile judge_end(const std::string& path, const WorkerEnd& end, double sec
         "the process that checked this file gave no usable report (exit status " + std::to_string(end.number) + ")" + last_words(end));
 }
 
+// Whether a worker that has had other files before may be believed: it has judged the file, or has been stopped.
+bool is_an_outcome(const std::string& path, const WorkerEnd& end) {
+    if (end.how == WorkerEnd::How::timed_out || end.how == WorkerEnd::How::stopped) return true;
+    if (end.how != WorkerEnd::How::exited || end.number > exit_unreadable) return false;
+    return end.number == exit_usage || result_of(path, end).has_value();
+}
+
 class Run {
 public:
     Run(const FoundFiles& files, const ManyOptions& options) : files_(files.files), options_(options), judged_(files_.size()) {
@@ -116,7 +124,10 @@ public:
             work();
         }
         // Those that the system ended may have stood in each other's way: once more, alone.
-        for (const std::size_t i : short_of_memory_) check(i, false);
+        for (const std::size_t i : short_of_memory_) {
+            ServingWorker alone(command(true));
+            check(i, false, alone);
+        }
         if (broken_off_) return std::move(*broken_off_);
         std::vector<ReportedFile> all;
         for (auto& file : judged_) all.push_back(std::move(*file));
@@ -125,7 +136,15 @@ public:
 
 private:
     void work() {
-        for (std::size_t i = next_++; i < files_.size() && !ended(); i = next_++) check(i, at_a_time_ > 1);
+        ServingWorker worker(command(true));
+        for (std::size_t i = next_++; i < files_.size() && !ended(); i = next_++) check(i, at_a_time_ > 1, worker);
+    }
+
+    std::vector<std::string> command(bool serves) const {
+        std::vector<std::string> words = options_.worker;
+        if (serves) words.emplace_back("--worker-serves");
+        words.insert(words.end(), {"--threads", std::to_string(threads_each_), "--", "-"});
+        return words;
     }
 
     bool ended() {
@@ -138,15 +157,26 @@ private:
         if (!broken_off_) broken_off_ = std::move(why);
     }
 
-    void check(std::size_t i, bool again_when_killed) {
+    /// Standard input is read by a process of its own.
+    Result<WorkerEnd> ask(const std::string& path, ServingWorker& worker) const {
+        WorkerJob job;
+        job.seconds = options_.seconds;
+        if (path == "-") {
+            job.command = command(false);
+            job.reads_standard_input = true;
+            return run_worker(job, options_.monitor);
+        }
+        const bool alone = worker.is_fresh();
+        auto end = worker.ask(path, job, options_.monitor);
+        if (!end || alone || is_an_outcome(path, *end)) return end;
+        worker.end();  // what other files have left behind does not decide about this one
+        return worker.ask(path, job, options_.monitor);
+    }
+
+    void check(std::size_t i, bool again_when_killed, ServingWorker& worker) {
         if (ended()) return;
         const std::string& path = files_[i].path;
-        WorkerJob job;
-        job.command = options_.worker;
-        job.command.insert(job.command.end(), {"--threads", std::to_string(threads_each_), "--", path});
-        job.reads_standard_input = path == "-";
-        job.seconds = options_.seconds;
-        auto end = run_worker(job, options_.monitor);
+        auto end = ask(path, worker);
         if (!end) return settle(i, unreadable_file(path, end.why()));
         if (end->how == WorkerEnd::How::stopped) return break_off(failure(FailureKind::cancelled, "F022", {}, "the checks were stopped"));
         if (end->how == WorkerEnd::How::exited && end->number == exit_usage) {

@@ -56,6 +56,14 @@ TEST(ValidateMany, ACrashIsAFindingOfItsFileAndTheOthersGoOn) {
     EXPECT_EQ(report.summary->valid, 2u);
 }
 
+TEST(ValidateMany, WhatEarlierFilesLeftBehindIsNotReportedOfALaterOne) {
+    const Report report = run(files({"good.1", "poisoned.1", "crash.11", "poisoned.2", "good.2"}), options(1));
+    ASSERT_EQ(report.files.size(), 5u);
+    for (const std::size_t i : {0u, 1u, 3u, 4u}) EXPECT_EQ(report.files[i].valid, true) << i;
+    EXPECT_EQ(report.files[2].outcome, FileOutcome::crashed);
+    EXPECT_EQ(report.summary->crashed, 1u);
+}
+
 TEST(ValidateMany, AHangIsAFindingOfItsFile) {
     const Report report = run(files({"hang.1", "good.1", "deaf.1"}), options(2, 0.3));
     EXPECT_EQ(report.files[0].outcome, FileOutcome::limit);

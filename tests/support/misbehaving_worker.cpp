@@ -8,13 +8,16 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/serving_worker.h"
 #include "base/worker.h"
 #include "report/report.h"
 
 // A worker process that does what its last argument says: the name of a "file" up to the first dot, and what stands in
-// the ending where it is a number. It stands in for the real one where tests need crashes and hangs.
+// the ending where it is a number. It stands in for the real one where tests need crashes and hangs. With "--worker-serves"
+// it does so for one request after the other.
 
 namespace {
 
@@ -47,7 +50,17 @@ int leave_a_child() {
     return 0;
 }
 
-int report_of(const std::string& path, bool valid) {
+// How many requests this process has had, and whether it answers them.
+int requests = 0;
+bool serves = false;
+
+int say(const std::string& text, int status) {
+    if (serves) return answer_request(status, text, false) ? 0 : 1;
+    std::fputs(text.c_str(), stdout);
+    return status;
+}
+
+int report_of(const std::string& path, bool valid, int more_status = 0) {
     Report report;
     report.tool = "geomend test";
     ReportedFile& file = report.files.emplace_back();
@@ -60,17 +73,21 @@ int report_of(const std::string& path, bool valid) {
         f.severity = Severity::error;
         f.message = "made up";
     }
-    std::fputs(report_json(report).c_str(), stdout);
-    return valid ? 0 : 1;
+    return say(report_json(report), (valid ? 0 : 1) + more_status);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    const std::string path = argc > 1 ? argv[argc - 1] : "", name = path.substr(path.rfind('/') + 1);
+/// \return the exit status; of one that serves, whether it has to end
+int act(const std::string& path) {
+    const std::string name = path.substr(path.rfind('/') + 1);
     const std::string what = name.substr(0, name.find('.'));
     const int number = name.find('.') == std::string::npos ? 0 : std::atoi(name.c_str() + name.find('.') + 1);
-    if (what == "exit") return number;
+    if (what == "exit") {
+        if (serves) std::exit(number);
+        return number;
+    }
+    if (what == "pid") return say(std::to_string(::getpid()), 0);
+    // What earlier requests have broken shows in a later one.
+    if (what == "poisoned" && requests > 1) std::abort();
     if (what == "hang") hang();
     if (what == "stubborn") {
         std::signal(SIGTERM, SIG_IGN);
@@ -107,12 +124,21 @@ int main(int argc, char** argv) {
         for (int i = 0; i < number; ++i) std::fputs("0123456789abcdef", stdout);
         return 0;
     }
-    if (what == "garbage") {
-        std::fputs("{\"schema\": 1, \"files\": [", stdout);
-        return 0;
-    }
+    if (what == "garbage") return say("{\"schema\": 1, \"files\": [", 0);
     if (what == "swapped") return report_of("another file", true);
-    if (what == "liar") return report_of(path, true) + 70;
+    if (what == "liar") return report_of(path, true, 70);
     if (what == "slow") ::usleep(static_cast<unsigned>(number) * 1000);
     return report_of(path, what != "bad");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) serves = serves || std::string_view(argv[i]) == "--worker-serves";
+    if (!serves) return act(argc > 1 ? argv[argc - 1] : "");
+    while (const auto path = next_request()) {
+        ++requests;
+        if (act(*path) != 0) return 1;
+    }
+    return 0;
 }
