@@ -10,7 +10,7 @@ build_packages=(g++ cmake ninja-build ccache
     libvtk9-dev libtet1.5-dev libtbb-dev zlib1g-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
     libgtest-dev librapidcheck-dev libbenchmark-dev python3 scdoc)
 # Other programs' readers, against which the tests hold our files, and what checks the formatting.
-client_packages=(gmsh tetgen openfoam python3-vtk9 clang-format-14
+client_packages=(gmsh tetgen openfoam calculix-ccx python3-vtk9 clang-format-14
     libopm-simulators-bin libopm-grid-bin libopm-common-bin python3-opm-common chromium-headless-shell)
 # Brings vtk.js for HTML reports while they are built. An npm from elsewhere stays.
 command -v npm >/dev/null || client_packages+=(npm)

@@ -89,7 +89,7 @@ CASES = {
     "F018": ({"a.ts": tsurf(TRIANGLE)}, "validate a.ts --option no=thing"),
     "F020": ({"a.ts": tsurf(TRIANGLE)}, "convert a.ts -o missing/o.ts"),
     "F021": ({"a.ts": tsurf(TRIANGLE)}, "convert a.ts -o o.grdecl"),
-    "F023": ({"a.ml": BOX}, "validate a.ml --time-limit 0.001"),
+    "F023": ({"a.ts": tsurf(*[f"TRGL {i % 3 + 1} {(i + 1) % 3 + 1} {(i + 2) % 3 + 1}" for i in range(300000)])}, "validate a.ts --time-limit 0.01"),
     "F024": ({"a.grdecl": "PORO\n 8*0.2 /\n"}, "validate a.grdecl"),
     "F026": ({"a.ts": tsurf(TRIANGLE)}, "mesh a.ts -o o.vtu"),
     "F101": ({"a.ts": tsurf(TRIANGLE).replace("END\n", "")}, "validate a.ts"),
