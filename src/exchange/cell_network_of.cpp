@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "base/vectors.h"
-#include "exchange/each_face.h"
 #include "exchange/inner_faces.h"
+#include "model/each_face.h"
 
 namespace geomend::exchange {
 

@@ -3,31 +3,15 @@
 
 #include <algorithm>
 
-#include "exchange/each_face.h"
+#include "model/face_groups.h"
 
 namespace geomend::exchange {
 
 std::vector<InnerFace> inner_faces(const VolumeMeshData& mesh) {
-    struct Side {
-        std::array<std::uint32_t, 3> lowest;
-        std::uint32_t corners;
-        CellFaceRef face;
-        auto operator<=>(const Side&) const = default;
-    };
-    std::vector<Side> sides;
-    sides.reserve(4 * mesh.cell_count());
-    for (const VolumeMeshData::Block& block : mesh.blocks) {
-        each_face(mesh, block, [&](const CellFaceRef& face, std::vector<std::uint32_t>& nodes) {
-            std::ranges::partial_sort(nodes, nodes.begin() + 3);
-            sides.push_back({{nodes[0], nodes[1], nodes[2]}, static_cast<std::uint32_t>(nodes.size()), face});
-        });
-    }
-    std::ranges::sort(sides);
     std::vector<InnerFace> inner;
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        if (sides[i].lowest == sides[i - 1].lowest && sides[i].corners == sides[i - 1].corners)
-            inner.push_back({sides[i - 1].face, sides[i].face});
-    }
+    each_face_group(mesh, [&](std::span<const KnownFace> group) {
+        for (std::size_t i = 1; i < group.size(); ++i) inner.push_back({group[i - 1].face, group[i].face});
+    });
     return inner;
 }
 

@@ -11,7 +11,7 @@ namespace geomend::exchange {
 /// Two faces of cells that have the same vertices; the one of the lower cell first.
 using InnerFace = std::array<CellFaceRef, 2>;
 
-/// All faces that two cells share, in no order that matters. Cost: n log n.
+/// All faces that two cells share, ascending by their vertices. Cost: linear.
 std::vector<InnerFace> inner_faces(const VolumeMeshData& mesh);
 
 /// The vertices of a face as its cell has them, wound outwards. Logarithmic in the number of blocks.

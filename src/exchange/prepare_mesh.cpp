@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "exchange/cell_network_of.h"
+#include "exchange/inner_faces.h"
 #include "exchange/kept_cells.h"
 #include "exchange/split_mesh.h"
 #include "exchange/target_names.h"
@@ -96,14 +97,13 @@ void join_face_sets(Data::FaceSet& to, const Data::FaceSet& from) {
 }
 
 /// Leaves a face to the first set that has it, whichever of its cells names it, and lists what later sets lose.
-VolumeMesh with_faces_once(const VolumeMesh& mesh, const MeshNeeds& needs, std::vector<Loss>& losses) {
-    Data data = *mesh;
+void leave_faces_once(Data& mesh, const MeshNeeds& needs, std::vector<Loss>& losses) {
     std::map<std::vector<std::uint32_t>, std::size_t> owner;
-    for (std::size_t s = 0; s < data.face_sets.size(); ++s) {
-        Data::FaceSet& set = data.face_sets[s];
+    for (std::size_t s = 0; s < mesh.face_sets.size(); ++s) {
+        Data::FaceSet& set = mesh.face_sets[s];
         std::uint64_t lost = 0;
         std::erase_if(set.faces, [&](const CellFaceRef& face) {
-            auto nodes = mesh.nodes_of(face);
+            auto nodes = nodes_of(mesh, face);
             std::ranges::sort(nodes);
             const auto [at, is_new] = owner.emplace(std::move(nodes), s);
             if (!is_new && at->second != s) ++lost;
@@ -113,8 +113,7 @@ VolumeMesh with_faces_once(const VolumeMesh& mesh, const MeshNeeds& needs, std::
             add_loss(losses,
                      {LossClass::substance, set.name, "faces of a set", std::string(needs.target) + " has one number a face", lost});
     }
-    std::erase_if(data.face_sets, [](const Data::FaceSet& set) { return set.faces.empty(); });
-    return *VolumeMesh::make(std::move(data));
+    std::erase_if(mesh.face_sets, [](const Data::FaceSet& set) { return set.faces.empty(); });
 }
 
 /// Sets that the target keeps, one of each name, and without sides where it has none.
@@ -162,20 +161,22 @@ void drop_attributes(Data& mesh, const MeshNeeds& needs) {
 
 Result<PreparedMesh> prepare(const VolumeMesh& mesh, const MeshNeeds& needs) {
     std::vector<Loss> lost = losses(mesh, needs);
-    Data known = known_cells(*mesh, needs);
-    if (known.blocks.empty()) return cannot_take(needs, "has no cell of the kinds of this mesh");
-    auto kept = VolumeMesh::make(std::move(known));
-    if (!kept) return std::move(kept).why();
-    auto split = split_for(*kept, needs, lost);
-    if (!split) return std::move(split).why();
-    Data data = **split;
+    Data data = known_cells(*mesh, needs);
+    if (data.blocks.empty()) return cannot_take(needs, "has no cell of the kinds of this mesh");
+    if (needs.splitting != Splitting::as_given) {
+        auto kept = VolumeMesh::make(std::move(data));
+        if (!kept) return std::move(kept).why();
+        auto split = split_for(*kept, needs, lost);
+        if (!split) return std::move(split).why();
+        data = **split;
+    }
     drop_attributes(data, needs);
     join_sets(data, needs);
     rename_all(data, needs, lost);
     if (needs.network) data.network = cell_network_of(data);
+    if (needs.names == Naming::numbers && needs.face_sets) leave_faces_once(data, needs, lost);
     auto made = VolumeMesh::make(std::move(data));
     if (!made) return std::move(made).why();
-    if (needs.names == Naming::numbers && needs.face_sets) return PreparedMesh{with_faces_once(*made, needs, lost), std::move(lost)};
     return PreparedMesh{*std::move(made), std::move(lost)};
 }
 

@@ -5,38 +5,15 @@
 #include <array>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 
-#include "exchange/each_face.h"
+#include "model/face_groups.h"
 
 namespace geomend::exchange {
 
 namespace {
 
 using Data = VolumeMeshData;
-
-struct PlacedFace {
-    std::array<std::uint32_t, 3> lowest;  // places
-    std::uint32_t corners, region;
-    CellFaceRef face;
-    auto place() const { return std::tie(lowest, corners); }
-};
-
-std::vector<PlacedFace> placed_faces(const SolidCells& cells) {
-    std::vector<PlacedFace> all;
-    for (const Data::Block& block : cells.data.blocks) {
-        each_face(cells.data, block, [&](const CellFaceRef& face, std::vector<std::uint32_t>& nodes) {
-            for (std::uint32_t& n : nodes) n = cells.place_of[n];
-            std::ranges::partial_sort(nodes, nodes.begin() + 3);
-            all.push_back({{nodes[0], nodes[1], nodes[2]}, static_cast<std::uint32_t>(nodes.size()), block.region, face});
-        });
-    }
-    std::ranges::sort(all, [](const PlacedFace& a, const PlacedFace& b) {
-        return std::tie(a.lowest, a.corners, a.region, a.face) < std::tie(b.lowest, b.corners, b.region, b.face);
-    });
-    return all;
-}
 
 }  // namespace
 
@@ -45,15 +22,16 @@ void add_region_faces(SolidCells& cells) {
     std::vector<CellFaceRef> known;
     for (const Data::FaceSet& set : d.face_sets) known.insert(known.end(), set.faces.begin(), set.faces.end());
     std::ranges::sort(known);
-    const auto is_known = [&](const PlacedFace& f) { return std::ranges::binary_search(known, f.face); };
-    const std::vector<PlacedFace> faces = placed_faces(cells);
+    const auto is_known = [&](const KnownFace& f) { return std::ranges::binary_search(known, f.face); };
+    std::vector<std::uint32_t> region_of;
+    for (const Data::Block& block : d.blocks) region_of.resize(block.first + block.count, block.region);
+    const auto region = [&](const KnownFace& f) { return region_of[f.face.cell]; };
     std::map<std::array<std::uint32_t, 2>, std::vector<CellFaceRef>> sets;  // of two regions; no_index: the outside
-    for (auto first = faces.begin(); first != faces.end();) {
-        const auto end = std::find_if(first, faces.end(), [&](const PlacedFace& f) { return f.place() != first->place(); });
-        const std::uint32_t other = end - first == 1 ? no_index : std::prev(end)->region;
-        if (other != first->region && std::none_of(first, end, is_known)) sets[{first->region, other}].push_back(first->face);
-        first = end;
-    }
+    const auto place_of = [&](std::uint32_t vertex) { return cells.place_of[vertex]; };
+    each_face_group(d, cells.places.positions().size(), place_of, [&](std::span<const KnownFace> group) {  // cells ascend, so do regions
+        const std::uint32_t first = region(group.front()), other = group.size() == 1 ? no_index : region(group.back());
+        if (other != first && std::ranges::none_of(group, is_known)) sets[{first, other}].push_back(group.front().face);
+    });
     for (auto& [regions, members] : sets) {
         const bool outside = regions[1] == no_index;
         std::ranges::sort(members);

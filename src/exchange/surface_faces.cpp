@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "base/vectors.h"
-#include "exchange/each_face.h"
+#include "model/each_face.h"
 
 namespace geomend::exchange {
 

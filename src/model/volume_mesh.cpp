@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "model/cell_faces.h"
+#include "model/face_groups.h"
 
 namespace geomend {
 
@@ -155,24 +156,46 @@ SharedFace canonical(std::vector<std::uint32_t> nodes, std::uint32_t cell) {
     return {std::move(nodes), turned, cell};
 }
 
-Result<void> check_neighbours(const Data& d) {
+/// Whether two tetrahedra share a triangle and have it wound against each other, as nearly always.
+bool are_plain_neighbours(const Data& d, std::span<const KnownFace> group) {
+    if (group.size() != 2 || group[0].corners != 3) return false;
+    std::array<bool, 2> goes_up{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const CellFaceRef& ref = group[k].face;
+        const std::uint64_t from = d.cell_offsets[ref.cell];
+        if (d.cell_offsets[ref.cell + 1] - from != 4) return false;
+        const auto corners = faces_of(CellType::tetrahedron)[ref.face].corners();
+        std::array<std::uint32_t, 3> nodes{};
+        for (std::size_t i = 0; i < 3; ++i) nodes[i] = d.cell_nodes[from + corners[i]];
+        const auto low = static_cast<std::size_t>(std::min_element(nodes.begin(), nodes.end()) - nodes.begin());
+        goes_up[k] = nodes[(low + 1) % 3] < nodes[(low + 2) % 3];
+    }
+    return goes_up[0] != goes_up[1];
+}
+
+/// What is wrong with cells at one face: it has the same lowest corners in each of them.
+Result<void> check_face(const Data& d, std::span<const KnownFace> group) {
     std::vector<SharedFace> all;
     std::vector<std::uint32_t> nodes;
-    for (const Data::Block& block : d.blocks) {
-        for (std::uint32_t c = block.first; c < block.first + block.count; ++c) {
-            for (std::uint32_t f = 0; f < face_count(d, c); ++f) {
-                face_nodes_of(d, block.type, {c, f}, nodes);
-                all.push_back(canonical(nodes, c));
-            }
-        }
+    for (const KnownFace& known : group) {
+        face_nodes_of(d, block_at(d, known.face.cell).type, known.face, nodes);
+        all.push_back(canonical(nodes, known.face.cell));
     }
-    std::sort(all.begin(), all.end(), [](const SharedFace& a, const SharedFace& b) { return a.nodes < b.nodes; });
+    std::stable_sort(all.begin(), all.end(), [](const SharedFace& a, const SharedFace& b) { return a.nodes < b.nodes; });
     for (std::size_t i = 1; i < all.size(); ++i) {
         if (all[i].nodes != all[i - 1].nodes) continue;
         if (all[i].turned == all[i - 1].turned) return bad_mesh("a face wound as its neighbour's, or a third one on it: cell", all[i].cell);
         if (i >= 2 && all[i].nodes == all[i - 2].nodes) return bad_mesh("a face of three cells: cell", all[i].cell);
     }
     return {};
+}
+
+Result<void> check_neighbours(const Data& d) {
+    Result<void> checked;
+    each_face_group(d, [&](std::span<const KnownFace> group) {
+        if (group.size() > 1 && checked && !are_plain_neighbours(d, group)) checked = check_face(d, group);
+    });
+    return checked;
 }
 
 bool is_face(const Data& d, const CellFaceRef& ref) { return ref.cell < d.cell_count() && ref.face < face_count(d, ref.cell); }

@@ -7,7 +7,7 @@
 #include "model/cell_faces.h"
 #include "model/volume_mesh.h"
 
-namespace geomend::exchange {
+namespace geomend {
 
 /// Calls body(CellFaceRef, nodes) for each face of the cells of a block, with its nodes wound outwards in a list that the body may
 /// change. For data that no VolumeMesh is made of yet. \pre the block is one of the data's
@@ -30,4 +30,4 @@ void each_face(const VolumeMeshData& data, const VolumeMeshData::Block& block, c
     }
 }
 
-}  // namespace geomend::exchange
+}  // namespace geomend
