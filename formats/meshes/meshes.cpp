@@ -3,6 +3,9 @@
 
 #include <array>
 
+#include "formats/meshes/read_abaqus.h"
+#include "formats/meshes/read_medit.h"
+#include "formats/meshes/read_tetgen.h"
 #include "formats/meshes/write_abaqus.h"
 #include "formats/meshes/write_code_aster.h"
 #include "formats/meshes/write_gprs.h"
@@ -23,7 +26,8 @@ constexpr std::string_view medit_extensions[] = {".mesh"}, tetgen_extensions[] =
                            code_aster_extensions[] = {".mail"}, openfoam_extensions[] = {".foam"}, pflotran_extensions[] = {".uge"},
                            modflow_extensions[] = {".disu"}, ucd_extensions[] = {".ucd", ".avs"}, mfem_extensions[] = {".mfem"},
                            gprs_extensions[] = {".gprs"}, tough2_extensions[] = {".tough2"};
-constexpr std::string_view tried = "fixtures and clients: no real file was found";
+constexpr std::string_view tried = "fixtures and clients: no real file was found",
+                           tried_by_readers_of_tests = "fixtures only: no client was at hand";
 
 /// A mesh has to be made and prepared before it is written: see MeshFormat.
 Result<std::vector<Loss>> refuse_dataset(const Dataset&, OutputSet& out, const WriteOptions&) {
@@ -51,6 +55,8 @@ constexpr Format medit_row() {
             "substance: pyramids, polyhedra, second order, node sets, attributes, points, grids, wells; identity: names, sides, "
             "units, coordinate system");
     format.keeps.exact_coordinates = Keeping::yes;
+    format.sniff = sniff_medit;
+    format.read = read_medit;
     return format;
 }
 
@@ -60,6 +66,8 @@ constexpr Format tetgen_row() {
                         "sides, units, coordinate system");
     format.keeps.attributes = Keeping::partly;
     format.keeps.exact_coordinates = Keeping::yes;
+    format.sniff = sniff_tetgen;
+    format.read = read_tetgen;
     return format;
 }
 
@@ -70,6 +78,9 @@ constexpr Format abaqus_row() {
     format.keeps.fault_faces = Keeping::yes;
     format.keeps.names = Keeping::partly;
     format.keeps.exact_coordinates = Keeping::partly;
+    format.sniff = sniff_abaqus;
+    format.read = read_abaqus;
+    format.tried_on = "real files and clients";
     return format;
 }
 
@@ -80,6 +91,7 @@ constexpr Format code_aster_row() {
     format.keeps.fault_faces = Keeping::yes;
     format.keeps.names = Keeping::partly;
     format.keeps.exact_coordinates = Keeping::yes;
+    format.tried_on = tried_by_readers_of_tests;
     return format;
 }
 
@@ -106,13 +118,17 @@ constexpr Format mfem_row() {
                         "substance: other cells, second order, edge and node sets, attributes, points, grids, wells; identity: names, "
                         "sides, units, coordinate system");
     format.keeps.exact_coordinates = Keeping::yes;
+    format.tried_on = tried_by_readers_of_tests;
     return format;
 }
 
 constexpr Format network_row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions) {
-    return row(name, title, extensions,
-               "substance: shapes of cells, edge and node sets, attributes, points, grids, wells; identity: names that are too long or no "
-               "words, units, coordinate system");
+    Format format =
+        row(name, title, extensions,
+            "substance: shapes of cells, edge and node sets, attributes, points, grids, wells; identity: names that are too long or no "
+            "words, units, coordinate system");
+    format.tried_on = tried_by_readers_of_tests;
+    return format;
 }
 
 constexpr std::array rows = {

@@ -6,38 +6,12 @@
 #include <set>
 
 #include "base/text_cursor.h"
+#include "formats/meshes/abaqus_elements.h"
 #include "formats/meshes/mesh_writing.h"
 
 namespace geomend::meshes {
 
 namespace {
-
-/// How Abaqus calls a type, the order of its nodes (per node of Abaqus ours), and per face of ours the number of Abaqus' face.
-struct Element {
-    CellType type;
-    std::string_view name;
-    std::span<const std::uint8_t> order, faces;
-};
-
-constexpr std::uint8_t in_order[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
-// The first triangle looks into the cell, that of VTK's wedge out of it.
-constexpr std::uint8_t wedge_order[] = {0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13};
-constexpr std::uint8_t tetrahedron_faces[] = {1, 2, 3, 4}, wedge_faces[] = {1, 2, 5, 4, 3}, hexahedron_faces[] = {1, 2, 3, 4, 5, 6};
-
-constexpr Element elements[] = {
-    {CellType::tetrahedron, "C3D4", {in_order, 4}, tetrahedron_faces},
-    {CellType::quadratic_tetrahedron, "C3D10", {in_order, 10}, tetrahedron_faces},
-    {CellType::wedge, "C3D6", {wedge_order, 6}, wedge_faces},
-    {CellType::quadratic_wedge, "C3D15", {wedge_order, 15}, wedge_faces},
-    {CellType::hexahedron, "C3D8", {in_order, 8}, hexahedron_faces},
-    {CellType::quadratic_hexahedron, "C3D20", {in_order, 20}, hexahedron_faces},
-};
-
-/// The row of a type, or nullptr.
-const Element* element_of(CellType type) {
-    const auto* found = std::ranges::find(elements, type, &Element::type);
-    return found == std::end(elements) ? nullptr : found;
-}
 
 constexpr std::size_t longest_number = 20;
 
@@ -103,7 +77,7 @@ private:
 void write_elements(const VolumeMesh& mesh, OutputFile& file) {
     NumberLines line(file, 11);
     for (const VolumeMeshData::Block& block : mesh->blocks) {
-        const Element& element = *element_of(block.type);
+        const AbaqusElement& element = *abaqus_element_of(block.type);
         file << "*ELEMENT, TYPE=" << element.name << ", ELSET=" << mesh->regions[block.region] << '\n';
         for (std::uint32_t c = block.first; c < block.first + block.count && file.good(); ++c) {
             const auto nodes = mesh->nodes_of(c);
@@ -119,7 +93,7 @@ void write_surfaces(const VolumeMesh& mesh, OutputFile& file) {
         file << "*SURFACE, NAME=" << set.name << ", TYPE=ELEMENT\n";
         for (const CellFaceRef& face : set.faces) {
             file.number(face.cell + 1) << ", S";
-            file.number(std::uint32_t{element_of(mesh.block_of(face.cell).type)->faces[face.face]}) << '\n';
+            file.number(std::uint32_t{abaqus_element_of(mesh.block_of(face.cell).type)->faces[face.face]}) << '\n';
         }
     }
 }

@@ -13,13 +13,14 @@ target = corpus / 'whole_path'
 program = pathlib.Path(sys.argv[1]).resolve()
 
 # Leading bytes that choose for the target of a reader, and the extensions that tell the formats apart.
-readers = {'eclipse': 1, 'gmsh': 0, 'gocad': 0, 'grdecl': 1, 'horizon': 2, 'ringmesh': 1, 'roff': 0, 'surface': 1, 'vtk_legacy': 0, 'vtk_xml': 0, 'well': 1}
+readers = {'eclipse': 1, 'gmsh': 0, 'gocad': 0, 'grdecl': 1, 'horizon': 2, 'mesh': 1, 'ringmesh': 1, 'roff': 0, 'surface': 1, 'vtk_legacy': 0, 'vtk_xml': 0, 'well': 1}
 extensions = {'bgrdecl': '.bgrdecl', 'egrid': '.egrid', 'fegrid': '.fegrid', 'fgrid': '.fgrid', 'finit': '.finit', 'funrst': '.funrst',
               'grid': '.grid', 'init': '.init', 'long_count': '.egrid', 'unrst': '.unrst', 'deck': '.data', 'cps3': '.cps3',
               'cps3_lines': '.cps3lines', 'irap_grid': '.irap', 'irap_grid_binary': '.gri', 'irap_grid_binary_little': '.gri',
               'irap_points': '.irapp', 'irap_polygons': '.pol', 'petrel_points': '.petrelpoints', 'rms_points': '.rmsattr', 'zmap': '.zmap',
               'zmap_implied': '.zmap', 'binary': '.roff', 'text': '.roffasc', 'stl_text': '.stl', 'stl_binary': '.stl', 'obj': '.obj', 'ply_text': '.ply',
               'ply_little': '.ply', 'ply_big': '.ply', 'off': '.off',
+              'abaqus': '.inp', 'parts': '.inp', 'medit': '.mesh', 'nodes': '.node',
               'zmap_lines': '.zmaplines', 'points_table': '.csv', 'ijxyz': '.ijxyz',
               'rms_wells': '.rmswell', 'petrel_path': '.dev', 'path_table': '.dev', 'resinsight_path': '.dev'}
 
@@ -193,12 +194,17 @@ def pack_several():
     a, b = (piece % ('1', '1')).encode(), (piece % ('-1', '2')).encode()
     pack('pieces.pvtu', [('m.pvtu', pieces.encode()), ('a.vtu', a), ('b.vtu', b)])
     pack('blocks.vtm', [('m.vtm', blocks.encode()), ('a.vtu', a), ('b.vtu', b)])
+    series = ('<VTKFile type="Collection" version="1.0"><Collection>\n<DataSet timestep="0" part="0" name="A" file="a.vtu"/>\n'
+              '<DataSet timestep="1" part="0" file="b.vtu"/>\n</Collection></VTKFile>\n')
+    pack('series.pvd', [('m.pvd', series.encode()), ('a.vtu', a), ('b.vtu', b)])
     surfaces = '<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints><Piece Source="a.vtp"/>\n<Piece Source="b.vtp"/>\n'
     pack('pieces.pvtp', [('m.pvtp', file_of('PPolyData', 'GhostLevel="0"', surfaces).encode()), ('a.vtp', triangle(0)), ('b.vtp', triangle(1))])
     for kind, extension in (('StructuredGrid', 'vts'), ('ImageData', 'vti'), ('RectilinearGrid', 'vtr')):
         parts = [('a.' + extension, lattice(kind, 0, 1)), ('b.' + extension, lattice(kind, 1, 3))]
         pack('pieces.p' + extension, [('m.p' + extension, lattice_index(kind, extension)), *parts])
         pack('lattice.' + extension, [('m.' + extension, lattice(kind, 0, 3))])
+    pack('tetgen.ele', [('m.ele', b'1 4 1\n1 1 2 3 4 1\n'), ('m.node', b'4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n'),
+                        ('m.face', b'1 1\n1 1 2 3 2\n')])
     cut = deck.index('PORO')
     pack('include.grdecl', [('m.grdecl', (deck[:cut] + "INCLUDE\n 'p.inc' /\n").encode()), ('p.inc', deck[cut:].encode())])
     pack('include.data', [('m.data', ("RUNSPEC\nDIMENS\n 2 2 3 /\nGRID\nINCLUDE\n 'g.inc' /\nEND\n").encode()), ('g.inc', deck.encode())])

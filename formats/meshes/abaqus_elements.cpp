@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "formats/meshes/abaqus_elements.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+
+namespace geomend::meshes {
+
+namespace {
+
+constexpr std::uint8_t in_order[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
+// The first triangle looks into the cell, that of VTK's wedge out of it.
+constexpr std::uint8_t wedge_order[] = {0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13};
+constexpr std::uint8_t middle_last[] = {0, 2, 1};  // a beam of three nodes has its middle between its ends
+constexpr std::uint8_t tetrahedron_faces[] = {1, 2, 3, 4}, wedge_faces[] = {1, 2, 5, 4, 3}, hexahedron_faces[] = {1, 2, 3, 4, 5, 6},
+                       pyramid_faces[] = {1, 2, 3, 4, 5};
+
+constexpr std::array rows = {
+    AbaqusElement{CellType::tetrahedron, "C3D4", {in_order, 4}, tetrahedron_faces},
+    AbaqusElement{CellType::quadratic_tetrahedron, "C3D10", {in_order, 10}, tetrahedron_faces},
+    AbaqusElement{CellType::pyramid, "C3D5", {in_order, 5}, pyramid_faces},
+    AbaqusElement{CellType::wedge, "C3D6", {wedge_order, 6}, wedge_faces},
+    AbaqusElement{CellType::quadratic_wedge, "C3D15", {wedge_order, 15}, wedge_faces},
+    AbaqusElement{CellType::hexahedron, "C3D8", {in_order, 8}, hexahedron_faces},
+    AbaqusElement{CellType::quadratic_hexahedron, "C3D20", {in_order, 20}, hexahedron_faces},
+    AbaqusElement{CellType::triangle, "S3", {in_order, 3}, {}},
+    AbaqusElement{CellType::quad, "S4", {in_order, 4}, {}},
+    AbaqusElement{CellType::quadratic_triangle, "S6", {in_order, 6}, {}},
+    AbaqusElement{CellType::quadratic_quad, "S8", {in_order, 8}, {}},
+    AbaqusElement{CellType::line, "B31", {in_order, 2}, {}},
+    AbaqusElement{CellType::quadratic_edge, "B32", {middle_last, 3}, {}},
+};
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// The row of a name, where nothing but letters follow it: "C3D8" of "C3D8RH", not "C3D2" of "C3D20".
+const AbaqusElement* row_called(std::string_view name) {
+    for (const AbaqusElement& row : rows) {
+        if (name.starts_with(row.name) && (name.size() == row.name.size() || !is_digit(name[row.name.size()]))) return &row;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+std::span<const AbaqusElement> abaqus_elements() { return rows; }
+
+const AbaqusElement* abaqus_element_of(CellType type) {
+    const auto* found = std::ranges::find(rows, type, &AbaqusElement::type);
+    return found == rows.end() ? nullptr : found;
+}
+
+const AbaqusElement* abaqus_element_called(std::string_view name) {
+    if (const AbaqusElement* row = row_called(name)) return row;
+    if (name.starts_with("STRI") && name.size() > 4) return row_called(name[4] == '6' ? "S6" : "S3");
+    for (const std::string_view family : {"M3D", "CPS", "CPE", "CAX", "SFM3D", "R3D", "DS", "SC"}) {
+        if (name.starts_with(family)) return row_called("S" + std::string(name.substr(family.size())));
+    }
+    if (name.starts_with("T3D2") || name.starts_with("B33") || name.starts_with("R3D2")) return row_called("B31");
+    if (name.starts_with("T3D3")) return row_called("B32");
+    return nullptr;
+}
+
+}  // namespace geomend::meshes

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "model/objects.h"
+
+namespace geomend::meshes {
+
+/// What Abaqus calls elements of a type and how it orders their nodes: per node of Abaqus ours, which is its own inverse.
+struct AbaqusElement {
+    CellType type;
+    std::string_view name;  ///< as written; variants (C3D8R, C3D10M) begin with it
+    std::span<const std::uint8_t> order;
+    std::span<const std::uint8_t> faces;  ///< per face of ours the number of Abaqus' face; empty but for solids
+};
+
+/// All types of elements that are read or written.
+std::span<const AbaqusElement> abaqus_elements();
+
+/// The row of a type of cell, or nullptr.
+const AbaqusElement* abaqus_element_of(CellType type);
+
+/// The row of an element by the name that a deck has for it (upper case): C3D8R is C3D8, S4R, M3D4 and CPS4 are quads, B31 and T3D2 lines.
+/// nullptr where it is none of these.
+const AbaqusElement* abaqus_element_called(std::string_view name);
+
+}  // namespace geomend::meshes

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "formats/meshes/read_abaqus.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "formats/drop.h"
+#include "formats/meshes/abaqus_elements.h"
+#include "formats/meshes/deck_lines.h"
+#include "formats/meshes/mesh_reading.h"
+#include "formats/text_reading.h"
+#include "model/cell_faces.h"
+
+namespace geomend::meshes {
+
+namespace {
+
+using Members = std::vector<std::uint32_t>;
+
+/// A face of elements that a SURFACE names, waiting for all elements.
+struct WaitingFace {
+    std::string surface, elements, face;
+    std::uint64_t line;
+};
+
+class Reader {
+public:
+    explicit Reader(const ReadOptions& options) : options_(options) {}
+
+    Result<Dataset> run(const Input& input) {
+        if (auto failed = read(input, 0)) return std::move(*failed);
+        if (mesh_.points.empty()) return unreadable("F017", {input.name()}, "there are no nodes: expected *NODE with a line for each");
+        if (auto failed = add_surfaces(input)) return std::move(*failed);
+        for (auto& [name, members] : node_sets_) add_set(name, AttributeLocation::point, members);
+        for (auto& [name, members] : element_sets_) {
+            if (!is_entity_.contains(name)) add_set(name, AttributeLocation::cell, members);
+        }
+        grown_.finish();
+        mesh_.info.name = name_of(input);
+        data_.objects.emplace_back(std::move(mesh_));
+        return std::move(data_);
+    }
+
+private:
+    const ReadOptions& options_;
+    GrowingMesh grown_;
+    CellMesh& mesh_ = grown_.mesh;
+    Dataset data_;
+    std::size_t part_ = 0, parts_ = 0;  // ids count anew in each PART; part 0 is what stands outside
+    std::vector<std::unordered_map<std::int64_t, std::uint32_t>> nodes_ = {{}}, elements_ = {{}};
+    std::map<std::string, Members> node_sets_, element_sets_;  // by name in upper case: either case is the same
+    std::map<std::string, std::int64_t> tag_of_;               // of entities, by name
+    std::set<std::string> is_entity_;
+    std::vector<WaitingFace> faces_;
+
+    bool is_stopped(std::uint64_t line) const { return line % 16384 == 0 && options_.monitor != nullptr && options_.monitor->stopped(); }
+
+    std::optional<Failure> read(const Input& input, int depth) {
+        constexpr int deepest = 16;
+        if (depth > deepest) return unreadable("F014", {input.name()}, "files include each other more than 16 deep");
+        DeckLines lines(input.bytes());
+        auto kind = lines.next();
+        while (kind != DeckLines::Kind::end) {
+            if (is_stopped(lines.line())) return stopped(input);
+            if (kind == DeckLines::Kind::data) {  // before the first keyword
+                return unreadable("F012", {input.name(), lines.line()},
+                                  "expected a keyword behind a '*', found " + shown(lines.fields().front()));
+            }
+            const DeckKeyword keyword = lines.keyword();
+            std::optional<Failure> failed;
+            if (keyword.word == "INCLUDE") failed = include(input, keyword, depth);
+            if (failed) return failed;
+            if (auto wrong = block(input, keyword, lines, kind)) return wrong;
+        }
+        return std::nullopt;
+    }
+
+    std::optional<Failure> include(const Input& input, const DeckKeyword& keyword, int depth) {
+        auto found = input.companion(keyword.value("INPUT"));
+        if (!found) return std::move(found).why();
+        return read(*found, depth + 1);
+    }
+
+    /// Goes over the lines of data behind a keyword; `kind` is that of the line behind them.
+    std::optional<Failure> block(const Input& input, const DeckKeyword& keyword, DeckLines& lines, DeckLines::Kind& kind) {
+        const auto each_line = [&](const auto& body) -> std::optional<Failure> {
+            while ((kind = lines.next()) == DeckLines::Kind::data) {
+                if (is_stopped(lines.line())) return stopped(input);
+                if (std::optional<Failure> failed = body()) return failed;
+            }
+            return std::nullopt;
+        };
+        if (keyword.word == "NODE") return each_line([&] { return node(input, keyword, lines); });
+        if (keyword.word == "ELEMENT") return elements(input, keyword, lines, kind);
+        if (keyword.word == "NSET" || keyword.word == "ELSET") return each_line([&] { return set_line(input, keyword, lines); });
+        if (keyword.word == "SURFACE" && (!keyword.has("TYPE") || upper_case(keyword.value("TYPE")) == "ELEMENT"))
+            return each_line([&] { return surface_line(keyword, lines); });
+        if (keyword.word == "PART") begin_part();
+        if (keyword.word == "END PART") part_ = 0;
+        std::uint64_t count = 0;
+        auto failed = each_line([&] {
+            ++count;
+            return std::optional<Failure>();
+        });
+        if (failed) return failed;
+        leave_out(input, keyword, count);
+        return std::nullopt;
+    }
+
+    void begin_part() {
+        part_ = ++parts_;
+        nodes_.resize(parts_ + 1);
+        elements_.resize(parts_ + 1);
+    }
+
+    /// Lists a keyword that says no mesh.
+    void leave_out(const Input& input, const DeckKeyword& keyword, std::uint64_t data_lines) {
+        static const std::set<std::string_view> silent{"INCLUDE", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "HEADING"};
+        if (silent.contains(keyword.word) || (keyword.word == "INSTANCE" && data_lines == 0) || keyword.word == "END INSTANCE") return;
+        const Location where{input.name(), keyword.line};
+        if (keyword.word == "INSTANCE")
+            drop(data_.findings, data_.losses,
+                 {.what = "where *INSTANCE moves a part", .why = "parts are read where their nodes are stated", .where = where});
+        else list_dropped(data_.losses, {LossClass::substance, "", "*" + keyword.word, "it says no mesh", 1});
+    }
+
+    std::optional<Failure> whole(const Input& input, const DeckLines& lines, std::size_t field, const char* what,
+                                 std::int64_t& value) const {
+        const std::string_view text = field < lines.fields().size() ? lines.fields()[field] : std::string_view();
+        if (parse_integer(text, value) == NumberStatus::ok) return std::nullopt;
+        return unreadable("F005", location_of(input, lines.cursor(), text), "expected " + std::string(what) + ", found " + shown(text));
+    }
+
+    std::optional<Failure> node(const Input& input, const DeckKeyword& keyword, DeckLines& lines) {
+        std::int64_t id = 0;
+        if (auto failed = whole(input, lines, 0, "the number of a node", id)) return failed;
+        Vec3 p{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::string_view text = k + 1 < lines.fields().size() ? lines.fields()[k + 1] : std::string_view();
+            if (text.empty()) continue;  // 0, as the program has it
+            const NumberStatus status = parse_real(text, p[k]);
+            if (status == NumberStatus::ok && std::isfinite(p[k])) continue;
+            return unreadable(status == NumberStatus::malformed ? "F005" : "F006", location_of(input, lines.cursor(), text),
+                              "expected a coordinate, found " + shown(text));
+        }
+        const auto [at, is_new] = nodes_[part_].try_emplace(id, static_cast<std::uint32_t>(mesh_.points.size()));
+        if (is_new) {
+            if (mesh_.points.size() + 1 >= no_index)
+                return unreadable("F014", {input.name(), lines.line()}, "more nodes than can be numbered");
+            mesh_.points.push_back(p);
+        } else {
+            mesh_.points[at->second] = p;  // the last one holds, as in the program
+        }
+        if (keyword.has("NSET")) node_sets_[upper_case(keyword.value("NSET"))].push_back(at->second);
+        return std::nullopt;
+    }
+
+    std::optional<Failure> elements(const Input& input, const DeckKeyword& keyword, DeckLines& lines, DeckLines::Kind& kind) {
+        const std::string type = upper_case(keyword.value("TYPE"));
+        const AbaqusElement* row = abaqus_element_called(type);
+        std::uint64_t unknown = 0;
+        std::vector<std::int64_t> numbers;  // an element may take several lines
+        while ((kind = lines.next()) == DeckLines::Kind::data) {
+            if (is_stopped(lines.line())) return stopped(input);
+            if (row == nullptr) {
+                ++unknown;
+                continue;
+            }
+            for (std::size_t field = 0; field < lines.fields().size(); ++field) {
+                if (auto failed = whole(input, lines, field, "a node of an element", numbers.emplace_back())) return failed;
+                if (numbers.size() <= row->order.size()) continue;
+                if (auto failed = element(input, keyword, *row, lines.line(), numbers)) return failed;
+                numbers.clear();
+                break;  // the programs pass over what follows on the line
+            }
+        }
+        if (!numbers.empty())
+            return unreadable("F008", {input.name(), lines.line()},
+                              "element " + std::to_string(numbers.front()) + " has " + std::to_string(numbers.size() - 1) +
+                                  " nodes: expected " + std::to_string(row->order.size()) + " of " + type);
+        if (unknown > 0)
+            drop(data_.findings, data_.losses,
+                 {.what = "elements of the type '" + type + "'",
+                  .why = "it is not among those that are known",
+                  .count = unknown,
+                  .where = {input.name(), keyword.line}});
+        return std::nullopt;
+    }
+
+    std::optional<Failure> element(const Input& input, const DeckKeyword& keyword, const AbaqusElement& row, std::uint64_t line,
+                                   std::span<const std::int64_t> numbers) {
+        std::array<std::uint32_t, 20> cell{};
+        for (std::size_t k = 0; k < row.order.size(); ++k) {
+            const auto at = nodes_[part_].find(numbers[k + 1]);
+            if (at == nodes_[part_].end())
+                return unreadable("F007", {input.name(), line},
+                                  "element " + std::to_string(numbers[0]) + " names node " + std::to_string(numbers[k + 1]) +
+                                      ", which is not stated before");
+            cell[row.order[k]] = at->second;
+        }
+        const auto number = static_cast<std::uint32_t>(mesh_.types.size());
+        const auto [at, is_new] = elements_[part_].try_emplace(numbers[0], number);
+        if (!is_new) return replace(input, at->second, numbers[0], row, line, cell);
+        grown_.add(row.type, std::span(cell).first(row.order.size()), entity_of(dimension(row.type), std::string(keyword.value("ELSET"))));
+        if (keyword.has("ELSET")) element_sets_[upper_case(keyword.value("ELSET"))].push_back(number);
+        return std::nullopt;
+    }
+
+    /// An element that is stated again: the last statement holds, as in the programs.
+    std::optional<Failure> replace(const Input& input, std::uint32_t number, std::int64_t id, const AbaqusElement& row, std::uint64_t line,
+                                   const std::array<std::uint32_t, 20>& cell) {
+        if (mesh_.types[number] != row.type)
+            return unreadable("F009", {input.name(), line}, "element " + std::to_string(id) + " is there twice, with two types");
+        std::copy_n(cell.begin(), row.order.size(), mesh_.nodes.begin() + static_cast<std::ptrdiff_t>(mesh_.offsets[number]));
+        drop(data_.findings, data_.losses,
+             {.what = "the first statement of an element that is there twice", .why = "the last one holds", .where = {input.name(), line}});
+        return std::nullopt;
+    }
+
+    std::uint32_t entity_of(int dimension, const std::string& name) {
+        if (!name.empty()) is_entity_.insert(upper_case(name));
+        const auto [at, is_new] = tag_of_.try_emplace(upper_case(name), name.empty() ? 0 : static_cast<std::int64_t>(tag_of_.size()) + 1);
+        return grown_.entity(dimension, at->second, name);
+    }
+
+    /// Numbers, names of other sets, or first, last and step.
+    std::optional<Failure> set_line(const Input& input, const DeckKeyword& keyword, DeckLines& lines) {
+        const bool of_nodes = keyword.word == "NSET";
+        auto& sets = of_nodes ? node_sets_ : element_sets_;
+        Members& members = sets[upper_case(keyword.value(of_nodes ? "NSET" : "ELSET"))];
+        if (keyword.has("INSTANCE")) {
+            list_dropped(data_.losses, {LossClass::substance, std::string(keyword.value("NSET")) + std::string(keyword.value("ELSET")),
+                                        "set of an instance", "sets are read within their part"});
+            return std::nullopt;
+        }
+        const auto& known = of_nodes ? nodes_[part_] : elements_[part_];
+        std::uint64_t missing = 0;
+        const auto add = [&](std::int64_t id) {
+            const auto at = known.find(id);
+            if (at == known.end()) ++missing;
+            else members.push_back(at->second);
+        };
+        if (keyword.has("GENERATE")) {
+            std::int64_t first = 0, last = 0, step = 1;
+            if (auto failed = whole(input, lines, 0, "the first number of a set", first)) return failed;
+            if (auto failed = whole(input, lines, 1, "the last number of a set", last)) return failed;
+            if (lines.fields().size() > 2 && !lines.fields()[2].empty())
+                if (auto failed = whole(input, lines, 2, "the step of a set", step)) return failed;
+            if (step < 1 || last < first || (last - first) / step > static_cast<std::int64_t>(known.size()) * 16 + 1000000)
+                return unreadable("F012", {input.name(), lines.line()},
+                                  "expected first, last and a step, found numbers that do not ascend, or too many");
+            for (std::int64_t id = first; id <= last; id += step) add(id);
+            missing = 0;  // a range may have gaps
+        } else {
+            for (const std::string_view field : lines.fields()) {
+                std::int64_t id = 0;
+                if (parse_integer(field, id) == NumberStatus::ok) {
+                    add(id);
+                    continue;
+                }
+                const auto other = sets.find(upper_case(field));
+                if (other == sets.end()) ++missing;
+                else if (&other->second != &members) members.insert(members.end(), other->second.begin(), other->second.end());
+            }
+        }
+        if (missing > 0)
+            drop(data_.findings, data_.losses,
+                 {.what = "members of sets", .why = "they are not stated before", .count = missing, .where = {input.name(), lines.line()}});
+        return std::nullopt;
+    }
+
+    std::optional<Failure> surface_line(const DeckKeyword& keyword, DeckLines& lines) {
+        const auto& fields = lines.fields();
+        faces_.push_back({std::string(keyword.value("NAME")), std::string(fields[0]),
+                          fields.size() > 1 ? upper_case(fields[1]) : std::string(), lines.line()});
+        return std::nullopt;
+    }
+
+    std::optional<Failure> add_surfaces(const Input& input) {
+        std::uint64_t unknown = 0, first_line = 0;
+        for (const WaitingFace& waiting : faces_) {
+            Members elements;
+            std::int64_t id = 0;
+            const auto set = element_sets_.find(upper_case(waiting.elements));
+            if (set != element_sets_.end()) elements = set->second;
+            else if (parse_integer(waiting.elements, id) == NumberStatus::ok) {
+                for (const auto& part : elements_) {
+                    const auto at = part.find(id);
+                    if (at != part.end()) elements.push_back(at->second);
+                }
+            }
+            std::uint64_t added = 0;
+            for (const std::uint32_t element : elements) added += add_face(element, waiting) ? 1 : 0;
+            if (added > 0 && added == elements.size()) continue;
+            if (unknown == 0) first_line = waiting.line;
+            unknown += std::max<std::uint64_t>(1, elements.size() - added);
+        }
+        if (unknown > 0)
+            drop(data_.findings, data_.losses,
+                 {.what = "faces of *SURFACE",
+                  .why = "their element or face is not known",
+                  .count = unknown,
+                  .where = {input.name(), first_line}});
+        return std::nullopt;
+    }
+
+    bool add_face(std::uint32_t element, const WaitingFace& waiting) {
+        const AbaqusElement* row = abaqus_element_of(mesh_.types[element]);
+        std::int64_t wanted = 0;
+        if (row == nullptr || !waiting.face.starts_with('S') ||
+            parse_integer(std::string_view(waiting.face).substr(1), wanted) != NumberStatus::ok)
+            return false;
+        const auto face = std::ranges::find(row->faces, wanted);
+        if (face == row->faces.end()) return false;
+        std::vector<std::uint32_t> nodes;
+        for (const std::uint8_t corner : faces_of(row->type)[static_cast<std::size_t>(face - row->faces.begin())].corners())
+            nodes.push_back(mesh_.cell_nodes(element)[corner]);
+        grown_.add(nodes.size() == 3 ? CellType::triangle : CellType::quad, nodes, entity_of(2, waiting.surface));
+        return true;
+    }
+
+    void add_set(const std::string& name, AttributeLocation location, Members& members) {
+        std::ranges::sort(members);
+        members.erase(std::ranges::unique(members).begin(), members.end());
+        if (!members.empty()) mesh_.info.sets.push_back({name, location, std::move(members)});
+    }
+};
+
+}  // namespace
+
+int sniff_abaqus(std::string_view head, std::string_view base_name) {
+    DeckLines lines(head);
+    if (lines.next() != DeckLines::Kind::keyword) return 0;
+    static const std::set<std::string_view> first{"HEADING",  "NODE",    "PART", "INCLUDE", "PARAMETER",
+                                                  "PREPRINT", "ELEMENT", "NSET", "ASSEMBLY"};
+    if (!first.contains(lines.keyword().word)) return 0;
+    return lower_case(base_name).ends_with(".inp") ? 95 : 70;
+}
+
+Result<Dataset> read_abaqus(const Input& input, const ReadOptions& options) {
+    auto data = Reader(options).run(input);
+    if (!data) return data;
+    data->format = "mesh";
+    data->variant = "Abaqus";
+    tell_missing_line_end(input, *data);
+    return data;
+}
+
+}  // namespace geomend::meshes

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "formats/meshes/meshes.h"
+#include "geometry/cell_volume.h"
+#include "meshes/cell_samples.h"
+#include "meshes/written_mesh.h"
+#include "support/temporary_folder.h"
+
+namespace geomend::test {
+namespace {
+
+Result<Dataset> read(std::string_view format, const Input& input) {
+    const auto rows = meshes::formats();
+    return std::ranges::find(rows, format, &Format::name)->read(input, {});
+}
+
+Dataset read_text(std::string_view format, const std::string& text) {
+    auto data = read(format, Input::from_memory(text, "a.txt"));
+    EXPECT_TRUE(data) << (data ? "" : data.why().error.message);
+    return data ? std::move(*data) : Dataset{};
+}
+
+std::string failure_of(std::string_view format, const std::string& text) {
+    const auto data = read(format, Input::from_memory(text, "a.txt"));
+    return data ? "" : data.why().error.code + " " + to_string(data.why().error.where) + ": " + data.why().error.message;
+}
+
+const CellMesh& mesh_in(const Dataset& data) { return std::get<CellMesh>(data.objects.at(0)); }
+
+std::vector<std::uint32_t> nodes(const CellMesh& mesh, std::size_t cell) {
+    const auto own = mesh.cell_nodes(cell);
+    return {own.begin(), own.end()};
+}
+
+const CellMesh::Entity& entity_of(const CellMesh& mesh, std::size_t cell) { return mesh.entities.at(mesh.cell_entity.at(cell)); }
+
+/// Cells of three dimensions with their positions and the names of their regions, ascending: what a round trip is to keep.
+std::vector<std::pair<std::string, std::vector<Vec3>>> solids(const CellMesh& mesh) {
+    std::vector<std::pair<std::string, std::vector<Vec3>>> all;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+        if (dimension(mesh.types[c]) < 3) continue;
+        auto& [name, corners] = all.emplace_back(mesh.entities.empty() ? "" : entity_of(mesh, c).name, std::vector<Vec3>());
+        for (const std::uint32_t n : mesh.cell_nodes(c)) corners.push_back(mesh.points[n]);
+    }
+    std::ranges::sort(all);
+    return all;
+}
+
+TEST(MeshReading, WhatIsWrittenIsReadWithRegionsNodesAndSets) {
+    struct Case {
+        const char *format, *file;
+    };
+    for (const auto& [format, file] :
+         {Case{"medit", "m.mesh"}, Case{"tetgen", "m.ele"}, Case{"tetgen", "m.node"}, Case{"abaqus", "m.inp"}}) {
+        for (const SampleCell& sample : sample_cells()) {
+            const bool second = is_second_order(sample.type);
+            if ((std::string(format) == "tetgen" && linear_type(sample.type) != CellType::tetrahedron) ||
+                (std::string(format) == "medit" && second))
+                continue;
+            const TemporaryFolder folder;
+            const CellMesh mesh = mesh_of(sample);
+            OutputSet out(folder / file);
+            ASSERT_TRUE(write_cells(mesh, format, out));
+            const auto data = read(format, *Input::open((folder / file).string()));
+            ASSERT_TRUE(data) << data.why().error.message;
+            EXPECT_EQ(solids(mesh_in(*data)), solids(mesh)) << format << ' ' << to_string(sample.type);
+            const auto surfaces = std::ranges::count_if(mesh_in(*data).entities, [](const auto& e) { return e.dimension == 2; });
+            EXPECT_EQ(surfaces, static_cast<std::ptrdiff_t>(sample.faces.size())) << format;
+        }
+    }
+}
+
+TEST(MeshReading, BoxesKeepTheirFaultAndWell) {
+    for (const auto& [format, file] : {std::pair("medit", "m.mesh"), std::pair("abaqus", "m.inp")}) {
+        const TemporaryFolder folder;
+        OutputSet out(folder / file);
+        ASSERT_TRUE(write_cells(two_boxes(false), format, out));
+        const auto data = read(format, *Input::open((folder / file).string()));
+        ASSERT_TRUE(data);
+        EXPECT_EQ(solids(mesh_in(*data)), solids(two_boxes(false)));
+        const auto& mesh = mesh_in(*data);
+        const bool has_fault =
+            std::ranges::any_of(mesh.entities, [](const auto& e) { return e.dimension == 2 && e.name.starts_with("F"); });
+        EXPECT_TRUE(has_fault) << format;
+    }
+}
+
+TEST(Medit, IsReadWhateverTheOrderOfSectionsAndLines) {
+    const Dataset data = read_text("medit",
+                                   "MeshVersionFormatted\n2\n# a comment\nDimension\n3\nTetrahedra 1 1 2 3 4 7\nTriangles\n1\n1 2 3 -5\n"
+                                   "Vertices 4\n0 0 0 0 1 0 0 0\n0 1 0 0\n0 0 1 0\nCorners 2\n1 2\nEnd\n");
+    const CellMesh& mesh = mesh_in(data);
+    ASSERT_EQ(mesh.cell_count(), 2u);
+    EXPECT_EQ(nodes(mesh, 0), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(entity_of(mesh, 0).tag, 7);
+    EXPECT_EQ(entity_of(mesh, 1).tag, -5);
+    EXPECT_TRUE(data.findings.empty());
+    ASSERT_EQ(data.losses.size(), 1u);
+    EXPECT_EQ(data.losses[0].loss_class, LossClass::style);
+}
+
+TEST(Medit, PrismsLookIntoTheCellWithTheirFirstTriangle) {
+    const Dataset data = read_text("medit",
+                                   "MeshVersionFormatted 2 Dimension 3 Vertices 6 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 1 0 1 0 0 1 1 0\n"
+                                   "Prisms 1 1 2 3 4 5 6 1 End\n");
+    const CellMesh& mesh = mesh_in(data);
+    std::vector<Vec3> corners;
+    for (const std::uint32_t n : mesh.cell_nodes(0)) corners.push_back(mesh.points[n]);
+    EXPECT_EQ(prism_volume(corners, std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}), -0.5) << "VTK's wedge looks out of it";
+}
+
+TEST(Medit, UnknownSectionsAreReportedAndPassedOver) {
+    const Dataset data = read_text("medit", "MeshVersionFormatted 2\nDimension 3\nVertices 1\n0 0 0 0\nVoronoi 2\n1 2 3\n4 5 6\nEnd\n");
+    ASSERT_EQ(data.findings.size(), 1u);
+    EXPECT_EQ(data.findings[0].where.line, 5u);
+    ASSERT_EQ(data.losses.size(), 1u);
+    EXPECT_EQ(data.losses[0].count, 2u);
+}
+
+TEST(Medit, BrokenFilesSayWhereAndWhy) {
+    const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
+    EXPECT_TRUE(failure_of("medit", head + "Vertices 2\n0 0 0 0\n").starts_with("F004"));
+    EXPECT_TRUE(failure_of("medit", head + "Vertices 1\n0 x 0 0\n").starts_with("F005 a.txt:4:3"));
+    EXPECT_TRUE(failure_of("medit", head + "Vertices 1\n0 nan 0 0\n").starts_with("F006"));
+    EXPECT_TRUE(failure_of("medit", head + "Vertices 1000000000000\n").starts_with("F014"));
+    EXPECT_TRUE(failure_of("medit", head + "Vertices 1\n0 0 0 0\nTriangles 1\n1 2 3 0\nEnd\n").starts_with("F007 a.txt:6"));
+    EXPECT_TRUE(failure_of("medit", "MeshVersionFormatted 2\nDimension 2\n").starts_with("F013"));
+    EXPECT_FALSE(read_text("medit", head + "Vertices 1\n0 0 0 0\n").findings.empty()) << "no End";
+}
+
+TEST(TetGen, NodesCountFromTheFirstOneAndAloneArePoints) {
+    const TemporaryFolder folder;
+    write_file(folder / "m.node", "4 3 1 1\n0 0 0 0 10.5 1\n1 1 0 0 11 1\n2 0 1 0 12 1\n3 0 0 1 13 1\n");
+    auto points = read("tetgen", *Input::open((folder / "m.node").string()));
+    ASSERT_TRUE(points);
+    const auto& set = std::get<PointSet>(points->objects.at(0));
+    EXPECT_EQ(set.points.size(), 4u);
+    EXPECT_EQ(std::get<std::vector<double>>(set.info.attributes.at(0).values), (std::vector<double>{10.5, 11, 12, 13}));
+    write_file(folder / "m.ele", "1 4 1\n0 0 1 2 3 9\n");
+    write_file(folder / "m.face", "2 1\n0 0 2 1 4\n1 0 1 3 0\n");
+    auto cells = read("tetgen", *Input::open((folder / "m.ele").string()));
+    ASSERT_TRUE(cells) << cells.why().error.message;
+    const CellMesh& mesh = mesh_in(*cells);
+    ASSERT_EQ(mesh.cell_count(), 2u) << "a face without a marker is a face of its cell alone";
+    EXPECT_EQ(nodes(mesh, 0), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(entity_of(mesh, 0).tag, 9);
+    EXPECT_EQ(entity_of(mesh, 1).tag, 4);
+}
+
+TEST(TetGen, BrokenFilesSayWhereAndWhy) {
+    const TemporaryFolder folder;
+    const auto failure = [&](const std::string& node, const std::string& cells) {
+        write_file(folder / "m.node", node);
+        write_file(folder / "m.ele", cells);
+        const auto data = read("tetgen", *Input::open((folder / "m.ele").string()));
+        return data ? std::string() : data.why().error.code;
+    };
+    const std::string four = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+    EXPECT_EQ(failure(four, "1 4 0\n1 1 2 3 4\n"), "");
+    EXPECT_EQ(failure(four, "1 4 0\n1 0 1 2 3\n"), "F007");
+    EXPECT_EQ(failure(four, "2 4 0\n1 1 2 3 4\n"), "F004");
+    EXPECT_EQ(failure(four, "1 5 0\n1 1 2 3 4 4\n"), "F012");
+    EXPECT_EQ(failure(four, "900000000 4 0\n1 1 2 3 4\n"), "F014");
+    EXPECT_EQ(failure("2 2 0 0\n1 0 0\n2 1 0\n", "1 4 0\n1 1 2 3 4\n"), "F013");
+    EXPECT_EQ(failure("2 3 0 0\n1 0 0 0\n5 1 0 0\n", "1 4 0\n1 1 2 3 4\n"), "F012");
+    std::filesystem::remove(folder / "m.node");
+    EXPECT_EQ(read("tetgen", *Input::open((folder / "m.ele").string())).why().error.code, "F010");
+}
+
+constexpr const char* deck = R"(*HEADING
+ a cube, as its manual has it
+** a comment
+*Node, nset=Nall
+1, 0., 0., 0.
+2, 1.
+3, 1., 1., 0.
+4, , 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+*ELEMENT, TYPE=C3D8R, ELSET=Rock
+ 1, 1, 2, 3, 4,
+ 5, 6, 7, 8
+*Element, type=S4R, elset=Shell
+2, 1, 2, 3, 4
+*NSET, NSET=BASE, GENERATE
+1, 4, 1
+*ELSET, ELSET=Both
+Rock, Shell
+*SURFACE, NAME=Top, TYPE=ELEMENT
+1, S2
+*SURFACE, NAME=West
+Rock, S6
+*MATERIAL, NAME=stuff
+*ELASTIC
+1000, 0.25
+)";
+
+TEST(Abaqus, NodesElementsSetsAndSurfacesOfADeck) {
+    const Dataset data = read_text("abaqus", deck);
+    const CellMesh& mesh = mesh_in(data);
+    EXPECT_EQ(mesh.points.size(), 8u);
+    EXPECT_EQ(mesh.points[3], (Vec3{0, 1, 0})) << "what is left out is 0";
+    ASSERT_EQ(mesh.cell_count(), 4u);
+    EXPECT_EQ(mesh.types[0], CellType::hexahedron);
+    EXPECT_EQ(nodes(mesh, 0), (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7})) << "over two lines";
+    EXPECT_EQ(entity_of(mesh, 0).name, "Rock");
+    EXPECT_EQ(entity_of(mesh, 1).name, "Shell");
+    EXPECT_EQ(entity_of(mesh, 2).name, "Top");
+    EXPECT_EQ(entity_of(mesh, 3).name, "West");
+    const auto corners = [&](std::size_t cell) {
+        auto own = nodes(mesh, cell);
+        std::ranges::sort(own);
+        return own;
+    };
+    EXPECT_EQ(corners(2), (std::vector<std::uint32_t>{4, 5, 6, 7})) << "S2: 5 8 7 6";
+    EXPECT_EQ(corners(3), (std::vector<std::uint32_t>{0, 3, 4, 7})) << "S6: 4 8 5 1";
+    const auto set = [&](const std::string& name) { return std::ranges::find(mesh.info.sets, name, &NamedSet::name)->members; };
+    EXPECT_EQ(set("NALL").size(), 8u);
+    EXPECT_EQ(set("BASE"), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(set("BOTH"), (std::vector<std::uint32_t>{0, 1}));
+    std::vector<std::string> lost;
+    for (const Loss& loss : data.losses) lost.push_back(loss.what);
+    EXPECT_EQ(lost, (std::vector<std::string>{"*MATERIAL", "*ELASTIC"}));
+}
+
+TEST(Abaqus, PartsCountTheirNodesAnew) {
+    const Dataset data =
+        read_text("abaqus",
+                  "*PART, NAME=A\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=a\n1,1,2,3,4\n*END PART\n"
+                  "*PART, NAME=B\n*NODE\n1,5,0,0\n2,6,0,0\n3,5,1,0\n4,5,0,1\n*ELEMENT,TYPE=C3D4,ELSET=b\n1,1,2,3,4\n*END PART\n"
+                  "*ASSEMBLY, NAME=all\n*INSTANCE, NAME=B-1, PART=B\n0, 0, 10\n*END INSTANCE\n*END ASSEMBLY\n");
+    const CellMesh& mesh = mesh_in(data);
+    ASSERT_EQ(mesh.cell_count(), 2u);
+    EXPECT_EQ(nodes(mesh, 1), (std::vector<std::uint32_t>{4, 5, 6, 7}));
+    ASSERT_EQ(data.findings.size(), 1u) << "where the instance lies";
+    EXPECT_EQ(data.findings[0].where.line, 20u);
+}
+
+TEST(Abaqus, IncludedFilesAreRead) {
+    const TemporaryFolder folder;
+    write_file(folder / "nodes.inp", "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n");
+    write_file(folder / "m.inp", "*INCLUDE, INPUT=nodes.inp\n*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n");
+    const auto data = read("abaqus", *Input::open((folder / "m.inp").string()));
+    ASSERT_TRUE(data) << data.why().error.message;
+    EXPECT_EQ(mesh_in(*data).cell_count(), 1u);
+    EXPECT_TRUE(mesh_in(*data).entities.empty());
+    write_file(folder / "loop.inp", "*INCLUDE, INPUT=loop.inp\n");
+    EXPECT_EQ(read("abaqus", *Input::open((folder / "loop.inp").string())).why().error.code, "F014");
+}
+
+TEST(Abaqus, WhatIsNotKnownIsReportedAndBrokenFilesSayWhere) {
+    const std::string four = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
+    const Dataset springs = read_text("abaqus", four + "*ELEMENT, TYPE=SPRINGA\n1,1,2\n2,2,3\n");
+    ASSERT_EQ(springs.findings.size(), 1u);
+    EXPECT_EQ(springs.findings[0].count, 2u);
+    EXPECT_EQ(read_text("abaqus", four + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n1,2,1,3,4\n").findings.size(), 1u) << "the last one holds";
+    EXPECT_TRUE(failure_of("abaqus", four + "*ELEMENT, TYPE=C3D4\n1,1,2,3,5\n").starts_with("F007 a.txt:7"));
+    EXPECT_TRUE(failure_of("abaqus", four + "*ELEMENT, TYPE=C3D4\n1,1,2,3\n").starts_with("F008"));
+    EXPECT_TRUE(failure_of("abaqus", four + "*ELEMENT, TYPE=C3D4\n1,1,2,x,4\n").starts_with("F005 a.txt:7:7"));
+    EXPECT_TRUE(failure_of("abaqus", "*NODE\n1,0,inf,0\n").starts_with("F006"));
+    EXPECT_TRUE(failure_of("abaqus", "*HEADING\n").starts_with("F017"));
+    EXPECT_TRUE(failure_of("abaqus", four + "*NSET, NSET=a, GENERATE\n1, 9000000000000, 1\n").starts_with("F012"));
+}
+
+}  // namespace
+}  // namespace geomend::test
