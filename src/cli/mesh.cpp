@@ -16,7 +16,7 @@ namespace {
 
 struct MeshOptions : CommonOptions {
     std::vector<std::string> inputs;
-    std::string output;
+    std::string output, split = "none";
     double size = 0, ratio = 1.4, seconds = 120, megabytes = 0;
     bool lossy = false;
 };
@@ -38,6 +38,10 @@ std::string region_lines(const MeshReport& report, bool all_tries) {
         if (!all_tries && r.filled() && r.as_asked) continue;
         for (const std::string& why : r.why_not) text += "    " + why + '\n';
     }
+    if (report.split.surfaces > 0)
+        text += "split along " + counted(report.split.surfaces, "surface", "surfaces") + ": " +
+                counted(report.split.vertices, "point", "points") + " doubled, " + counted(report.split.pairs, "pair", "pairs") +
+                " of faces\n";
     if (report.is_written)
         text += counted(cells, "cell", "cells") + " in " + counted(report.regions.size(), "region", "regions") + " written\n";
     return text;
@@ -68,6 +72,7 @@ ExitStatus run(const MeshOptions& o) {
     request.files.accept_unterminated = o.accept_unterminated;
     request.files.load = {o.from, std::move(*options), &monitor};
     request.checks = std::move(*checks);
+    request.split = o.split;
     request.fill.size = o.size;
     request.fill.ratio = o.ratio;
     request.fill.limits.seconds = o.seconds;
@@ -105,6 +110,8 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
     command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
         ->type_name("R")
         ->check(is_length());
+    command->add_option("--split", o->split, "Double the points along surfaces: none (default), faults, all, or names between commas")
+        ->type_name("WHICH");
     command->add_option("--time-limit", o->seconds, "Most time for one try to fill a region; 0 is no limit (default 120)")
         ->type_name("SECONDS")
         ->check(is_length());

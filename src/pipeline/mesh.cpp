@@ -82,7 +82,11 @@ Result<void> fill(Dataset& dataset, const MeshRequest& request, MeshReport& repo
     list_face_sets(filled->brep, report);
     if (!std::ranges::all_of(report.regions, &volumes::FilledRegion::filled))
         return cannot_fill(request.files.inputs.front(), "not all regions could be filled");
-    return put_in_place(dataset, std::move(filled->brep));
+    if (auto put = put_in_place(dataset, std::move(filled->brep)); !put) return put;
+    auto split = split_mesh(dataset, request.split, dataset.losses);
+    if (!split) return std::move(split).why();
+    report.split = *split;
+    return {};
 }
 
 }  // namespace
@@ -92,7 +96,7 @@ Result<MeshReport> mesh(const MeshRequest& request) {
     bool judged = false;
     auto converted = convert(request.files, [&](Dataset& dataset, const Format&) {
         auto done = fill(dataset, request, report);
-        judged = !report.errors.empty() || (!done && !report.regions.empty());
+        judged = !report.errors.empty() || (!done && std::ranges::any_of(report.regions, [](const auto& r) { return !r.filled(); }));
         return done;
     });
     if (!converted) {
@@ -141,6 +145,7 @@ std::string mesh_json(const MeshReport& report) {
         all["quality"] = {{"min_dihedral", least}};
         all["loss"] = losses_json(report.written.losses);
     }
+    all["split"] = {{"surfaces", report.split.surfaces}, {"vertices", report.split.vertices}, {"pairs", report.split.pairs}};
     Json errors = Json::array();
     for (const Finding& f : report.errors) errors.push_back(finding_json(f));
     all["errors"] = std::move(errors);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/convert.h"
+#include "pipeline/mesh_split.h"
 #include "validators/registry.h"
 #include "volume/fill.h"
 
@@ -15,6 +16,7 @@ struct MeshRequest {
     ConvertRequest files;
     validators::CheckOptions checks;  ///< by which the model is judged before it is filled
     volumes::FillOptions fill;
+    std::string split = "none";  ///< along which surfaces, see split_mesh()
 };
 
 /// A block of cells in the file: those of one region and type.
@@ -38,6 +40,7 @@ struct MeshReport {
     std::vector<Finding> errors;  ///< of the model, for which it was not filled
     std::vector<volumes::FilledRegion> regions;
     std::vector<MeshFaceSet> face_sets;
+    SplitReport split;
     bool is_written = false;
 };
 

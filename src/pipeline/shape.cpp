@@ -8,6 +8,7 @@
 #include "topology/brep_from_dataset.h"
 #include "topology/flat_objects.h"
 #include "topology/region_surfaces.h"
+#include "topology/weld.h"
 
 namespace geomend {
 
@@ -39,12 +40,38 @@ bool lacks_lines(const CellMesh& mesh) {
     return has(2) && !has(1);
 }
 
+// Whether cells have points of their own at some positions, all of which lie on surfaces of the mesh: it was split there, and would
+// be joined on the way through a boundary representation.
+bool is_split_along_surfaces(const CellMesh& mesh) {
+    topology::Welder places(0);
+    std::vector<std::uint32_t> place_of;
+    for (const Vec3& p : mesh.points) place_of.push_back(places.add(p));
+    enum : std::uint8_t { unused, used, doubled };
+    std::vector<std::uint8_t> state(places.positions().size(), unused), on_surface(places.positions().size(), 0);
+    std::vector<std::uint8_t> seen(mesh.points.size(), 0);
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+        for (const std::uint32_t n : mesh.cell_nodes(c)) {
+            if (dimension(mesh.types[c]) == 2) on_surface[place_of[n]] = 1;
+            if (dimension(mesh.types[c]) < 3 || seen[n] != 0) continue;
+            seen[n] = 1;
+            state[place_of[n]] = state[place_of[n]] == unused ? used : doubled;
+        }
+    }
+    bool is_split = false;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (state[i] != doubled) continue;
+        if (on_surface[i] == 0) return false;
+        is_split = true;
+    }
+    return is_split;
+}
+
 // True when there is just one mesh with entities, whose points need no welding, and nothing else.
 bool is_tagged_mesh(const Dataset& dataset, const Format& target) {
     if (dataset.objects.size() != 1 || !is_meshed(dataset.objects.front())) return false;
     if (dataset.format == target.family) return true;
     const auto& mesh = std::get<CellMesh>(dataset.objects.front());
-    if (!mesh.alias.empty() || (target.statements && lacks_lines(mesh))) return false;
+    if (!mesh.alias.empty() || (target.statements && lacks_lines(mesh) && !is_split_along_surfaces(mesh))) return false;
     return dataset.models.empty() || target.statements;
 }
 
