@@ -11,7 +11,7 @@ namespace geomend::cli {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> planned{"batch", "grid", "remesh"};
+constexpr std::array<std::string_view, 2> planned{"batch", "grid"};
 
 std::vector<std::string> command_names(const CLI::App& program) {
     std::vector<std::string> names;

@@ -14,6 +14,7 @@ void add_formats(CLI::App& program, ExitStatus& status);
 void add_validate(CLI::App& program, ExitStatus& status);
 void add_repair(CLI::App& program, ExitStatus& status);
 void add_mesh(CLI::App& program, ExitStatus& status);
+void add_remesh(CLI::App& program, ExitStatus& status);
 void add_checks(CLI::App& program, ExitStatus& status);
 /// The last one: it tells of all others.
 void add_completion(CLI::App& program, ExitStatus& status);

@@ -37,6 +37,7 @@ ExitStatus run(int argc, char** argv) {
     geomend::cli::add_validate(program, status);
     geomend::cli::add_repair(program, status);
     geomend::cli::add_mesh(program, status);
+    geomend::cli::add_remesh(program, status);
     geomend::cli::add_formats(program, status);
     geomend::cli::add_checks(program, status);
     geomend::cli::add_completion(program, status);

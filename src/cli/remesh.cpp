@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/remesh.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "base/number_text.h"
+#include "base/wording.h"
+#include "cli/check_arguments.h"
+#include "cli/commands.h"
+#include "cli/common_options.h"
+
+namespace geomend::cli {
+
+namespace {
+
+struct RemeshArguments : CommonOptions {
+    std::vector<std::string> inputs;
+    std::string output;
+    std::vector<std::string> size_of;
+    double size = 0, growth = 0.3, max_distance = 0;
+    std::uint64_t most_triangles = 20'000'000;
+    bool lossy = false, keep_invalid = false;
+};
+
+Result<std::vector<std::pair<std::string, double>>> sizes_of(const std::vector<std::string>& texts) {
+    std::vector<std::pair<std::string, double>> sizes;
+    for (const std::string& text : texts) {
+        const std::size_t at = text.rfind('=');
+        double size = 0;
+        if (at == std::string::npos || at == 0 || parse_real(std::string_view(text).substr(at + 1), size) != NumberStatus::ok ||
+            !(size > 0) || size > 1e20)
+            return failure(FailureKind::usage, "F018", {}, "--size-of " + text + ": expected NAME=LENGTH");
+        sizes.emplace_back(text.substr(0, at), size);
+    }
+    return sizes;
+}
+
+std::string quality_words(const remeshing::TriangleQuality& q) {
+    return counted(q.triangles, "triangle", "triangles") + " (least angle " + rounded(q.least_angle) + " degrees, " +
+           rounded(100 * q.share_above_30()) + " % above 30, mean quality " + rounded(q.mean_quality()) + ")";
+}
+
+std::string model_lines(const RemeshReport::Model& model, bool all_surfaces) {
+    std::string text;
+    remeshing::TriangleQuality before, after;
+    double to_old = 0, from_old = 0;
+    for (const auto& s : model.made.surfaces) {
+        before.add(s.before);
+        after.add(s.after);
+        to_old = std::max(to_old, s.to_old);
+        from_old = std::max(from_old, s.from_old);
+        const std::string name = geomend::quoted(s.name.empty() ? s.interface : s.name);
+        if (s.kept) text += "  surface " + name + " stays as it was: " + s.why + "\n";
+        else if (all_surfaces)
+            text += "  surface " + name + ": " + quality_words(s.before) + " became " + quality_words(s.after) + ", at most " +
+                    rounded(std::max(s.to_old, s.from_old)) + " away\n";
+    }
+    text += quality_words(before) + "\n  became " + quality_words(after) + "\n";
+    text += counted(model.made.line_edges_before, "edge", "edges") + " of lines became " + std::to_string(model.made.line_edges_after) +
+            "; the new surfaces are at most " + rounded(to_old) + " away from the old ones, and the old ones " + rounded(from_old) +
+            " from the new\n";
+    return text;
+}
+
+ExitStatus run(const RemeshArguments& o) {
+    auto options = format_options(o.options);
+    if (!options) return report(options.why());
+    auto sizes = sizes_of(o.size_of);
+    if (!sizes) return report(sizes.why());
+    if (o.json && o.output == "-")
+        return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
+    if (!(o.size > 0)) return report(failure(FailureKind::usage, "F018", {}, "--size 0: expected a length above 0"));
+    const ThreadBudget budget(o.threads);
+    const Monitor monitor = make_monitor(o);
+    auto checks = check_options(o, {}, &monitor);
+    if (!checks) return report(checks.why());
+    RemeshRequest request;
+    request.files.inputs = o.inputs;
+    request.files.output = o.output;
+    request.files.to = o.to;
+    request.files.lossy = o.lossy;
+    request.files.accept_unterminated = o.accept_unterminated;
+    request.files.load = {o.from, std::move(*options), &monitor};
+    request.checks = std::move(*checks);
+    request.keep_invalid = o.keep_invalid;
+    request.remesh.size = o.size;
+    request.remesh.size_of = std::move(*sizes);
+    request.remesh.growth = o.growth;
+    request.remesh.max_distance = o.max_distance;
+    request.remesh.most_triangles = o.most_triangles;
+    request.remesh.monitor = &monitor;
+    const auto made = remesh(request);
+    if (!made) return report(made.why());
+    end_progress();
+    ExitStatus status = made->why_not.empty() ? ExitStatus::done : ExitStatus::invalid_result;
+    if (o.json) return worse(status, print(remesh_json(*made)));
+    if (!made->why_not.empty()) report(made->errors, false);
+    if (!o.quiet) {
+        for (const Loss& loss : made->written.losses) {
+            if (loss.loss_class == LossClass::style && !o.verbose) continue;
+            std::fprintf(stderr, "lost (%s): %s%s%s\n", to_string(loss.loss_class), loss.entity.c_str(), loss.entity.empty() ? "" : ": ",
+                         loss.what.c_str());
+        }
+        std::string text;
+        for (const auto& model : made->models) text += model_lines(model, o.verbose);
+        if (o.output == "-") std::fputs(text.c_str(), stderr);
+        else status = worse(status, print(text));
+    }
+    if (!made->why_not.empty())
+        std::fprintf(stderr, "geomend: %s%s\n", made->why_not.c_str(), made->is_written ? "" : ": nothing was written");
+    return status;
+}
+
+}  // namespace
+
+void add_remesh(CLI::App& program, ExitStatus& status) {
+    auto* command = program.add_subcommand("remesh", "Give surfaces and lines new vertices and triangles of a wanted size");
+    auto o = std::make_shared<RemeshArguments>();
+    command->add_option("IN", o->inputs, "Input files, taken as one model; - is standard input")->required();
+    command->add_option("-o,--output", o->output, "Output file; - is standard output")->required()->type_name("OUT");
+    command->add_option("--size", o->size, "Length that edges of triangles should have")->required()->type_name("L")->check(is_length());
+    command->add_option("--size-of", o->size_of, "The same for one surface or interface, by its name; may be given several times")
+        ->type_name("NAME=L");
+    command->add_option("--growth", o->growth, "Sizes grow by no more than this share of the way (default 0.3)")
+        ->type_name("SHARE")
+        ->check(is_length());
+    command->add_option("--max-distance", o->max_distance, "Largest distance between new and old surfaces (default: a tenth of the size)")
+        ->type_name("L")
+        ->check(is_length());
+    command->add_option("--max-triangles", o->most_triangles, "Most triangles that a size may make (default 20000000)")->type_name("N");
+    command->add_flag("--keep-invalid", o->keep_invalid, "Write also a result that has errors which the input had not");
+    command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
+    add_common_options(*command, *o, true);
+    command->callback([o, &status] { status = run(*o); });
+}
+
+}  // namespace geomend::cli

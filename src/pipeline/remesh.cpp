@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/remesh.h"
+
+#include <algorithm>
+
+#include "base/wording.h"
+#include "exchange/model_from_brep.h"
+#include "pipeline/json_parts.h"
+#include "pipeline/shape.h"
+#include "pipeline/validate.h"
+#include "repair/surface_driver.h"
+#include "topology/brep_from_dataset.h"
+#include "topology/lengths.h"
+
+namespace geomend {
+
+namespace {
+
+EntityCounts entity_counts(const BrepData& brep) {
+    return {brep.corners.size(), brep.lines.size(), brep.surfaces.size(), brep.regions.size()};
+}
+
+std::string entity_words(const EntityCounts& counts) {
+    return counted(counts[0], "corner", "corners") + ", " + counted(counts[1], "line", "lines") + ", " +
+           counted(counts[2], "surface", "surfaces") + " and " + counted(counts[3], "region", "regions");
+}
+
+Result<std::vector<topology::JudgedModel>> models_of(const Dataset& dataset, const validators::CheckOptions& checks) {
+    const auto lengths = validators::lengths_of(dataset, checks);
+    auto models = topology::models_to_judge(dataset, topology::model_sources(dataset, lengths));
+    if (models) std::erase_if(*models, [](const topology::JudgedModel& m) { return m.brep->surfaces.empty(); });
+    return models;
+}
+
+Result<std::vector<Finding>> remesh_errors(const Dataset& dataset, const RemeshRequest& request) {
+    auto judged = validate(request.files.inputs.front(), dataset, request.checks);
+    if (!judged) return std::move(judged).why();
+    std::erase_if(judged->findings, [](const Finding& f) { return f.severity != Severity::error; });
+    return std::move(judged->findings);
+}
+
+/// New surfaces in place of the objects that they were made from.
+void put_in_place(Dataset& dataset, std::vector<Dataset> made, const std::vector<std::uint8_t>& is_part) {
+    Dataset all;
+    for (Dataset& one : made) {
+        const auto first = static_cast<std::uint32_t>(all.objects.size());
+        for (StatedModel& model : one.models) {
+            for (auto& face : model.faces) face.object += first;
+            all.models.push_back(std::move(model));
+        }
+        for (Object& object : one.objects) all.objects.push_back(std::move(object));
+    }
+    for (std::size_t o = 0; o < dataset.objects.size(); ++o) {
+        if (is_part[o] == 0) all.objects.push_back(std::move(dataset.objects[o]));
+    }
+    dataset.objects = std::move(all.objects);
+    dataset.models = std::move(all.models);
+    dataset.breps.clear();
+    dataset.findings.clear();
+}
+
+void mark_parts(const BrepData& brep, std::vector<std::uint8_t>& is_part) {
+    for (const auto& surface : brep.surfaces) {
+        if (surface.source_object < is_part.size()) is_part[surface.source_object] = 1;
+    }
+    for (const auto& region : brep.regions) {
+        if (region.source_object < is_part.size()) is_part[region.source_object] = 1;
+    }
+}
+
+/// What speaks against a result.
+Result<void> judge(const Dataset& dataset, const RemeshRequest& request, const repair::ErrorCounts& before, RemeshReport& report) {
+    auto models = models_of(dataset, request.checks);
+    if (!models) return std::move(models).why();
+    for (std::size_t m = 0; m < report.models.size(); ++m) {
+        auto& told = report.models[m];
+        if (m < models->size()) told.counts_after = entity_counts(*(*models)[m].brep);
+        if (told.counts_after != told.counts && report.why_not.empty())
+            report.why_not = "the model had " + entity_words(told.counts) + ", and has " + entity_words(told.counts_after) + " now";
+    }
+    auto errors = remesh_errors(dataset, request);
+    if (!errors) return std::move(errors).why();
+    report.errors = std::move(*errors);
+    const std::string worse = repair::why_worse(before, repair::errors_of(report.errors));
+    if (report.why_not.empty() && !worse.empty()) report.why_not = worse;
+    return {};
+}
+
+}  // namespace
+
+Result<void> remesh(Dataset& dataset, const Format& target, const RemeshRequest& request, RemeshReport& report) {
+    const std::string& file = request.files.inputs.front();
+    flatten_meshes(dataset);
+    const bool stated = !dataset.models.empty();
+    auto before = remesh_errors(dataset, request);
+    if (!before) return std::move(before).why();
+    report.errors_before = before->size();
+    auto models = models_of(dataset, request.checks);
+    if (!models) return std::move(models).why();
+    if (models->empty()) return failure(FailureKind::cannot_hold, "F026", {file}, "there is no surface: there is nothing to remesh");
+    std::vector<std::uint8_t> is_part(dataset.objects.size(), 0);
+    std::vector<Dataset> made;
+    for (const topology::JudgedModel& model : *models) {
+        auto remeshed = remeshing::remesh_model(*model.brep, request.remesh);
+        if (!remeshed) return std::move(remeshed).why();
+        mark_parts(*model.brep, is_part);
+        for (Loss& loss : remeshed->losses) add_loss(dataset.losses, std::move(loss));
+        auto brep = Brep::make(std::move(remeshed->brep));
+        if (!brep) return std::move(brep).why();
+        remeshed->brep = {};
+        std::vector<Loss> losses;
+        const bool flat = target.wants == WriterWants::faced_model || target.wants == WriterWants::objects;
+        made.push_back(flat ? exchange::faced_model(*brep, losses) : exchange::tagged_model(*brep, losses));
+        for (Loss& loss : losses) add_loss(dataset.losses, std::move(loss));
+        report.models.push_back({model.brep->name, entity_counts(*model.brep), {}, std::move(*remeshed)});
+    }
+    models->clear();
+    put_in_place(dataset, std::move(made), is_part);
+    if (auto judged = judge(dataset, request, repair::errors_of(*before), report); !judged) return judged;
+    if (!report.why_not.empty() && !request.keep_invalid)
+        return failure(FailureKind::cannot_hold, "F021", {request.files.output}, report.why_not);
+    // Regions that were found, and stated by none of the inputs, are no loss where the target holds none.
+    if (!stated && target.wants == WriterWants::objects) dataset.models.clear();
+    return {};
+}
+
+Result<RemeshReport> remesh(const RemeshRequest& request) {
+    RemeshReport report;
+    auto converted =
+        convert(request.files, [&](Dataset& dataset, const Format& target) { return remesh(dataset, target, request, report); });
+    if (!converted) {
+        if (!report.why_not.empty() && !request.keep_invalid) return report;
+        return std::move(converted).why();
+    }
+    report.written = std::move(*converted);
+    report.is_written = true;
+    return report;
+}
+
+std::string remesh_json(const RemeshReport& report) {
+    const auto quality = [](const remeshing::TriangleQuality& q) {
+        return Json{{"triangles", q.triangles},
+                    {"least_angle", q.triangles > 0 ? q.least_angle : 0},
+                    {"above_30", q.share_above_30()},
+                    {"mean_quality", q.mean_quality()}};
+    };
+    const auto counts = [](const EntityCounts& c) {
+        return Json{{"corners", c[0]}, {"lines", c[1]}, {"surfaces", c[2]}, {"regions", c[3]}};
+    };
+    Json models = Json::array();
+    for (const auto& model : report.models) {
+        Json surfaces = Json::array();
+        remeshing::TriangleQuality before, after;
+        double to_old = 0, from_old = 0;
+        for (const auto& s : model.made.surfaces) {
+            Json one{{"name", s.name},
+                     {"interface", s.interface},
+                     {"before", quality(s.before)},
+                     {"after", quality(s.after)},
+                     {"distance", {{"new_to_old", s.to_old}, {"old_to_new", s.from_old}, {"hausdorff", std::max(s.to_old, s.from_old)}}}};
+            if (s.kept) one["kept"] = s.why;
+            surfaces.push_back(std::move(one));
+            before.add(s.before);
+            after.add(s.after);
+            to_old = std::max(to_old, s.to_old);
+            from_old = std::max(from_old, s.from_old);
+        }
+        models.push_back({{"name", model.name},
+                          {"entities", counts(model.counts)},
+                          {"entities_after", counts(model.counts_after)},
+                          {"line_edges", {model.made.line_edges_before, model.made.line_edges_after}},
+                          {"before", quality(before)},
+                          {"after", quality(after)},
+                          {"max_distance", model.made.max_distance},
+                          {"distance", {{"new_to_old", to_old}, {"old_to_new", from_old}, {"hausdorff", std::max(to_old, from_old)}}},
+                          {"rounds", model.made.rounds},
+                          {"surfaces", std::move(surfaces)}});
+    }
+    Json errors = Json::array();
+    for (const Finding& f : report.errors) errors.push_back(finding_json(f));
+    Json all{{"written", report.is_written},
+             {"models", std::move(models)},
+             {"errors_before", report.errors_before},
+             {"errors", std::move(errors)}};
+    if (!report.why_not.empty()) all["why_not"] = report.why_not;
+    if (report.is_written) all["loss"] = losses_json(report.written.losses);
+    return json_text(all);
+}
+
+}  // namespace geomend

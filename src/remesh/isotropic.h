@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include "base/monitor.h"
+#include "remesh/work_surface.h"
+
+namespace geomend::remeshing {
+
+struct IsotropicRules {
+    unsigned rounds = 6;     ///< of splitting, collapsing, turning and moving
+    unsigned finishing = 4;  ///< rounds for triangles with small angles
+    const Monitor* monitor = nullptr;
+};
+
+/// Brings the edges of a surface to the sizes at their ends and its triangles towards equilateral ones: long edges are split, short
+/// ones collapse, edges are turned where angles across them are too large together, and inner vertices move along the surface. What
+/// it does has no effect on borders but that old vertices of them give way. Inner vertices stay on the reference, nothing folds, and
+/// the surface remains what it is: no hole is closed, no border pinched. Old vertices that could not give way are left.
+/// After M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling" (2004), with Delaunay flips in place of valences.
+/// Results do not depend on anything but the input. Cost: linear in the triangles of both meshes for each round.
+void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules);
+
+/// The parts of it. Each returns the number of changes.
+std::size_t split_long_edges(WorkSurface& work);
+std::size_t collapse_short_edges(WorkSurface& work);
+std::size_t remove_old_vertices(WorkSurface& work);
+std::size_t flip_edges(WorkSurface& work);
+std::size_t move_vertices(WorkSurface& work);
+std::size_t improve_small_angles(WorkSurface& work);
+
+}  // namespace geomend::remeshing

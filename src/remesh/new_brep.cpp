@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "remesh/new_brep.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "model/attribute_operations.h"
+
+namespace geomend::remeshing {
+
+namespace {
+
+/// The values of a surface at its new nodes and triangles.
+void carry_values(const BrepData::Surface& old, const NewSurface& made, std::span<const std::uint32_t> vertex_of_node,
+                  BrepData::Surface& surface) {
+    std::vector<Sample> samples;
+    for (const std::uint32_t v : vertex_of_node) samples.push_back({made.sources[v].rows, made.sources[v].weights});
+    surface.attributes.clear();
+    for (const Attribute& a : old.attributes) {
+        if (a.location == AttributeLocation::point) surface.attributes.push_back(interpolated(a, samples));
+        else if (a.location == AttributeLocation::polygon) surface.attributes.push_back(taken(a, made.source_triangles));
+        else surface.attributes.push_back(a);
+    }
+}
+
+/// Vertices of a line on which both sides of the surface had one node have one again.
+void put_surface(const NewSurface& made, std::span<const std::uint32_t> number, BrepData::Surface& surface) {
+    const BrepData::Surface old = std::move(surface);
+    surface = {};
+    surface.name = old.name;
+    surface.interface_id = old.interface_id;
+    surface.role = old.role;
+    surface.role_text = old.role_text;
+    surface.lines = old.lines;
+    surface.regions = old.regions;
+    surface.source_object = old.source_object;
+    surface.source_part = old.source_part;
+    surface.annotations = old.annotations;
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> node_at;
+    std::vector<std::uint32_t> node_of, vertex_of_node;
+    for (std::uint32_t v = 0; v < made.names.size(); ++v) {
+        auto node = static_cast<std::uint32_t>(surface.nodes.size());
+        if (made.names[v] != no_index)
+            node = node_at.emplace(std::array{made.names[v], made.nodes[v][0], made.nodes[v][1]}, node).first->second;
+        node_of.push_back(node);
+        if (node < surface.nodes.size()) continue;
+        surface.nodes.push_back(VertexId(number[v]));
+        vertex_of_node.push_back(v);
+    }
+    for (const std::uint32_t v : made.corners) surface.polygons.corners.push_back(node_of[v]);
+    surface.neighbours = made.neighbours;
+    carry_values(old, made, vertex_of_node, surface);
+}
+
+void empty_regions(BrepData& brep, std::vector<Loss>& losses) {
+    const char* why = "the surfaces around them are new";
+    for (auto& region : brep.regions) {
+        if (!region.cell_types.empty()) losses.push_back({LossClass::substance, region.name, "cells", why, region.cell_types.size()});
+        for (const Attribute& a : region.attributes) {
+            if (a.location != AttributeLocation::object)
+                losses.push_back({LossClass::substance, region.name, "values of '" + a.name + "'", why, 1});
+        }
+        region.nodes.clear();
+        region.cell_types.clear();
+        region.cell_offsets = {0};
+        region.cell_nodes.clear();
+        region.cell_faces.clear();
+        region.face_offsets.clear();
+        region.face_nodes.clear();
+        std::erase_if(region.attributes, [](const Attribute& a) { return a.location != AttributeLocation::object; });
+    }
+    for (const Attribute& a : brep.vertex_attributes)
+        losses.push_back({LossClass::substance, brep.name, "values of '" + a.name + "' at points of cells", why, 1});
+    brep.vertex_attributes.clear();
+}
+
+}  // namespace
+
+NewVertices new_vertices(const BrepData& brep, const LinePlan& lines, std::span<const NewSurface> surfaces) {
+    NewVertices made;
+    const auto use = [&](std::uint32_t name) {
+        if (name == no_index) return;
+        if (name >= made.number.size()) made.number.resize(std::max<std::size_t>(name + std::size_t{1}, brep.vertices.size()), no_index);
+        made.number[name] = 0;
+    };
+    for (const auto& corner : brep.corners) use(corner.vertex.value);
+    for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
+        for (const auto& named : lines.samples(l)) use(named.name);
+    }
+    for (const NewSurface& s : surfaces) std::ranges::for_each(s.names, use);
+    for (std::uint32_t name = 0; name < made.number.size(); ++name) {
+        if (made.number[name] == no_index) continue;
+        made.number[name] = static_cast<std::uint32_t>(made.places.size());
+        made.places.push_back(lines.place(name));
+    }
+    for (const NewSurface& s : surfaces) {
+        auto& of = made.of.emplace_back();
+        for (std::uint32_t v = 0; v < s.names.size(); ++v) {
+            if (s.names[v] != no_index) of.push_back(made.number[s.names[v]]);
+            else {
+                of.push_back(static_cast<std::uint32_t>(made.places.size()));
+                made.places.push_back(s.places[v]);
+            }
+        }
+    }
+    return made;
+}
+
+BrepData new_brep(const BrepData& brep, const LinePlan& lines, std::span<const NewSurface> surfaces, std::vector<Loss>& losses) {
+    NewVertices vertices = new_vertices(brep, lines, surfaces);
+    BrepData made = brep;
+    empty_regions(made, losses);
+    for (auto& corner : made.corners) corner.vertex = VertexId(vertices.number[corner.vertex.value]);
+    for (std::uint32_t l = 0; l < made.lines.size(); ++l) {
+        made.lines[l].vertices.clear();
+        for (const auto& named : lines.samples(l)) made.lines[l].vertices.push_back(VertexId(vertices.number[named.name]));
+    }
+    for (std::uint32_t s = 0; s < made.surfaces.size(); ++s) {
+        if (surfaces[s].kept) {
+            for (std::uint32_t n = 0; n < made.surfaces[s].nodes.size(); ++n) made.surfaces[s].nodes[n] = VertexId(vertices.of[s][n]);
+        } else put_surface(surfaces[s], vertices.of[s], made.surfaces[s]);
+    }
+    made.vertices = std::move(vertices.places);
+    return made;
+}
+
+}  // namespace geomend::remeshing

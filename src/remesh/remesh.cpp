@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "remesh/remesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/vectors.h"
+#include "base/wording.h"
+#include "geometry/intersections.h"
+#include "remesh/new_brep.h"
+#include "remesh/size_field.h"
+
+namespace geomend::remeshing {
+
+namespace {
+
+constexpr unsigned most_tries = 4;     ///< of a surface that comes out too far from what it was
+constexpr unsigned most_searches = 3;  ///< for crossings that smaller sizes may end
+
+/// The rounds in which a model is remeshed.
+class Rounds {
+public:
+    Rounds(const BrepData& brep, const RemeshOptions& options)
+        : brep_(brep),
+          options_(options),
+          lines_(brep),
+          allowed_(options.max_distance > 0 ? options.max_distance : options.size / 10),
+          sizes_(entity_sizes(brep, options.size, options.size_of)),
+          surfaces_(brep.surfaces.size()),
+          expected_(brep.surfaces.size(), 0),
+          tries_(brep.surfaces.size(), 0),
+          why_(brep.surfaces.size()),
+          is_kept_(brep.surfaces.size(), 0),
+          line_is_due_(brep.lines.size(), 1),
+          surface_is_due_(brep.surfaces.size(), 1) {}
+
+    Result<Remeshed> run();
+
+private:
+    bool stopped() const { return options_.monitor != nullptr && options_.monitor->stopped(); }
+    double triangles_for(const BrepData::Surface& surface, std::span<const double> sizes) const;
+    Result<void> check_number();
+    void plan_lines();
+    void sample_lines();
+    void remesh_surfaces();
+    bool take_stock();
+    bool mend_crossings();
+    bool crossed_before(std::uint32_t a, std::uint32_t b);
+    void lower(std::uint32_t vertex, double factor, std::vector<double>& lowered) const;
+    void lower_around(std::uint32_t surface, std::uint32_t triangle, std::vector<double>& lowered) const;
+    void take_sizes(std::vector<double> lowered);
+    void keep(std::uint32_t surface, std::string why);
+    bool nothing_due() const;
+    Remeshed result() const;
+
+    const BrepData& brep_;
+    const RemeshOptions& options_;
+    LinePlan lines_;
+    double allowed_;
+    std::vector<double> sizes_;
+    std::vector<NewSurface> surfaces_;
+    std::vector<double> expected_;  // triangles of each
+    std::vector<unsigned> tries_;
+    std::vector<std::string> why_;
+    std::vector<std::uint8_t> is_kept_, line_is_due_, surface_is_due_;
+    std::optional<std::set<std::pair<std::uint32_t, std::uint32_t>>> crossed_;  // surfaces that crossed as they were, once that was asked
+    unsigned searches_ = 0, rounds_ = 0;
+};
+
+/// As many triangles as the area of a surface and the sizes on it make.
+double Rounds::triangles_for(const BrepData::Surface& surface, std::span<const double> sizes) const {
+    if (!surface.polygons.all_triangles()) return static_cast<double>(surface.polygons.size());
+    double count = 0;
+    for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+        const auto t = surface.polygons[p];
+        std::array<Vec3, 3> at{};
+        double size = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = surface.nodes[t[k]].value;
+            at[k] = brep_.vertices[v];
+            size += sizes[v] / 3;
+        }
+        const Vec3 n = cross(minus(at[1], at[0]), minus(at[2], at[0]));
+        count += std::sqrt(dot(n, n)) / 2 / (size * size * std::sqrt(3.0) / 4);
+    }
+    return count;
+}
+
+Result<void> Rounds::check_number() {
+    double count = 0;
+    for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) count += expected_[s] = triangles_for(brep_.surfaces[s], sizes_);
+    for (const auto& line : brep_.lines) {
+        for (std::size_t i = 1; i < line.vertices.size(); ++i) {
+            const Vec3 d = minus(brep_.vertices[line.vertices[i].value], brep_.vertices[line.vertices[i - 1].value]);
+            count += std::sqrt(dot(d, d)) / sizes_[line.vertices[i].value];
+        }
+    }
+    if (count <= static_cast<double>(options_.most_triangles)) return {};
+    return failure(FailureKind::limit, "F023", {},
+                   "edges of this size make about " + rounded(count) + " triangles, and no more than " +
+                       std::to_string(options_.most_triangles) + " are allowed");
+}
+
+void Rounds::plan_lines() {
+    grade(brep_, options_.growth, sizes_);
+    for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) lines_.sample(l, sizes_, allowed_);
+    for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) lines_.limit(l, options_.size / 16, sizes_);
+    grade(brep_, options_.growth, sizes_);
+}
+
+void Rounds::sample_lines() {
+    std::vector<std::uint8_t> changed(brep_.lines.size(), 0);
+    for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) {
+        if (line_is_due_[l] == 0) continue;
+        line_is_due_[l] = 0;
+        if (lines_.sample(l, sizes_, allowed_)) changed[l] = 1;
+    }
+    for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) {
+        for (const auto& use : brep_.surfaces[s].lines) {
+            if (changed[use.line.value] != 0) surface_is_due_[s] = 1;
+        }
+    }
+}
+
+void Rounds::remesh_surfaces() {
+    std::vector<std::uint32_t> due;
+    for (std::uint32_t s = 0; s < surface_is_due_.size(); ++s) {
+        if (surface_is_due_[s] != 0) due.push_back(s);
+    }
+    std::ranges::stable_sort(due, std::greater{}, [&](std::uint32_t s) { return brep_.surfaces[s].polygons.size(); });
+    parallel_for_each_index(due.size(), [&](std::size_t i) {
+        const std::uint32_t s = due[i];
+        if (stopped()) return;
+        surfaces_[s] =
+            is_kept_[s] != 0 ? surface_as_it_was(brep_, s) : remeshed_surface(brep_, s, lines_, sizes_, {allowed_, options_.monitor});
+    });
+}
+
+void Rounds::keep(std::uint32_t surface, std::string why) {
+    if (is_kept_[surface] != 0) return;
+    is_kept_[surface] = 1;
+    why_[surface] = std::move(why);
+    surface_is_due_[surface] = 1;
+    for (const auto& use : brep_.surfaces[surface].lines) {
+        if (lines_.keep(use.line.value)) line_is_due_[use.line.value] = 1;
+    }
+    for (const VertexId v : brep_.surfaces[surface].nodes) lines_.force(v.value);
+}
+
+void Rounds::lower(std::uint32_t vertex, double factor, std::vector<double>& lowered) const {
+    lowered[vertex] = std::min(lowered[vertex], std::max(sizes_[vertex] * factor, options_.size / 64));
+}
+
+void Rounds::lower_around(std::uint32_t surface, std::uint32_t triangle, std::vector<double>& lowered) const {
+    const auto& old = brep_.surfaces[surface];
+    if (is_kept_[surface] != 0) return;
+    const NewSurface& made = surfaces_[surface];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto& source = made.sources[made.corners[3 * std::size_t{triangle} + k]];
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (source.weights[i] > 0) lower(old.nodes[source.rows[i]].value, 0.5, lowered);
+        }
+    }
+    for (const std::uint32_t node : old.polygons[made.source_triangles[triangle]]) lower(old.nodes[node].value, 0.5, lowered);
+}
+
+void Rounds::take_sizes(std::vector<double> lowered) {
+    grade(brep_, options_.growth, lowered);
+    const auto is_less = [&](VertexId v) { return lowered[v.value] < 0.9 * sizes_[v.value]; };
+    for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) {
+        if (std::ranges::any_of(brep_.lines[l].vertices, is_less)) line_is_due_[l] = 1;
+    }
+    for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) {
+        if (is_kept_[s] == 0 && std::ranges::any_of(brep_.surfaces[s].nodes, is_less)) surface_is_due_[s] = 1;
+    }
+    sizes_ = std::move(lowered);
+}
+
+bool Rounds::nothing_due() const {
+    return std::ranges::all_of(line_is_due_, [](auto d) { return d == 0; }) &&
+           std::ranges::all_of(surface_is_due_, [](auto d) { return d == 0; });
+}
+
+/// What the surfaces that were done have to say. \return whether all is well
+bool Rounds::take_stock() {
+    std::vector<double> lowered = sizes_;
+    const auto done = std::exchange(surface_is_due_, std::vector<std::uint8_t>(brep_.surfaces.size(), 0));
+    for (std::uint32_t s = 0; s < done.size(); ++s) {
+        if (done[s] == 0) continue;
+        NewSurface& made = surfaces_[s];
+        if (made.kept) {
+            keep(s, made.why);
+            continue;
+        }
+        for (const std::uint32_t v : made.stuck) {
+            if (!lines_.force(v)) continue;
+            for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) {
+                if (std::ranges::find(brep_.lines[l].vertices, VertexId(v)) != brep_.lines[l].vertices.end()) line_is_due_[l] = 1;
+            }
+        }
+        if (made.too_far.empty()) continue;
+        if (++tries_[s] > most_tries) {
+            keep(s, "it did not stay within the distance");
+            continue;
+        }
+        for (const auto& [v, times] : made.too_far) lower(v, std::clamp(0.9 / std::sqrt(times), 0.5, 0.8), lowered);
+        surface_is_due_[s] = 1;
+        if (triangles_for(brep_.surfaces[s], lowered) > 16 * expected_[s] + 1000)
+            keep(s, "it did not stay within the distance without very many triangles");
+    }
+    take_sizes(std::move(lowered));
+    return nothing_due();
+}
+
+/// Whether two surfaces, or one and itself, crossed as they were.
+bool Rounds::crossed_before(std::uint32_t a, std::uint32_t b) {
+    if (!crossed_) {
+        crossed_.emplace();
+        std::vector<Triangle> triangles;
+        std::vector<std::uint32_t> surface_of;
+        for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) {
+            const auto& surface = brep_.surfaces[s];
+            for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+                const auto polygon = surface.polygons[p];
+                for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+                    triangles.push_back(
+                        {surface.nodes[polygon[0]].value, surface.nodes[polygon[k]].value, surface.nodes[polygon[k + 1]].value});
+                    surface_of.push_back(s);
+                }
+            }
+        }
+        for (const auto& pair : intersections(brep_.vertices, triangles, options_.monitor))
+            crossed_->insert(std::minmax(surface_of[pair.a], surface_of[pair.b]));
+    }
+    return crossed_->contains(std::minmax(a, b));
+}
+
+/// Lowers sizes where new triangles cross, or keeps their surfaces. \return whether none do
+bool Rounds::mend_crossings() {
+    const NewVertices vertices = new_vertices(brep_, lines_, surfaces_);
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> surface_of, first;
+    for (std::uint32_t s = 0; s < surfaces_.size(); ++s) {
+        first.push_back(static_cast<std::uint32_t>(triangles.size()));
+        const NewSurface& made = surfaces_[s];
+        for (std::size_t c = 0; c + 2 < made.corners.size(); c += 3) {
+            triangles.push_back(
+                {vertices.of[s][made.corners[c]], vertices.of[s][made.corners[c + 1]], vertices.of[s][made.corners[c + 2]]});
+            surface_of.push_back(s);
+        }
+    }
+    std::vector<double> lowered = sizes_;
+    const bool gives_up = ++searches_ > most_searches;
+    for (const auto& pair : intersections(vertices.places, triangles, options_.monitor)) {
+        const std::uint32_t a = surface_of[pair.a], b = surface_of[pair.b];
+        if ((is_kept_[a] != 0 && is_kept_[b] != 0) || crossed_before(a, b)) continue;
+        if (gives_up) {
+            keep(a, "new triangles of it crossed others");
+            keep(b, "new triangles of it crossed others");
+            continue;
+        }
+        for (const auto& [s, t] : {std::pair(a, pair.a), std::pair(b, pair.b)}) {
+            lower_around(s, t - first[s], lowered);
+            if (is_kept_[s] == 0) surface_is_due_[s] = 1;
+        }
+    }
+    take_sizes(std::move(lowered));
+    return nothing_due();
+}
+
+Remeshed Rounds::result() const {
+    Remeshed made;
+    made.brep = new_brep(brep_, lines_, surfaces_, made.losses);
+    made.max_distance = allowed_;
+    made.rounds = rounds_;
+    for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) {
+        made.line_edges_before += brep_.lines[l].vertices.size() - 1;
+        made.line_edges_after += lines_.samples(l).size() - 1;
+    }
+    const auto quality = [](const BrepData& brep, const BrepData::Surface& surface) {
+        TriangleQuality sum;
+        for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+            const auto t = surface.polygons[p];
+            for (std::size_t k = 1; k + 1 < t.size(); ++k)
+                sum.add({brep.vertices[surface.nodes[t[0]].value], brep.vertices[surface.nodes[t[k]].value],
+                         brep.vertices[surface.nodes[t[k + 1]].value]});
+        }
+        return sum;
+    };
+    for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) {
+        const auto& surface = brep_.surfaces[s];
+        RemeshedSurface& told = made.surfaces.emplace_back();
+        told.name = surface.name;
+        if (surface.interface_id.valid()) told.interface = brep_.interfaces[surface.interface_id.value].name;
+        told.kept = is_kept_[s] != 0;
+        told.why = why_[s];
+        told.before = quality(brep_, surface);
+        told.after = quality(made.brep, made.brep.surfaces[s]);
+        told.to_old = surfaces_[s].to_old;
+        told.from_old = surfaces_[s].from_old;
+    }
+    return made;
+}
+
+Result<Remeshed> Rounds::run() {
+    const auto cancelled = [] { return failure(FailureKind::cancelled, "F022", {}, "stopped; nothing was written"); };
+    if (auto fits = check_number(); !fits) return std::move(fits).why();  // before anything is made
+    plan_lines();
+    if (auto fits = check_number(); !fits) return std::move(fits).why();
+    for (;;) {
+        if (stopped()) return cancelled();
+        ++rounds_;
+        sample_lines();
+        remesh_surfaces();
+        if (stopped()) return cancelled();
+        if (take_stock() && mend_crossings()) break;
+    }
+    if (stopped()) return cancelled();
+    return result();
+}
+
+}  // namespace
+
+Result<Remeshed> remesh_model(const BrepData& brep, const RemeshOptions& options) { return Rounds(brep, options).run(); }
+
+}  // namespace geomend::remeshing

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "base/vec3.h"
+
+namespace geomend::remeshing {
+
+/// Shapes of some triangles. Quality is twice the radius of the circle in a triangle by that of the circle around it: 1 where it is
+/// equilateral, 0 where it has no area.
+struct TriangleQuality {
+    std::uint64_t triangles = 0, above_30 = 0;  ///< above: all of whose angles are at least 30 degrees
+    double least_angle = 180;                   ///< degrees
+    double sum_quality = 0;
+
+    void add(const std::array<Vec3, 3>& triangle);
+    void add(const TriangleQuality& other) {
+        triangles += other.triangles;
+        above_30 += other.above_30;
+        least_angle = std::min(least_angle, other.least_angle);
+        sum_quality += other.sum_quality;
+    }
+    double share_above_30() const { return triangles > 0 ? static_cast<double>(above_30) / static_cast<double>(triangles) : 0; }
+    double mean_quality() const { return triangles > 0 ? sum_quality / static_cast<double>(triangles) : 0; }
+};
+
+}  // namespace geomend::remeshing

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "remesh/work_surface.h"
+
+#include <cmath>
+
+#include "base/vectors.h"
+
+namespace geomend::remeshing {
+
+WorkSurface work_surface(const EdgeMesh& reference, std::span<const double> sizes) {
+    WorkSurface work;
+    work.reference = &reference;
+    work.reference_sizes = sizes;
+    work.mesh = reference;
+    work.sizes.assign(sizes.begin(), sizes.end());
+    work.names.assign(sizes.size(), no_index);
+    for (std::uint32_t v = 0; v < sizes.size(); ++v) {
+        work.triangles.push_back(reference.leaving[v] / 3);
+        work.kinds.push_back(reference.on_border(v) ? VertexKind::old : VertexKind::inner);
+    }
+    return work;
+}
+
+std::uint32_t add_on_edge(WorkSurface& work, std::uint32_t h, const Vec3& place, const SurfacePoint& at, VertexKind kind) {
+    const std::uint32_t v = split_edge(work.mesh, h, place);
+    if (v == work.kinds.size()) {
+        work.sizes.emplace_back();
+        work.triangles.emplace_back();
+        work.kinds.emplace_back();
+        work.names.emplace_back();
+    }
+    double size = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        size += at.weights[k] * work.reference_sizes[work.reference->corners[3 * std::size_t{at.triangle} + k]];
+    work.sizes[v] = size;
+    work.triangles[v] = at.triangle;
+    work.kinds[v] = kind;
+    work.names[v] = no_index;
+    return v;
+}
+
+void FoldGuard::add(const Vec3& a, const Vec3& b, const Vec3& c) { facing = plus(facing, cross(minus(b, a), minus(c, a))); }
+
+bool FoldGuard::admits(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    const Vec3 normal = cross(minus(b, a), minus(c, a));
+    const double along = dot(normal, facing);
+    return along > 0 && along * along > least * least * dot(normal, normal) * dot(facing, facing);
+}
+
+double shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 u = minus(b, a), v = minus(c, b), w = minus(a, c);
+    const Vec3 normal = cross(u, v);
+    const double squares = dot(u, u) + dot(v, v) + dot(w, w);
+    return squares > 0 ? 2 * std::sqrt(3.0) * std::sqrt(dot(normal, normal)) / squares : 0;
+}
+
+}  // namespace geomend::remeshing

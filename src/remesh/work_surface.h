@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "remesh/edge_mesh.h"
+#include "remesh/reference_surface.h"
+
+namespace geomend::remeshing {
+
+/// What may be done with a vertex.
+enum class VertexKind : std::uint8_t {
+    inner,  ///< anything
+    fixed,  ///< nothing: it is one of the new line, or stands on its own
+    old     ///< a vertex of a border as it was read: it is to give way along the border
+};
+
+/// A surface while its triangles are changed, beside the surface as it was read.
+struct WorkSurface {
+    const EdgeMesh* reference = nullptr;
+    std::span<const double> reference_sizes;  ///< per vertex of the reference
+    EdgeMesh mesh;
+    std::vector<double> sizes;             ///< per vertex: edges there should be so long
+    std::vector<std::uint32_t> triangles;  ///< per vertex one of the reference at which it lies
+    std::vector<VertexKind> kinds;
+    std::vector<std::uint32_t> names;  ///< per vertex the caller's number of a fixed one
+};
+
+/// The reference as it is, all vertices inner ones but those on borders, which are old.
+WorkSurface work_surface(const EdgeMesh& reference, std::span<const double> sizes);
+
+/// Puts a vertex on an edge. \param at where it lies on the reference \return its number
+std::uint32_t add_on_edge(WorkSurface& work, std::uint32_t h, const Vec3& place, const SurfacePoint& at, VertexKind kind);
+
+/// What changes around an edge or a vertex must keep to: triangles face the same way as those that they take the place of.
+struct FoldGuard {
+    Vec3 facing{};        ///< sum of the old normals, of twice the area each
+    double least = 0.25;  ///< least cosine between that and a new normal
+
+    void add(const Vec3& a, const Vec3& b, const Vec3& c);
+    bool admits(const Vec3& a, const Vec3& b, const Vec3& c) const;
+};
+
+/// Shape of a triangle: 1 where it is equilateral, 0 where it has no area. It is 4 sqrt(3) area by the sum of the squares of its edges.
+double shape_of(const Vec3& a, const Vec3& b, const Vec3& c);
+
+}  // namespace geomend::remeshing

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/program.h"
+#include "support/real_data.h"
+#include "support/temporary_folder.h"
+
+// The command remesh as a user runs it.
+
+namespace geomend {
+namespace {
+
+using nlohmann::json;
+using test::run_geomend;
+using test::TemporaryFolder;
+
+std::string sample(const std::string& name) { return std::string(GEOMEND_SOURCE_DIR) + "/samples/" + name; }
+
+json remesh(const std::string& in, const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"remesh", in, "-o", out, "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return json::parse(run_geomend(arguments).out, nullptr, false);
+}
+
+TEST(Remesh, ASampleKeepsItsCornersLinesSurfacesAndRegions) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.ml";
+    const json report = remesh(sample("layered_box.ml"), out, {"--size", "60"});
+    ASSERT_TRUE(report.is_object() && report["written"] == true);
+    const json before = test::info(sample("layered_box.ml"))["brep"], after = test::info(out)["brep"];
+    for (const char* what : {"corners", "lines", "surfaces", "regions", "interfaces", "contacts"})
+        EXPECT_EQ(before[what], after[what]) << what;
+    EXPECT_GT(after["triangles"].get<std::uint64_t>(), before["triangles"].get<std::uint64_t>());
+    EXPECT_EQ(run_geomend({"validate", out}).status, 0);
+    EXPECT_GT(report["models"][0]["after"]["mean_quality"].get<double>(), 0.9);
+}
+
+TEST(Remesh, ASizeThatMakesTooManyTrianglesIsRefusedAtOnce) {
+    const TemporaryFolder folder;
+    const auto run = run_geomend({"remesh", sample("layered_box.ml"), "-o", folder / "out.ml", "--size", "1e-6"});
+    EXPECT_EQ(run.status, 5);
+    EXPECT_NE(run.err.find("triangles"), std::string::npos) << run.err;
+}
+
+TEST(Remesh, SizesOfOneInterfaceAreSmallerThere) {
+    const TemporaryFolder folder;
+    const auto triangles = [](const json& report, const std::string& interface) {
+        std::uint64_t sum = 0;
+        for (const json& s : report["models"][0]["surfaces"]) {
+            if (s["interface"] == interface) sum += s["after"]["triangles"].get<std::uint64_t>();
+        }
+        return sum;
+    };
+    const json even = remesh(sample("layered_box.ml"), folder / "even.ml", {"--size", "100"});
+    const json graded = remesh(sample("layered_box.ml"), folder / "graded.ml", {"--size", "100", "--size-of", "fault=40"});
+    ASSERT_TRUE(even["written"] == true && graded["written"] == true);
+    EXPECT_GT(triangles(graded, "fault"), 3 * triangles(even, "fault"));
+    EXPECT_LT(triangles(graded, "west"), 2 * triangles(even, "west"));
+}
+
+TEST(Remesh, WrongOptionsAreRefused) {
+    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--size", "0"},
+                                                  {"--size", "-1"},
+                                                  {"--size", "10", "--size-of", "fault"},
+                                                  {"--size", "10", "--size-of", "fault=x"},
+                                                  {}}) {
+        std::vector<std::string> arguments{"remesh", sample("layered_box.ml"), "-o", "/dev/null"};
+        arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+        EXPECT_EQ(run_geomend(arguments).status, 2);
+    }
+}
+
+TEST(Remesh, ModelA1KeepsItsEntitiesAndItsTrianglesBecomeEquilateral) {
+    const TemporaryFolder folder;
+    const auto in = test::real_data("gocad/modelA1.ml");
+    if (!in) GTEST_SKIP() << "the real files are not there";
+    const std::string out = folder / "out.ml";
+    const json report = remesh(in->string(), out, {"--size", "300"});
+    ASSERT_TRUE(report.is_object() && report["written"] == true);
+    const json& model = report["models"][0];
+    EXPECT_EQ(model["entities"], model["entities_after"]);
+    EXPECT_LE(model["distance"]["hausdorff"].get<double>(), model["max_distance"].get<double>());
+    EXPECT_GT(model["after"]["above_30"].get<double>(), 0.98);
+    EXPECT_EQ(run_geomend({"validate", out}).status, 0);
+}
+
+}  // namespace
+}  // namespace geomend
