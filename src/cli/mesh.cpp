@@ -29,7 +29,9 @@ std::string region_lines(const MeshReport& report, bool all_tries) {
         text += "  region " + geomend::quoted(r.name) + ": ";
         if (r.filled()) {
             text += counted(r.cells, "tetrahedron", "tetrahedra") + ", volume " + short_number(r.volume) + ", least dihedral angle " +
-                    rounded(r.least_dihedral) + " degrees (" + r.rung + ", " + rounded(r.seconds) + " s)\n";
+                    rounded(r.least_dihedral) + " degrees" +
+                    (r.improvement.bad_after > 0 ? ", " + counted(r.improvement.bad_after, "bad cell", "bad cells") : std::string()) +
+                    " (" + r.rung + ", " + rounded(r.seconds) + " s)\n";
         } else {
             text += "not filled\n";
         }

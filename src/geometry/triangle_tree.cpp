@@ -63,14 +63,43 @@ void radix_sort(std::vector<std::uint64_t>& keys, unsigned first_bit) {
     }
 }
 
-/// Puts keys of one group side by side within each run of some.
+/// Puts the members of large groups side by side, in the order in which the groups begin; those of small groups follow as they are,
+/// since groups of a triangle or two say nothing of where things lie.
+template <class Group>
+void part_run(std::span<std::uint64_t> keys, const Group& group) {
+    constexpr std::size_t large = 64;
+    struct Member {
+        std::uint32_t group, place;
+    };
+    std::vector<Member> members(keys.size());
+    for (std::uint32_t i = 0; i < members.size(); ++i) members[i] = {group(keys[i]), i};
+    std::ranges::stable_sort(members, {}, &Member::group);
+    std::vector<std::span<const Member>> blocks;
+    std::vector<std::uint8_t> is_in_block(keys.size(), 0);
+    for (std::size_t first = 0, end = 0; first < members.size(); first = end) {
+        while (end < members.size() && members[end].group == members[first].group) ++end;
+        if (end - first < large) continue;
+        blocks.push_back(std::span(members).subspan(first, end - first));
+        for (const Member& member : blocks.back()) is_in_block[member.place] = 1;
+    }
+    std::ranges::sort(blocks, {}, [](std::span<const Member> block) { return block.front().place; });
+    std::vector<std::uint64_t> parted;
+    parted.reserve(keys.size());
+    for (const auto& block : blocks) {
+        for (const Member& member : block) parted.push_back(keys[member.place]);
+    }
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (is_in_block[i] == 0) parted.push_back(keys[i]);
+    }
+    std::ranges::copy(parted, keys.begin());
+}
+
+/// The same within each run of a node of the tree, so that what lies far apart stays so.
 template <class Group>
 void part_by_groups(std::span<std::uint64_t> keys, const Group& group) {
-    constexpr std::size_t run = 256;  // a node of the tree
-    parallel_blocks((keys.size() + run - 1) / run, 16, [&](std::size_t from, std::size_t to) {
-        for (std::size_t i = from; i != to; ++i)
-            std::ranges::stable_sort(keys.subspan(run * i, std::min(run, keys.size() - run * i)), std::less{}, group);
-    });
+    constexpr std::size_t run = 65536;
+    parallel_for_each_index((keys.size() + run - 1) / run,
+                            [&](std::size_t i) { part_run(keys.subspan(run * i, std::min(run, keys.size() - run * i)), group); });
 }
 
 bool degenerate(std::span<const Vec3> vertices, const Triangle& t) {

@@ -121,6 +121,7 @@ std::vector<MeshBlock> blocks_of(const MeshReport& report) {
 std::string mesh_json(const MeshReport& report) {
     Json regions = Json::array(), blocks = Json::array(), sets = Json::array();
     double least = 180;
+    volumes::ShapeCounts shapes;
     for (const auto& r : report.regions) {
         Json region{{"name", r.name},
                     {"volume", r.volume},
@@ -130,10 +131,15 @@ std::string mesh_json(const MeshReport& report) {
                     {"rung", r.rung},
                     {"as_asked", r.as_asked},
                     {"seconds", r.seconds},
-                    {"min_dihedral", r.least_dihedral}};
+                    {"min_dihedral", r.least_dihedral},
+                    {"bad_cells", {{"before", r.improvement.bad_before}, {"after", r.improvement.bad_after}}},
+                    {"flips", r.improvement.flips},
+                    {"moves", r.improvement.moves}};
         if (!r.why_not.empty()) region["why_not"] = r.why_not;
         regions.push_back(std::move(region));
         if (r.filled()) least = std::min(least, r.least_dihedral);
+        for (std::size_t i = 0; i < shapes.least_dihedral.size(); ++i) shapes.least_dihedral[i] += r.shapes.least_dihedral[i];
+        for (std::size_t i = 0; i < shapes.shape.size(); ++i) shapes.shape[i] += r.shapes.shape[i];
     }
     for (const MeshBlock& b : blocks_of(report))
         blocks.push_back({{"region", b.region}, {"type", to_string(b.type)}, {"first", b.first}, {"count", b.count}});
@@ -142,7 +148,7 @@ std::string mesh_json(const MeshReport& report) {
     Json all{
         {"written", report.is_written}, {"regions", std::move(regions)}, {"blocks", std::move(blocks)}, {"face_sets", std::move(sets)}};
     if (report.is_written) {
-        all["quality"] = {{"min_dihedral", least}};
+        all["quality"] = {{"min_dihedral", least}, {"min_dihedral_by_5_degrees", shapes.least_dihedral}, {"shape_by_tenths", shapes.shape}};
         all["loss"] = losses_json(report.written.losses);
     }
     all["split"] = {{"surfaces", report.split.surfaces}, {"vertices", report.split.vertices}, {"pairs", report.split.pairs}};

@@ -46,6 +46,17 @@ struct OneRegion {
     std::optional<Failure> stopped;
 };
 
+/// Improves the cells of a region, and keeps that where they still fill it as they did.
+Improvement improve_proven(const RegionFacets& facets, RegionCells& region, const Monitor* monitor) {
+    RegionCells better = region;
+    const Improvement done = improve(facets, better, monitor);
+    measure(facets, better);
+    if (better.least_dihedral < region.least_dihedral || !(std::abs(better.volume - facets.volume) <= 1e-9 * std::abs(facets.volume)))
+        return {};
+    region = std::move(better);
+    return done;
+}
+
 OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, FilledRegion& report) {
     OneRegion result;
     const auto begin = std::chrono::steady_clock::now();
@@ -68,12 +79,14 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
         result.cells = std::move(*cells);
         break;
     }
+    if (report.filled() && options.improve) report.improvement = improve_proven(facets, result.cells, options.monitor);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report.cells = result.cells.cells.size();
     report.new_vertices = result.cells.new_vertices.size();
     report.volume = result.cells.volume;
     report.surface_volume = facets.volume;
     report.least_dihedral = report.filled() ? result.cells.least_dihedral : 0;
+    report.shapes = result.cells.shapes;
     return result;
 }
 

@@ -8,14 +8,16 @@
 #include "base/result.h"
 #include "model/loss.h"
 #include "topology/assemble.h"
+#include "volume/improve.h"
 #include "volume/tetrahedra.h"
 
 namespace geomend::volumes {
 
 struct FillOptions {
-    double size = 0;     ///< edges of cells inside, as far as surfaces allow; 0: the median edge of the triangles around each region
-    double ratio = 1.4;  ///< most radius of the sphere around a cell by its shortest edge, as far as surfaces allow; 0: any
-    ChildLimits limits;  ///< for each try
+    double size = 0;      ///< edges of cells inside, as far as surfaces allow; 0: the median edge of the triangles around each region
+    double ratio = 1.4;   ///< most radius of the sphere around a cell by its shortest edge, as far as surfaces allow; 0: any
+    bool improve = true;  ///< whether bad cells are worked on when a region is filled
+    ChildLimits limits;   ///< for each try
     const Monitor* monitor = nullptr;
 };
 
@@ -23,9 +25,11 @@ struct FillOptions {
 struct FilledRegion {
     std::string name;
     std::uint64_t cells = 0, new_vertices = 0;
-    double volume = 0;                 ///< of its cells
-    double surface_volume = 0;         ///< enclosed by its surfaces
-    double least_dihedral = 0;         ///< degrees
+    double volume = 0;          ///< of its cells
+    double surface_volume = 0;  ///< enclosed by its surfaces
+    double least_dihedral = 0;  ///< degrees
+    ShapeCounts shapes;
+    Improvement improvement;
     std::string rung;                  ///< the method that served; empty: none did
     bool as_asked = true;              ///< false: shapes and sizes that were asked for could not be had
     std::vector<std::string> why_not;  ///< why those before it did not

@@ -10,6 +10,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "geometry/predicates.h"
+#include "volume/cell_quality.h"
 
 namespace geomend::volumes {
 
@@ -130,39 +131,12 @@ private:
         for (std::size_t c = 0; c < all_.cells.size(); ++c) {
             if (where[root[c]] == inside) region.cells.push_back(all_.cells[c]);
         }
-        measure(region);
+        take_vertices(region);
+        measure(facets_, region);
         if (!(std::abs(region.volume - facets_.volume) <= 1e-9 * std::abs(facets_.volume)))
             return not_filled("cells have a volume of " + short_number(region.volume) + " where surfaces enclose " +
                               short_number(facets_.volume));
-        take_vertices(region);
         return region;
-    }
-
-    void measure(RegionCells& region) const {
-        double six = 0, cosine = -1;
-        for (const auto& c : region.cells) {
-            const std::array<Vec3, 4> p{position(c[0]), position(c[1]), position(c[2]), position(c[3])};
-            six += six_volumes(p[0], p[1], p[2], p[3]);
-            cosine = std::max(cosine, largest_cosine(p));
-        }
-        region.volume = six / 6;
-        region.least_dihedral = 180 / std::numbers::pi * std::acos(std::min(cosine, 1.0));
-    }
-
-    /// The cosine of the least angle between two faces of a tetrahedron.
-    static double largest_cosine(const std::array<Vec3, 4>& p) {
-        std::array<Vec3, 4> normal{};
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Vec3 &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4];
-            const Vec3 n = cross(minus(b, a), minus(c, a));
-            const double away = dot(n, minus(p[k], a)) > 0 ? -1 : 1;
-            normal[k] = times(away / std::sqrt(dot(n, n)), n);
-        }
-        double largest = -1;
-        for (std::size_t k = 0; k < 4; ++k) {
-            for (std::size_t m = k + 1; m < 4; ++m) largest = std::max(largest, -dot(normal[k], normal[m]));
-        }
-        return largest;
     }
 
     /// New vertices that the cells use, in the order of their numbers.
@@ -186,6 +160,25 @@ private:
 };
 
 }  // namespace
+
+void measure(const RegionFacets& facets, RegionCells& region) {
+    const auto known = facets.positions.size();
+    const auto position = [&](std::uint32_t v) { return v < known ? facets.positions[v] : region.new_vertices[v - known]; };
+    double six = 0, cosine = -1;
+    region.shapes = {};
+    for (const auto& c : region.cells) {
+        const std::array<Vec3, 4> p{position(c[0]), position(c[1]), position(c[2]), position(c[3])};
+        six += six_volumes(p[0], p[1], p[2], p[3]);
+        const double own = dihedral_cosines(p).of_least;
+        cosine = std::max(cosine, own);
+        const double degrees = 180 / std::numbers::pi * std::acos(std::min(own, 1.0));
+        ++region.shapes
+              .least_dihedral[std::min<std::size_t>(static_cast<std::size_t>(degrees / 5), region.shapes.least_dihedral.size() - 1)];
+        ++region.shapes.shape[std::min<std::size_t>(static_cast<std::size_t>(shape(p) * 10), region.shapes.shape.size() - 1)];
+    }
+    region.volume = six / 6;
+    region.least_dihedral = 180 / std::numbers::pi * std::acos(std::min(cosine, 1.0));
+}
 
 Result<RegionCells> cells_of_region(const RegionFacets& facets, Tetrahedra all) { return RegionSearch(facets, std::move(all)).run(); }
 

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "volume/improve.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <unordered_set>
+#include <vector>
+
+#include "geometry/predicates.h"
+#include "volume/cell_quality.h"
+
+namespace geomend::volumes {
+
+namespace {
+
+using Cell = std::array<std::uint32_t, 4>;
+constexpr double bad_sine = 0.17364817766693033;     // of 10 and 170 degrees
+constexpr double wanted_sine = 0.34202014332566871;  // of 20: cells below it are worked on
+constexpr double gain = 1e-6;                        // less is none
+
+/// Edges and faces of facets, which stay.
+class FixedParts {
+public:
+    explicit FixedParts(std::span<const Triangle> triangles) {
+        for (const Triangle& t : triangles) {
+            Triangle sorted = t;
+            std::ranges::sort(sorted);
+            faces_.insert(key(sorted));
+            for (std::size_t k = 0; k < 3; ++k) edges_.insert(key(t[k], t[(k + 1) % 3]));
+        }
+    }
+    bool has_edge(std::uint32_t a, std::uint32_t b) const { return edges_.contains(key(a, b)); }
+    bool has_face(Triangle t) const {
+        std::ranges::sort(t);
+        return faces_.contains(key(t));
+    }
+
+private:
+    struct Hash {
+        std::size_t operator()(const Triangle& t) const {
+            return (std::size_t{t[0]} * 0x9e3779b97f4a7c15u ^ t[1]) * 0xbf58476d1ce4e5b9u ^ std::size_t{t[2]} * 0x94d049bb133111ebu;
+        }
+    };
+    static std::uint64_t key(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+    static const Triangle& key(const Triangle& t) { return t; }
+    std::unordered_set<std::uint64_t> edges_;
+    std::unordered_set<Triangle, Hash> faces_;
+};
+
+/// Cells that change, with the cells around each vertex.
+class Cells {
+public:
+    Cells(const RegionFacets& facets, RegionCells& region) : cells_(region.cells), positions_(facets.positions) {
+        positions_.insert(positions_.end(), region.new_vertices.begin(), region.new_vertices.end());
+        around_.resize(positions_.size());
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+            for (const std::uint32_t v : cells_[c]) around_[v].push_back(c);
+        }
+        sine_.resize(cells_.size());
+        settled_.resize(cells_.size(), 0);
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) sine_[c] = sine(cells_[c]);
+    }
+
+    std::size_t size() const { return cells_.size(); }
+    bool is_there(std::uint32_t c) const { return sine_[c] >= 0; }
+    const Cell& at(std::uint32_t c) const { return cells_[c]; }
+    double sine_of(std::uint32_t c) const { return sine_[c]; }
+    const std::vector<std::uint32_t>& around(std::uint32_t v) const { return around_[v]; }
+    const Vec3& position(std::uint32_t v) const { return positions_[v]; }
+
+    std::array<Vec3, 4> corners(const Cell& c) const { return {positions_[c[0]], positions_[c[1]], positions_[c[2]], positions_[c[3]]}; }
+    double sine(const Cell& c) const { return least_sine(corners(c)); }
+    /// Of a cell that would be new: below 0 where it is flat or inside out.
+    double sine_of_new(const Cell& c) const {
+        if (orientation(positions_[c[0]], positions_[c[1]], positions_[c[2]], positions_[c[3]]) <= 0) return -1;
+        return sine(c);
+    }
+
+    /// Puts cells in the place of others.
+    void replace(std::span<const std::uint32_t> old, std::span<const Cell> made) {
+        for (const std::uint32_t c : old) {
+            for (const std::uint32_t v : cells_[c]) std::erase(around_[v], c);
+            sine_[c] = -1;
+        }
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            const auto c = i < old.size() ? old[i] : static_cast<std::uint32_t>(cells_.size());
+            if (i >= old.size()) cells_.emplace_back(), sine_.emplace_back(), settled_.emplace_back();
+            cells_[c] = made[i];
+            sine_[c] = sine(made[i]);
+            for (const std::uint32_t v : made[i]) around_[v].push_back(c);
+        }
+        for (const Cell& cell : made) {
+            for (const std::uint32_t v : cell) wake(v);
+        }
+    }
+
+    /// Moves a vertex, if no cell around it turns over and the worst of them gets better.
+    bool move(std::uint32_t v, const Vec3& to) {
+        const std::uint32_t worst = worst_around(v);
+        const double least = sine_[worst] + gain;
+        const Vec3 from = positions_[v];
+        positions_[v] = to;
+        const auto is_better = [&](std::uint32_t c) { return sine_of_new(cells_[c]) > least; };
+        if (!is_better(worst) || !std::ranges::all_of(around_[v], is_better)) {  // the worst first: most moves fail there
+            positions_[v] = from;
+            return false;
+        }
+        for (const std::uint32_t c : around_[v]) sine_[c] = sine(cells_[c]);
+        wake(v);
+        return true;
+    }
+
+    /// The worst cell at a vertex. \pre it has one
+    std::uint32_t worst_around(std::uint32_t v) const {
+        return *std::ranges::min_element(around_[v], {}, [&](std::uint32_t c) { return sine_[c]; });
+    }
+
+    /// Cells of which nothing helped are not tried again before something changes at one of their vertices.
+    bool is_settled(std::uint32_t c) const { return settled_[c] != 0; }
+    void settle(std::uint32_t c) { settled_[c] = 1; }
+
+    /// What is left, in the order in which it stands; positions of new vertices as they are now.
+    void put_back(const RegionFacets& facets, RegionCells& region) {
+        std::size_t next = 0;
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+            if (is_there(c)) cells_[next++] = cells_[c];
+        }
+        cells_.resize(next);
+        region.cells = std::move(cells_);
+        std::copy(positions_.begin() + static_cast<std::ptrdiff_t>(facets.positions.size()), positions_.end(), region.new_vertices.begin());
+    }
+
+private:
+    std::vector<Cell> cells_;
+    std::vector<Vec3> positions_;
+    std::vector<std::vector<std::uint32_t>> around_;
+    std::vector<double> sine_;  ///< of each cell; -1: it is gone
+    std::vector<std::uint8_t> settled_;
+
+    void wake(std::uint32_t v) {
+        for (const std::uint32_t c : around_[v]) settled_[c] = 0;
+    }
+};
+
+bool has(const Cell& c, std::uint32_t v) { return std::ranges::find(c, v) != c.end(); }
+
+/// The cells around an edge as a ring of vertices, seen from b with a behind it counter-clockwise; nothing where the ring is open or
+/// longer than so many.
+struct Ring {
+    std::vector<std::uint32_t> cells, vertices;
+};
+
+std::optional<Ring> ring_around(const Cells& mesh, std::uint32_t a, std::uint32_t b, std::size_t longest) {
+    std::vector<std::array<std::uint32_t, 2>> links;  // from one vertex of the ring to the next
+    Ring ring;
+    for (const std::uint32_t c : mesh.around(a)) {
+        const Cell& cell = mesh.at(c);
+        if (!has(cell, b)) continue;
+        ring.cells.push_back(c);
+        if (ring.cells.size() > longest) return std::nullopt;
+        std::array<std::uint32_t, 2> others{};
+        std::size_t n = 0;
+        for (const std::uint32_t v : cell) {
+            if (v != a && v != b) others[n++] = v;
+        }
+        if (orientation(mesh.position(a), mesh.position(b), mesh.position(others[0]), mesh.position(others[1])) < 0)
+            std::swap(others[0], others[1]);
+        links.push_back(others);
+    }
+    if (ring.cells.size() < 3) return std::nullopt;
+    ring.vertices = {links[0][0]};
+    while (ring.vertices.size() < links.size()) {
+        const auto next = std::ranges::find(links, ring.vertices.back(), [](const auto& link) { return link[0]; });
+        if (next == links.end()) return std::nullopt;
+        ring.vertices.push_back((*next)[1]);
+    }
+    const auto last = std::ranges::find(links, ring.vertices.back(), [](const auto& link) { return link[0]; });
+    if (last == links.end() || (*last)[1] != ring.vertices.front()) return std::nullopt;
+    return ring;
+}
+
+double worst_of(const Cells& mesh, std::span<const std::uint32_t> cells) {
+    double worst = 2;
+    for (const std::uint32_t c : cells) worst = std::min(worst, mesh.sine_of(c));
+    return worst;
+}
+
+/// The best way to fill the ring around an edge with triangles, each joined to both of its ends: by the worst cell of it.
+class RingFilling {
+public:
+    RingFilling(const Cells& mesh, const Ring& ring, std::uint32_t a, std::uint32_t b) : mesh_(mesh), ring_(ring.vertices), a_(a), b_(b) {}
+
+    /// Cells that are all better than `least`; empty where there are none.
+    std::vector<Cell> better_than(double least) {
+        const std::size_t n = ring_.size();
+        for (auto& row : best_) row.fill(2);
+        for (std::size_t length = 2; length < n; ++length) {
+            for (std::size_t i = 0; i + length < n; ++i) choose(i, i + length);
+        }
+        if (best_[0][n - 1] <= least) return {};
+        std::vector<Cell> cells;
+        take(0, n - 1, cells);
+        return cells;
+    }
+
+    static constexpr std::size_t longest = 8;
+
+private:
+    const Cells& mesh_;
+    const std::vector<std::uint32_t>& ring_;
+    const std::uint32_t a_, b_;
+    std::array<std::array<double, longest>, longest> best_{};
+    std::array<std::array<std::size_t, longest>, longest> middle_{};
+
+    Cell below(std::size_t i, std::size_t j, std::size_t k) const { return {ring_[i], ring_[k], ring_[j], a_}; }
+    Cell above(std::size_t i, std::size_t j, std::size_t k) const { return {ring_[i], ring_[j], ring_[k], b_}; }
+
+    void choose(std::size_t i, std::size_t j) {
+        best_[i][j] = -1;
+        for (std::size_t k = i + 1; k < j; ++k) {
+            double worst = std::min(best_[i][k], best_[k][j]);
+            if (worst <= best_[i][j]) continue;
+            worst = std::min(worst, mesh_.sine_of_new(below(i, k, j)));
+            if (worst <= best_[i][j]) continue;
+            worst = std::min(worst, mesh_.sine_of_new(above(i, k, j)));
+            if (worst <= best_[i][j]) continue;
+            best_[i][j] = worst;
+            middle_[i][j] = k;
+        }
+    }
+    void take(std::size_t i, std::size_t j, std::vector<Cell>& cells) const {
+        if (j < i + 2) return;
+        const std::size_t k = middle_[i][j];
+        cells.push_back(below(i, k, j));
+        cells.push_back(above(i, k, j));
+        take(i, k, cells);
+        take(k, j, cells);
+    }
+};
+
+class Improver {
+public:
+    Improver(const RegionFacets& facets, RegionCells& region)
+        : first_free_(static_cast<std::uint32_t>(facets.positions.size())), fixed_(facets.triangles), mesh_(facets, region) {}
+
+    void run(const Monitor* monitor) {
+        done.bad_before = count_bad();
+        constexpr int most_rounds = 8;
+        for (int round = 0; round < most_rounds; ++round) {
+            const std::uint64_t before = done.flips + done.moves;
+            for (std::uint32_t c = 0; c < mesh_.size(); ++c) {
+                constexpr std::uint32_t often = 4096;
+                if (c % often == 0 && monitor != nullptr && monitor->stopped()) return;
+                if (!mesh_.is_there(c) || mesh_.is_settled(c) || mesh_.sine_of(c) >= wanted_sine) continue;
+                if (!better(c)) mesh_.settle(c);
+            }
+            if (done.flips + done.moves == before) break;
+        }
+        done.bad_after = count_bad();
+    }
+
+    Cells& cells() { return mesh_; }
+    Improvement done;
+
+private:
+    const std::uint32_t first_free_;
+    const FixedParts fixed_;
+    Cells mesh_;
+
+    std::uint64_t count_bad() const {
+        std::uint64_t count = 0;
+        for (std::uint32_t c = 0; c < mesh_.size(); ++c) count += mesh_.is_there(c) && mesh_.sine_of(c) < bad_sine ? 1 : 0;
+        return count;
+    }
+
+    /// Tries what there is at a cell until something helps.
+    bool better(std::uint32_t c) {
+        const Cell cell = mesh_.at(c);
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = i + 1; j < 4; ++j) {
+                if (remove_edge(cell[i], cell[j])) return true;
+            }
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (flip_face(c, k)) return true;
+        }
+        for (const std::uint32_t v : cell) {
+            if (v >= first_free_ && move(v)) return true;
+        }
+        return false;
+    }
+
+    bool remove_edge(std::uint32_t a, std::uint32_t b) {
+        if (fixed_.has_edge(a, b)) return false;
+        const auto ring = ring_around(mesh_, a, b, RingFilling::longest);
+        if (!ring) return false;
+        const auto made = RingFilling(mesh_, *ring, a, b).better_than(worst_of(mesh_, ring->cells) + gain);
+        if (made.empty()) return false;
+        // A triangle across the ring that is a face of other cells already would be there twice.
+        mesh_.replace(ring->cells, made);
+        ++done.flips;
+        return true;
+    }
+
+    /// Two cells at a face become three around an edge.
+    bool flip_face(std::uint32_t c, std::size_t k) {
+        const Cell& cell = mesh_.at(c);
+        const std::uint32_t own = cell[k];
+        const Triangle face{cell[(k + 1) % 4], cell[(k + 2) % 4], cell[(k + 3) % 4]};
+        if (fixed_.has_face(face)) return false;
+        std::uint32_t other = no_index, tip = no_index;
+        for (const std::uint32_t d : mesh_.around(face[0])) {
+            if (d == c || !has(mesh_.at(d), face[1]) || !has(mesh_.at(d), face[2])) continue;
+            other = d;
+            for (const std::uint32_t v : mesh_.at(d)) {
+                if (v != face[0] && v != face[1] && v != face[2]) tip = v;
+            }
+        }
+        if (other == no_index) return false;
+        const double before = std::min(mesh_.sine_of(c), mesh_.sine_of(other)) + gain;
+        std::array<Cell, 3> made{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            made[i] = {face[i], face[(i + 1) % 3], own, tip};
+            const std::array<Vec3, 4> p = mesh_.corners(made[i]);
+            if (orientation(p[0], p[1], p[2], p[3]) < 0) std::swap(made[i][0], made[i][1]);
+        }
+        if (!lies_within(face, own, tip)) return false;
+        for (const Cell& m : made) {
+            if (mesh_.sine_of_new(m) <= before) return false;
+        }
+        const std::array<std::uint32_t, 2> old{c, other};
+        mesh_.replace(old, made);
+        ++done.flips;
+        return true;
+    }
+
+    /// Whether the line from one tip to the other goes through the inside of the face.
+    bool lies_within(const Triangle& face, std::uint32_t own, std::uint32_t tip) const {
+        int sign = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const int s = orientation(mesh_.position(own), mesh_.position(tip), mesh_.position(face[i]), mesh_.position(face[(i + 1) % 3]));
+            if (s == 0 || s == -sign) return false;
+            sign = s;
+        }
+        return true;
+    }
+
+    /// Towards the mean of its neighbours, and away from the faces opposite to it in its worst cells.
+    bool move(std::uint32_t v) {
+        Vec3 mean{};
+        std::size_t count = 0;
+        double shortest = HUGE_VAL;
+        if (mesh_.around(v).empty()) return false;
+        const std::uint32_t worst = mesh_.worst_around(v);
+        const Vec3 from = mesh_.position(v);
+        for (const std::uint32_t c : mesh_.around(v)) {
+            for (const std::uint32_t n : mesh_.at(c)) {
+                if (n == v) continue;
+                const Vec3 d = minus(mesh_.position(n), from);
+                mean = plus(mean, d);
+                ++count;
+                shortest = std::min(shortest, std::sqrt(dot(d, d)));
+            }
+        }
+        const Vec3 to_mean = times(1.0 / static_cast<double>(count), mean);
+        const auto normals = face_normals(mesh_.corners(mesh_.at(worst)));
+        std::array<Vec3, 8> ways{to_mean};
+        std::size_t n = 1;
+        for (const Vec3& normal : normals) ways[n++] = times(-0.25 * shortest, normal);
+        for (std::size_t k = 0; k < 3; ++k) ways[n++] = times(k == 0 ? 0.25 * shortest : 0.1 * shortest, plus(normals[k], normals[k + 1]));
+        for (const double step : {1.0, 0.5, 0.2, -0.2, -0.5}) {
+            for (const Vec3& way : ways) {
+                if (!mesh_.move(v, plus(from, times(step, way)))) continue;
+                ++done.moves;
+                return true;
+            }
+        }
+        return false;
+    }
+};
+
+}  // namespace
+
+Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor) {
+    Improver improver(facets, region);
+    improver.run(monitor);
+    improver.cells().put_back(facets, region);
+    return improver.done;
+}
+
+}  // namespace geomend::volumes

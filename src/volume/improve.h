@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "base/monitor.h"
+#include "volume/region_cells.h"
+#include "volume/region_facets.h"
+
+namespace geomend::volumes {
+
+/// What was done to cells.
+struct Improvement {
+    std::uint64_t bad_before = 0, bad_after = 0;  ///< cells with an angle between faces below 10 or above 170 degrees
+    std::uint64_t flips = 0, moves = 0;
+};
+
+/// Makes the worst cells better, facets and their vertices fixed: edges inside are removed, faces inside are flipped, and new vertices
+/// moved, each only where the worst of the cells around becomes better by it, in the order of cells. Cells stay the right way out
+/// (exactly), and fill the same region. Results depend on the cells alone. Cost: as the number of bad cells and of those around them.
+/// Source: L. Freitag, C. Ollivier-Gooch, Tetrahedral mesh improvement using swapping and smoothing (1997); the ring around an edge is
+/// filled as by G. Klincsek (1980); A. Botella (2016), 2.6.4, for moves that make no cell around worse.
+Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor);
+
+}  // namespace geomend::volumes

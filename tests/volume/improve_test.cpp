@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "volume/improve.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include "geometry/predicates.h"
+#include "volume/cell_quality.h"
+
+namespace geomend::volumes {
+namespace {
+
+constexpr int n = 4;  // cubes along each side
+
+/// A block of n x n x n cubes of six tetrahedra each, a sheet of n / 2 by n triangles inside of it; vertices inside are moved.
+struct Block {
+    RegionFacets facets;
+    RegionCells cells;
+};
+
+bool is_on_border(const std::array<int, 3>& at) {
+    return std::ranges::any_of(at, [](int x) { return x == 0 || x == n; });
+}
+bool is_on_sheet(const std::array<int, 3>& at) { return at[2] == n / 2 && at[0] <= n / 2; }
+
+template <class Moved>
+Block block(const Moved& moved) {
+    Block b;
+    std::map<std::array<int, 3>, std::uint32_t> number;
+    std::vector<std::array<int, 3>> all;
+    for (int k = 0; k <= n; ++k)
+        for (int j = 0; j <= n; ++j)
+            for (int i = 0; i <= n; ++i) all.push_back({i, j, k});
+    std::ranges::stable_partition(all, [](const auto& at) { return is_on_border(at) || is_on_sheet(at); });
+    for (const auto& at : all) {
+        const auto v = static_cast<std::uint32_t>(number.size());
+        number[at] = v;
+        const Vec3 p{double(at[0]), double(at[1]), double(at[2])};
+        if (is_on_border(at) || is_on_sheet(at)) b.facets.positions.push_back(p);
+        else b.cells.new_vertices.push_back(moved(p));
+    }
+    b.facets.vertices.resize(b.facets.positions.size());
+    std::iota(b.facets.vertices.begin(), b.facets.vertices.end(), 0u);
+    const auto position = [&](std::uint32_t v) {
+        return v < b.facets.positions.size() ? b.facets.positions[v] : b.cells.new_vertices[v - b.facets.positions.size()];
+    };
+    std::map<Triangle, Triangle> open;  // faces of one cell, by their sorted corners, wound outwards
+    const auto add_cell = [&](std::array<std::uint32_t, 4> c) {
+        if (orientation(position(c[0]), position(c[1]), position(c[2]), position(c[3])) < 0) std::swap(c[2], c[3]);
+        b.cells.cells.push_back(c);
+        for (const Triangle& f : {Triangle{c[1], c[2], c[3]}, {c[0], c[3], c[2]}, {c[0], c[1], c[3]}, {c[0], c[2], c[1]}}) {
+            Triangle key = f;
+            std::ranges::sort(key);
+            if (open.erase(key) == 0) open[key] = f;
+        }
+    };
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                std::array<std::size_t, 3> axes{0, 1, 2};
+                do {
+                    std::array<int, 3> at{i, j, k};
+                    std::array<std::uint32_t, 4> c{number[at]};
+                    for (std::size_t s = 0; s < 3; ++s) {
+                        ++at[axes[s]];
+                        c[s + 1] = number[at];
+                    }
+                    add_cell(c);
+                } while (std::ranges::next_permutation(axes).found);
+            }
+    for (const auto& [key, face] : open) {
+        b.facets.triangles.push_back(face);
+        b.facets.sides.push_back(behind);
+    }
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n / 2; ++i) {
+            const int k = n / 2;
+            b.facets.triangles.push_back({number[{i, j, k}], number[{i + 1, j, k}], number[{i + 1, j + 1, k}]});
+            b.facets.triangles.push_back({number[{i, j, k}], number[{i + 1, j + 1, k}], number[{i, j + 1, k}]});
+            b.facets.sides.insert(b.facets.sides.end(), {on_both, on_both});
+        }
+    b.facets.surfaces.assign(b.facets.triangles.size(), 0);
+    b.facets.volume = n * n * n;
+    b.facets.region = 0;
+    measure(b.facets, b.cells);
+    return b;
+}
+
+double worst_sine(const Block& b) {
+    const auto position = [&](std::uint32_t v) {
+        return v < b.facets.positions.size() ? b.facets.positions[v] : b.cells.new_vertices[v - b.facets.positions.size()];
+    };
+    double worst = 2;
+    for (const auto& c : b.cells.cells)
+        worst = std::min(worst, least_sine({position(c[0]), position(c[1]), position(c[2]), position(c[3])}));
+    return worst;
+}
+
+TEST(CellQuality, OfTheRegularAndOfAFlatTetrahedron) {
+    const std::array<Vec3, 4> regular{Vec3{1, 1, 1}, Vec3{1, -1, -1}, Vec3{-1, 1, -1}, Vec3{-1, -1, 1}};
+    EXPECT_NEAR(least_sine(regular), std::sqrt(8) / 3, 1e-15);
+    EXPECT_NEAR(dihedral_cosines(regular).of_least, 1.0 / 3, 1e-15);
+    EXPECT_NEAR(shape(regular), 1, 1e-15);
+    const std::array<Vec3, 4> flat{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}};
+    EXPECT_NEAR(least_sine(flat), 0, 1e-15);
+    EXPECT_NEAR(shape(flat), 0, 1e-15);
+    const std::array<Vec3, 4> corner{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+    const double inner = 1 / (3 + std::sqrt(3)), outer = std::sqrt(3) / 2;
+    EXPECT_NEAR(shape(corner), 3 * inner / outer, 1e-15);
+}
+
+TEST(Improve, AFlatCellInsideGoes) {
+    Block b = block([](Vec3 p) { return p == Vec3{3, 1, 1} ? Vec3{3, 1.98, 1.98} : p; });
+    ASSERT_TRUE(cells_of_region(b.facets, {b.cells.new_vertices, b.cells.cells}));
+    const double before = worst_sine(b);
+    EXPECT_LT(before, 0.05);
+    const Improvement done = improve(b.facets, b.cells, nullptr);
+    EXPECT_GT(done.bad_before, 0u);
+    EXPECT_EQ(done.bad_after, 0u);
+    EXPECT_GT(worst_sine(b), std::sin(0.1745));
+    const auto proven = cells_of_region(b.facets, {b.cells.new_vertices, b.cells.cells});
+    EXPECT_TRUE(proven) << proven.why().error.message;
+}
+
+TEST(Improve, GoodCellsStayAsTheyAre) {
+    Block b = block([](Vec3 p) { return p; });
+    const auto before = b.cells.cells;
+    const Improvement done = improve(b.facets, b.cells, nullptr);
+    EXPECT_EQ(done.flips + done.moves, 0u);
+    EXPECT_EQ(b.cells.cells, before);
+}
+
+RC_GTEST_PROP(Improve, CellsFillTheSameRegionAroundTheSameFacetsAndTheWorstGetsNoWorse, (unsigned seed)) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> part(-0.45, 0.45);
+    Block b = block([&](Vec3 p) { return Vec3{p[0] + part(random), p[1] + part(random), p[2] + part(random)}; });
+    RC_PRE(cells_of_region(b.facets, {b.cells.new_vertices, b.cells.cells}).ok());
+    const double before = worst_sine(b);
+    Block again = b;
+    const Improvement done = improve(b.facets, b.cells, nullptr);
+    RC_ASSERT(worst_sine(b) >= before);
+    RC_ASSERT(done.bad_after <= done.bad_before);
+    const auto proven = cells_of_region(b.facets, {b.cells.new_vertices, b.cells.cells});
+    if (!proven) RC_FAIL(proven.why().error.message);
+    RC_ASSERT(proven->cells.size() == b.cells.cells.size());
+    improve(again.facets, again.cells, nullptr);
+    RC_ASSERT(again.cells.cells == b.cells.cells);
+    RC_ASSERT(again.cells.new_vertices == b.cells.new_vertices);
+}
+
+}  // namespace
+}  // namespace geomend::volumes
