@@ -493,6 +493,35 @@ def irap_grid():
     return "".join(out)
 
 
+def two_maps(base):
+    """A map of 41 x 31 nodes, 25 m apart; depths. A fault dips to the east at x = 500 or so and dies out at y = 100 and y = 600; the
+    torn part of the map rises evenly from one side to the other."""
+    columns, rows, step = 41, 31, 25.0
+    out = ["-996 %d %s %s\n" % (rows, text(step), text(step)), "0.0 %s 0.0 %s\n" % (text((columns - 1) * step), text((rows - 1) * step)),
+           "%d 0.0 0.0 0.0\n" % columns, "0 0 0 0 0 0 0\n"]
+    depths = []
+    for j in range(rows):
+        for i in range(columns):
+            x, y = i * step, j * step
+            half = 20.0 * (1.0 - ((y - 350.0) / 250.0) ** 2)  # of the torn part
+            throw = 40.0 * half / 20.0 if half > 0.0 else 0.0
+            share = 0.5 if half <= 0.0 else min(1.0, max(0.0, (x - 500.0 - 0.1 * (y - 350.0) + half) / (2.0 * half)))
+            depths.append(text(round(1500.0 + x / 50.0 + y / 40.0 + throw * (share - 0.5) + (60.0 + x / 100.0 if base else 0.0), 3)))
+    out += [" ".join(depths[n:n + 6]) + "\n" for n in range(0, len(depths), 6)]
+    return "".join(out)
+
+
+def fault_polygon():
+    """The ring around the torn part of the two maps: IRAP polygons."""
+    def side(sign):
+        rows = [100.0 + 50.0 * n for n in range(11)]
+        return [(500.0 + 0.1 * (y - 350.0) + sign * 20.0 * (1.0 - ((y - 350.0) / 250.0) ** 2), y) for y in rows]
+    ring = side(-1.0) + side(1.0)[-2:0:-1]
+    ring.append(ring[0])
+    lines = ["%s %s %s\n" % (text(round(x, 3)), text(y), text(round(1500.0 + x / 50.0 + y / 40.0, 3))) for x, y in ring]
+    return "".join(lines) + "999.0 999.0 999.0\n"
+
+
 def zmap_grid():
     """4 rows and 6 columns; fields of ten characters, without blanks between the missing ones."""
     rows, columns = 4, 6
@@ -610,6 +639,9 @@ def main(folder):
         "wells.wl": wells(),
         "h1_grid.irap": irap_grid(),
         "h1_grid.zmap": zmap_grid(),
+        "top_map.irap": two_maps(False),
+        "base_map.irap": two_maps(True),
+        "top_faults.pol": fault_polygon(),
         "faulted_grid.grdecl": pillar_grid(),
         "crossing_sheets.ts": crossing_sheets(),
         "open_layers.ts": open_layers(),

@@ -111,6 +111,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F024", error, "the numbers of cells of a grid are not stated"},
     CodeInfo{"F025", error, "the process that checked the file crashed"},
     CodeInfo{"F026", error, "the model cannot be filled with cells"},
+    CodeInfo{"F027", error, "the model does not fit the pillars of a corner-point grid"},
     CodeInfo{"F101", warning, "the last object has no END"},
     CodeInfo{"F102", info, "a record is not known", OtherSeverity{warning, "the text or bytes follow the last record"}},
     CodeInfo{"F103", warning, "degenerate element: the same node twice"},

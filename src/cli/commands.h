@@ -13,6 +13,7 @@ void add_convert(CLI::App& program, ExitStatus& status);
 void add_formats(CLI::App& program, ExitStatus& status);
 void add_validate(CLI::App& program, ExitStatus& status);
 void add_repair(CLI::App& program, ExitStatus& status);
+void add_grid(CLI::App& program, ExitStatus& status);
 void add_mesh(CLI::App& program, ExitStatus& status);
 void add_remesh(CLI::App& program, ExitStatus& status);
 void add_checks(CLI::App& program, ExitStatus& status);

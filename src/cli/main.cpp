@@ -38,6 +38,7 @@ ExitStatus run(int argc, char** argv) {
     geomend::cli::add_repair(program, status);
     geomend::cli::add_mesh(program, status);
     geomend::cli::add_remesh(program, status);
+    geomend::cli::add_grid(program, status);
     geomend::cli::add_formats(program, status);
     geomend::cli::add_checks(program, status);
     geomend::cli::add_completion(program, status);

@@ -29,6 +29,7 @@ constexpr std::array info_rows{
     OptionRow{"angle", both, length, "A", "characteristic angle in degrees"},
 };
 constexpr std::array convert_rows{as_row, regions_row, horizons_row, crs_row, map_row, origin_row, connections_row, faces_row, quality_row};
+constexpr std::array grid_rows{as_row, regions_row, horizons_row, crs_row, origin_row, connections_row, faces_row, quality_row};
 constexpr std::array validate_rows{cells_row, as_row, regions_row, horizons_row};
 constexpr std::array repair_rows{gap_row, cells_row,  as_row,          regions_row, horizons_row, crs_row,
                                  map_row, origin_row, connections_row, faces_row,   quality_row};
@@ -39,5 +40,6 @@ std::span<const OptionRow> info_option_rows() { return info_rows; }
 std::span<const OptionRow> convert_option_rows() { return convert_rows; }
 std::span<const OptionRow> validate_option_rows() { return validate_rows; }
 std::span<const OptionRow> repair_option_rows() { return repair_rows; }
+std::span<const OptionRow> grid_option_rows() { return grid_rows; }
 
 }  // namespace geomend

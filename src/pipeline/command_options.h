@@ -12,5 +12,6 @@ std::span<const OptionRow> info_option_rows();
 std::span<const OptionRow> convert_option_rows();
 std::span<const OptionRow> validate_option_rows();
 std::span<const OptionRow> repair_option_rows();
+std::span<const OptionRow> grid_option_rows();
 
 }  // namespace geomend

@@ -86,6 +86,7 @@ constexpr std::array unmended = {
     Unmended{"F024", reading},
     Unmended{"F025", reading},
     Unmended{"F026", reading},
+    Unmended{"F027", reading},
     Unmended{"F101", reading},
     Unmended{"F102", reading},
     Unmended{"F103", not_yet},

@@ -112,6 +112,7 @@ constexpr std::array advice = {
     Advice{"F024", "give them with --option dims=NX,NY,NZ, or read the whole deck"},
     Advice{"F025", "report it with the file; the other files were checked all the same"},
     Advice{"F026", "mend the model with geomend repair, or fill it with --ratio 0 or a larger --size"},
+    Advice{"F027", "leave the horizon or fault out with --leave-out, or --horizons, of geomend grid"},
     Advice{"F101", "--accept-unterminated, after checking that nothing is missing"},
     Advice{"F103", "remove the element, or give it the right nodes"},
     Advice{"F106", "state a triangle of the surface as its key, in the sense of the surface"},

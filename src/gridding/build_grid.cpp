@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "gridding/build_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/wording.h"
+#include "gridding/cell_layers.h"
+#include "gridding/fault_faces.h"
+#include "gridding/horizon_checks.h"
+#include "gridding/node_depths.h"
+
+namespace geomend::gridding {
+
+namespace {
+
+double mean_depth(const Horizon& horizon) {
+    double sum = 0, count = 0;
+    const auto add = [&](double depth) {
+        if (!std::isfinite(depth)) return;
+        sum += depth;
+        count += 1;
+    };
+    if (const auto* map = std::get_if<HorizonMap>(&horizon.shape)) std::ranges::for_each(map->depths, add);
+    else
+        for (const Vec3& v : std::get<Sheet>(horizon.shape).vertices) add(v[2]);
+    return count > 0 ? sum / count : 0;
+}
+
+/// The least and the largest depth of all horizons.
+std::array<double, 2> depth_range(const Structure& structure) {
+    std::array<double, 2> range{1e300, -1e300};
+    const auto add = [&](double depth) {
+        if (!std::isfinite(depth)) return;
+        range[0] = std::min(range[0], depth);
+        range[1] = std::max(range[1], depth);
+    };
+    for (const Horizon& horizon : structure.horizons) {
+        if (const auto* map = std::get_if<HorizonMap>(&horizon.shape)) std::ranges::for_each(map->depths, add);
+        else
+            for (const Vec3& v : std::get<Sheet>(horizon.shape).vertices) add(v[2]);
+    }
+    return range;
+}
+
+/// The horizons at all nodes, in order at each; what had to be moved is counted.
+std::vector<NodeDepths> all_depths(const Structure& structure, const NodeSetting& setting) {
+    std::vector<NodeDepths> all(structure.horizons.size());
+    parallel_for_each_index(all.size(), [&](std::size_t h) { all[h] = node_depths(structure, h, setting); });
+    return all;
+}
+
+void put_nodes_in_order(const Structure& structure, const SplitPillars& split, std::vector<NodeDepths>& depths, GridReport& report) {
+    std::vector<std::uint8_t> erodes, is_lapped;
+    for (const Horizon& horizon : structure.horizons) {
+        erodes.push_back(horizon.erodes ? 1 : 0);
+        is_lapped.push_back(horizon.is_lapped ? 1 : 0);
+    }
+    std::vector<double> before(depths.size()), after(depths.size());
+    for (std::size_t h = 0; h < depths.size(); ++h) report.horizons.push_back({structure.horizons[h].name});
+    for (std::size_t n = 0; n < split.node_count(); ++n) {
+        for (std::size_t h = 0; h < depths.size(); ++h) before[h] = depths[h].depths[n];
+        after = before;
+        put_in_order(after, erodes, is_lapped);
+        const bool whole = !split.is_split(split.pillar_of[n]);
+        for (std::size_t h = 0; h < depths.size(); ++h) {
+            HorizonReport& r = report.horizons[h];
+            const double moved = std::abs(after[h] - before[h]);
+            const DepthSource source = depths[h].sources[n];
+            (source == DepthSource::read ? r.read : source == DepthSource::extended ? r.extended : r.filled) += 1;
+            if (source == DepthSource::read && whole) {
+                ++r.unfaulted;
+                r.max_difference = std::max(r.max_difference, moved);
+            }
+            if (moved > 0 && source != DepthSource::filled) {
+                ++r.moved;
+                r.max_moved = std::max(r.max_moved, moved);
+            }
+            depths[h].depths[n] = after[h];
+        }
+    }
+}
+
+std::string zone_name(const Structure& structure, const ZoneLayers& rule, std::size_t z) {
+    if (!rule.zone.empty()) return rule.zone;
+    return structure.horizons[z].name + " - " + structure.horizons[z + 1].name;
+}
+
+/// The attribute of cells that numbers something from 1.
+template <class Number>
+Attribute numbers(const CornerPointGrid& grid, const std::string& name, const std::vector<std::string>& meanings, const Number& number) {
+    std::vector<std::int32_t> values(grid.cell_count());
+    const std::size_t layer = std::size_t{grid.dims[0]} * grid.dims[1];
+    parallel_blocks(grid.dims[2], 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            for (std::size_t c = 0; c < layer; ++c) values[c + layer * k] = static_cast<std::int32_t>(number(c, k)) + 1;
+        }
+    });
+    Attribute attribute;
+    attribute.name = name;
+    attribute.location = AttributeLocation::cell;
+    attribute.values = std::move(values);
+    for (std::size_t m = 0; m < meanings.size(); ++m) attribute.code_names.emplace_back(static_cast<int>(m) + 1, meanings[m]);
+    return attribute;
+}
+
+void add_regions(const GridReport& report, const Blocks& blocks, CornerPointGrid& grid) {
+    std::vector<std::string> zones, block_names;
+    std::vector<std::uint32_t> zone_of(grid.dims[2]);
+    for (std::uint32_t z = 0; z < report.zones.size(); ++z) {
+        zones.push_back(report.zones[z].name);
+        for (std::uint32_t k = report.zones[z].first_layer; k <= report.zones[z].last_layer; ++k) zone_of[k] = z;
+    }
+    for (std::uint32_t b = 0; b < blocks.count; ++b) block_names.push_back("block " + std::to_string(b + 1));
+    grid.info.attributes.push_back(numbers(grid, "FIPNUM", zones, [&](std::size_t, std::size_t k) { return zone_of[k]; }));
+    grid.info.attributes.push_back(numbers(grid, "FLUXNUM", block_names, [&](std::size_t c, std::size_t) { return blocks.of[c]; }));
+}
+
+/// The pillars end where the grid does.
+void set_pillars(const Net& net, const std::array<double, 2>& range, CornerPointGrid& grid) {
+    grid.pillars = net.lines;
+    for (std::size_t p = 0; p < net.pillar_count(); ++p) {
+        double* line = grid.pillars.data() + 6 * p;
+        if (!net.is_upright(p)) continue;
+        line[2] = range[0];
+        line[5] = range[1];
+    }
+}
+
+Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "stopped; nothing was written"); }
+
+}  // namespace
+
+double mid_level(const Structure& structure) {
+    return (mean_depth(structure.horizons.front()) + mean_depth(structure.horizons.back())) / 2;
+}
+
+Result<MadeGrid> build_grid(const Structure& structure, const Net& net, const GridOptions& options) {
+    MadeGrid made;
+    const double level = mid_level(structure);
+    const auto range = depth_range(structure);
+    made.report.cell = spacing_of(net, level);
+
+    std::vector<Path> traces;
+    std::vector<FaultSides> sides;
+    std::vector<double> reach;
+    double widest = 0;
+    for (const Horizon& horizon : structure.horizons) {
+        if (const auto* map = std::get_if<HorizonMap>(&horizon.shape))
+            widest = std::max(widest, std::hypot(map->step[0][0], map->step[0][1]));
+    }
+    for (const Fault& fault : structure.faults) {
+        traces.push_back(fault.trace);
+        sides.emplace_back(fault);
+        reach.push_back(sides.back().reach(range[0], range[1]) + 2.5 * made.report.cell + 2 * widest);
+    }
+    const Chains chains = make_chains(net, traces, level);
+    for (std::size_t f = 0; f < sides.size(); ++f) {
+        const auto& chain = chains.chains[f].pillars;
+        if (!chain.empty()) sides[f].go_on(net.is_outermost(chain.front()), net.is_outermost(chain.back()));
+    }
+    const SplitPillars split = split_pillars(net, chains.edges);
+    const Blocks blocks = fault_blocks(net, chains.edges);
+    made.report.blocks = blocks.count;
+    const NodeGraph graph = node_graph(net, split);
+    const NearFaults near = near_faults(net, split, graph, chains, reach, level);
+    if (options.monitor != nullptr && options.monitor->stopped()) return stopped();
+
+    auto depths = all_depths(structure, {net, split, graph, near, sides, reach, level, made.report.cell});
+    if (auto once = refuse_repeated(structure, net, split, depths, options.allow_repeated); !once) return std::move(once).why();
+    put_nodes_in_order(structure, split, depths, made.report);
+    if (options.monitor != nullptr && options.monitor->stopped()) return stopped();
+
+    CornerPointGrid& grid = made.grid;
+    grid.info.name = "grid";
+    grid.info.crs.z_positive = ZPositive::depth;
+    grid.info.crs.z_positive_stated = true;
+    set_pillars(net, range, grid);
+    const LayerPlan plan = plan_layers(options.zones, depths, level);
+    for (std::size_t z = 0; z < options.zones.size(); ++z)
+        made.report.zones.push_back({zone_name(structure, options.zones[z], z), plan.first[z], plan.first[z + 1] - 1});
+    grid.dims = {net.cells[0], net.cells[1], plan.first.back()};
+    made.report.joined_cells = fill_cells(net, split, depths, options, plan, grid);
+    add_regions(made.report, blocks, grid);
+    made.report.faults = add_faults(structure, net, chains, split, depths, options.fault_sides_both, made.report.cell, grid);
+    measure_zones(grid, made.report.zones);
+    made.report.active = active_count(grid);
+    return made;
+}
+
+}  // namespace geomend::gridding

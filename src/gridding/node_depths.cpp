@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "gridding/node_depths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "base/parallel.h"
+#include "gridding/horizon_reader.h"
+#include "gridding/plane_fit.h"
+
+namespace geomend::gridding {
+
+namespace {
+
+constexpr std::size_t enough_pieces = 12;
+constexpr int most_rounds = 50;  // of the search for where a leaning pillar meets a horizon
+
+/// A horizon seen from nodes. One for each horizon: it remembers on which sides of faults its pieces lie.
+template <class Reader>
+class Seen {
+public:
+    Seen(const Reader& reader, std::size_t horizon, const NodeSetting& setting) : reader_(reader), horizon_(horizon), setting_(setting) {}
+
+    /// The depths at a place that lie on the given sides of faults, ascending.
+    void hits(const Point& p, std::span<const NearFault> near, std::vector<Hit>& found) {
+        found.clear();
+        for (const NearFault& f : near) {
+            if (setting_.sides[f.fault].is_torn(horizon_, p)) return;
+        }
+        reader_.hits(p, found);
+        std::erase_if(found, [&](const Hit& hit) {
+            return std::ranges::any_of(std::span(hit.pieces.data(), hit.count), [&](std::uint32_t piece) { return !fits(piece, near); });
+        });
+    }
+
+    /// The horizon continued to a place from the sides given; nothing where no piece is near enough.
+    std::optional<double> extended(const Point& p, std::span<const NearFault> near, double most) {
+        for (double reach = 3 * reader_.step();; reach *= 1.5) {
+            pieces_.clear();
+            reader_.near(p, std::min(reach, most), pieces_);
+            std::erase_if(pieces_, [&](const Piece& piece) { return !fits(piece.number, near); });
+            if (pieces_.size() < enough_pieces && reach < most) continue;
+            if (pieces_.size() < 3) return std::nullopt;
+            return plane_at(p);
+        }
+    }
+
+private:
+    const Reader& reader_;
+    std::size_t horizon_;
+    const NodeSetting& setting_;
+    std::unordered_map<std::uint64_t, std::int8_t> known_;
+    std::vector<Piece> pieces_;
+    static constexpr std::int8_t unfit = 2;
+
+    bool fits(std::uint32_t piece, std::span<const NearFault> near) {
+        return std::ranges::all_of(near, [&](const NearFault& f) {
+            const std::int8_t state = state_of(f.fault, piece);
+            return state != unfit && (f.side == 0 || state != -f.side);
+        });
+    }
+
+    std::int8_t state_of(std::uint32_t fault, std::uint32_t piece) {
+        const auto [at, is_new] = known_.try_emplace((std::uint64_t{fault} << 32) | piece, std::int8_t{0});
+        if (is_new) at->second = new_state(setting_.sides[fault], piece);
+        return at->second;
+    }
+
+    std::int8_t new_state(const FaultSides& fault, std::uint32_t piece) const {
+        const Vec3 middle = reader_.middle(piece);
+        if (fault.is_torn(horizon_, {middle[0], middle[1]})) return unfit;
+        std::array<Vec3, 3> room;
+        bool left = false, right = false;
+        for (const Vec3& corner : reader_.corners(piece, room)) {
+            const int side = fault.side(horizon_, corner);
+            left = left || side > 0;
+            right = right || side < 0;
+        }
+        if (left && right) return unfit;
+        return static_cast<std::int8_t>(fault.side(horizon_, middle));
+    }
+
+    double plane_at(const Point& p) const {
+        PlaneFit fit(p);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Piece& piece : pieces_) nearest = std::min(nearest, distance(p, {piece.at[0], piece.at[1]}));
+        const double soft = std::max(nearest, 0.5 * reader_.step());
+        for (const Piece& piece : pieces_) {
+            const double d = distance(p, {piece.at[0], piece.at[1]}) / soft;
+            fit.add(piece.at[0], piece.at[1], piece.at[2], 1 / (1 + d * d));
+        }
+        return fit.depth();
+    }
+};
+
+/// The hit nearest to a depth.
+double nearest_hit(const std::vector<Hit>& hits, double depth) {
+    double best = hits.front().depth;
+    for (const Hit& hit : hits) {
+        if (std::abs(hit.depth - depth) < std::abs(best - depth)) best = hit.depth;
+    }
+    return best;
+}
+
+bool are_several(const std::vector<Hit>& hits) {
+    return hits.size() > 1 && hits.back().depth - hits.front().depth > 1e-6 * (1 + std::abs(hits.back().depth));
+}
+
+/// Works on the nodes of one horizon.
+template <class Reader>
+class Work {
+public:
+    Work(const Reader& reader, std::size_t horizon, const NodeSetting& setting, NodeDepths& made)
+        : reader_(reader), horizon_(horizon), setting_(setting), seen_(reader, horizon, setting), made_(made) {}
+
+    void run() {
+        const std::size_t count = setting_.split.node_count();
+        made_.depths.assign(count, std::numeric_limits<double>::quiet_NaN());
+        made_.sources.assign(count, DepthSource::filled);
+        std::vector<std::uint8_t> several(count, 0);
+        parallel_blocks(count, 4096, [&](std::size_t first, std::size_t last) {
+            std::vector<Hit> hits;
+            for (std::size_t n = first; n < last; ++n) {
+                if (!setting_.near.of(n).empty()) continue;
+                read(n, several, hits, [&](const Point& p) {
+                    hits.clear();
+                    reader_.hits(p, hits);
+                });
+            }
+        });
+        std::vector<Hit> hits;
+        for (std::size_t n = 0; n < count; ++n) {
+            const auto near = setting_.near.of(n);
+            if (near.empty()) continue;
+            read(n, several, hits, [&](const Point& p) { seen_.hits(p, near, hits); });
+            if (std::isnan(made_.depths[n])) extend(n, near);
+        }
+        for (std::uint32_t n = 0; n < count; ++n) {
+            if (several[n] != 0) made_.repeated.push_back(n);
+        }
+    }
+
+private:
+    const Reader& reader_;
+    std::size_t horizon_;
+    const NodeSetting& setting_;
+    Seen<Reader> seen_;
+    NodeDepths& made_;
+
+    template <class Look>
+    void read(std::size_t node, std::vector<std::uint8_t>& several, const std::vector<Hit>& hits, const Look& look) {
+        const std::uint32_t pillar = setting_.split.pillar_of[node];
+        double depth = setting_.level;
+        for (int round = 0; round < most_rounds; ++round) {
+            look(setting_.net.at(pillar, depth));
+            if (hits.empty()) return;
+            if (round == 0 && are_several(hits)) several[node] = 1;
+            const double before = std::exchange(depth, nearest_hit(hits, depth));
+            if (setting_.net.is_upright(pillar) || std::abs(depth - before) <= 1e-10 * (1 + std::abs(depth))) break;
+        }
+        made_.depths[node] = depth;
+        made_.sources[node] = DepthSource::read;
+    }
+
+    void extend(std::size_t node, std::span<const NearFault> near) {
+        const std::uint32_t pillar = setting_.split.pillar_of[node];
+        double depth = setting_.level;
+        if (!reaches(setting_.net.at(pillar, depth), near)) return;
+        for (int round = 0; round < most_rounds; ++round) {
+            const auto next = seen_.extended(setting_.net.at(pillar, depth), near, most_reach(near));
+            if (!next) return;
+            const double before = std::exchange(depth, *next);
+            if (setting_.net.is_upright(pillar) || std::abs(depth - before) <= 1e-6 * (1 + std::abs(depth))) break;
+        }
+        made_.depths[node] = depth;
+        made_.sources[node] = DepthSource::extended;
+    }
+
+    bool reaches(const Point& p, std::span<const NearFault> near) const {
+        return reader_.covers(p) ||
+               std::ranges::any_of(near, [&](const NearFault& f) { return setting_.sides[f.fault].is_torn(horizon_, p); });
+    }
+
+    double most_reach(std::span<const NearFault> near) const {
+        double most = 0;
+        for (const NearFault& f : near) most = std::max(most, setting_.reach[f.fault]);
+        return most + 6 * reader_.step() + 2 * setting_.cell;
+    }
+};
+
+/// Nodes without a depth take that of the nearest node that has one, in steps along edges.
+void fill(const NodeGraph& graph, NodeDepths& made) {
+    std::vector<std::uint32_t> queue;
+    double sum = 0;
+    for (std::uint32_t n = 0; n < made.depths.size(); ++n) {
+        if (std::isnan(made.depths[n])) continue;
+        queue.push_back(n);
+        sum += made.depths[n];
+    }
+    const double mean = queue.empty() ? 0 : sum / static_cast<double>(queue.size());
+    for (std::size_t k = 0; k < queue.size(); ++k) {
+        for (const std::uint32_t next : graph.of(queue[k])) {
+            if (!std::isnan(made.depths[next])) continue;
+            made.depths[next] = made.depths[queue[k]];
+            queue.push_back(next);
+        }
+    }
+    for (double& depth : made.depths) {
+        if (std::isnan(depth)) depth = mean;
+    }
+}
+
+}  // namespace
+
+NodeDepths node_depths(const Structure& structure, std::size_t horizon, const NodeSetting& setting) {
+    NodeDepths made;
+    if (const auto* map = std::get_if<HorizonMap>(&structure.horizons[horizon].shape)) {
+        const MapReader reader(*map);
+        Work<MapReader>(reader, horizon, setting, made).run();
+    } else {
+        const SheetReader reader(std::get<Sheet>(structure.horizons[horizon].shape));
+        Work<SheetReader>(reader, horizon, setting, made).run();
+    }
+    fill(setting.graph, made);
+    return made;
+}
+
+}  // namespace geomend::gridding

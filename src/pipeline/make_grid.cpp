@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/make_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <utility>
+
+#include "base/output.h"
+#include "base/wording.h"
+#include "formats/registry.h"
+#include "grid/connections.h"
+#include "grid/map_axes.h"
+#include "gridding/map_volumes.h"
+#include "pipeline/command_options.h"
+#include "pipeline/json_parts.h"
+#include "topology/brep_from_dataset.h"
+
+namespace geomend {
+
+namespace {
+
+using gridding::FoundStructure;
+using gridding::Net;
+using gridding::Path;
+using gridding::Point;
+
+/// A name given on the command line is that of a file, whose object has the name of the file without its extension, or of an object.
+void take_file(std::string& name, std::vector<std::string>& inputs) {
+    std::error_code ignored;
+    if (name.empty() || name == "-" || !std::filesystem::is_regular_file(name, ignored)) return;
+    if (std::ranges::find(inputs, name) == inputs.end()) inputs.push_back(name);
+    name = std::filesystem::path(name).stem().string();
+}
+
+Result<const PolylineSet*> lines_called(const Dataset& dataset, const std::string& name, const char* option) {
+    for (const Object& object : dataset.objects) {
+        const auto* set = std::get_if<PolylineSet>(&object);
+        if (set != nullptr && set->info.name == name) return set;
+    }
+    return failure(FailureKind::usage, "F018", {}, std::string(option) + ": no lines are called " + geomend::quoted(name));
+}
+
+Result<Net> net_like(const GridRequest& request) {
+    LoadOptions options = request.files.load;
+    options.from.clear();
+    options.one_of_many = true;
+    auto dataset = load(request.pillars_of, options);
+    if (!dataset) return std::move(dataset).why();
+    for (Object& object : dataset->objects) {
+        auto* grid = std::get_if<CornerPointGrid>(&object);
+        if (grid == nullptr || grid->host || grid->cylindrical) continue;
+        if (auto moved = grid::apply_map_axes(*grid); !moved) return std::move(moved).why();
+        Net net;
+        net.cells = {grid->dims[0], grid->dims[1]};
+        net.lines.assign(grid->pillars.begin(), grid->pillars.begin() + static_cast<std::ptrdiff_t>(6 * pillar_count(grid->dims)));
+        return net;
+    }
+    return failure(FailureKind::usage, "F018", {request.pillars_of}, "--pillars-of: the file holds no corner-point grid");
+}
+
+std::vector<Point> wanted_outline(const GridRequest& request, const FoundStructure& found, const Path& area) {
+    if (request.box) {
+        const auto& b = *request.box;
+        return {{b[0], b[2]}, {b[1], b[2]}, {b[1], b[3]}, {b[0], b[3]}};
+    }
+    return area.empty() ? found.outline : area;
+}
+
+double rotation_of(const GridRequest& request, const FoundStructure& found, const std::vector<Point>& outline) {
+    if (request.rotation) return *request.rotation;
+    const auto box = gridding::smallest_box(outline);
+    if (request.box || (found.is_boxed && box.share > 0.98)) return request.box ? 0 : box.rotation;
+    std::vector<Path> traces;
+    for (const auto& fault : found.structure.faults) traces.push_back(fault.trace);
+    return traces.empty() ? box.rotation : gridding::dominant_strike(traces);
+}
+
+Result<gridding::Frame> frame_of(const GridRequest& request, const FoundStructure& found, const Path& area) {
+    const auto outline = wanted_outline(request, found, area);
+    gridding::Frame frame;
+    frame.rotation = rotation_of(request, found, outline);
+    const auto box = gridding::box_around(outline, frame.rotation);
+    frame.origin = box.origin;
+    for (std::size_t a = 0; a < 2; ++a) {
+        if (!(box.size[a] > 0)) return failure(FailureKind::cannot_hold, "F027", {}, "the area of the grid has no extent");
+        if (request.cells) {
+            frame.cells[a] = (*request.cells)[a];
+            frame.size[a] = box.size[a] / frame.cells[a];
+        } else {
+            frame.size[a] = (*request.size)[a];
+            const double count = std::ceil(box.size[a] / frame.size[a] - 1e-9);
+            if (count > 1e6) return failure(FailureKind::usage, "F018", {}, "--size: more than a million cells along one axis");
+            frame.cells[a] = static_cast<std::uint32_t>(std::max(1.0, count));
+        }
+    }
+    if (request.size) {  // the box lies in the middle
+        const double angle = frame.rotation * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+        const double u = (box.size[0] - frame.cells[0] * frame.size[0]) / 2, v = (box.size[1] - frame.cells[1] * frame.size[1]) / 2;
+        frame.origin = {box.origin[0] + u * c - v * s, box.origin[1] + u * s + v * c};
+    }
+    return frame;
+}
+
+/// The rule of each zone: in order, or by name; one for all.
+Result<std::vector<gridding::ZoneLayers>> zones_of(const GridRequest& request, const FoundStructure& found) {
+    const std::size_t count = found.structure.horizons.size() - 1;
+    std::vector<gridding::ZoneLayers> zones;
+    if (!request.layers.empty()) {
+        auto parsed = gridding::parse_layers(request.layers);
+        if (!parsed) return std::move(parsed).why();
+        zones = std::move(*parsed);
+    }
+    if (zones.empty()) zones.emplace_back();
+    if (zones.size() == 1 && zones[0].zone.empty()) zones.resize(count, zones[0]);
+    if (zones.size() != count)
+        return failure(FailureKind::usage, "F018", {},
+                       "--layers: " + counted(zones.size(), "rule", "rules") + " for " + counted(count, "zone", "zones") + " between " +
+                           counted(count + 1, "horizon", "horizons"));
+    return zones;
+}
+
+CoordinateSystem system_of(const Dataset& dataset, const FoundStructure& found) {
+    CoordinateSystem crs;
+    for (const Object& object : dataset.objects) {
+        const ObjectInfo& info = info_of(object);
+        if (std::ranges::any_of(found.structure.horizons, [&](const auto& h) { return h.name == info.name; })) {
+            crs = info.crs;
+            break;
+        }
+    }
+    crs.z_positive = ZPositive::depth;
+    crs.z_positive_stated = true;
+    return crs;
+}
+
+/// Takes off a grid what the target has no place for, as a grid of its own without geometry: an include holds it beside.
+CornerPointGrid taken_off(CornerPointGrid& grid, const Format& target) {
+    CornerPointGrid beside;
+    beside.info.name = grid.info.name;
+    beside.info.crs = grid.info.crs;
+    beside.dims = grid.dims;
+    if (target.keeps.fault_faces == Keeping::no) beside.faults = std::exchange(grid.faults, {});
+    if (target.keeps.attributes == Keeping::no) beside.info.attributes = std::exchange(grid.info.attributes, {});
+    return beside;
+}
+
+/// Writes an include of what was taken off, where there is anything.
+Result<void> write_beside(CornerPointGrid grid, const GridRequest& request, GridMade& made) {
+    if (request.files.output == "-" || (grid.faults.empty() && grid.info.attributes.empty())) return {};
+    std::filesystem::path path(request.files.output);
+    path.replace_filename(path.stem().string() + ".include.grdecl");
+    Dataset dataset;
+    dataset.format = "grid";
+    dataset.objects.emplace_back(std::move(grid));
+    OutputSet output(path);
+    auto written = format_by_name("grdecl")->write(dataset, output, {{}, request.files.load.monitor});
+    if (!written) return std::move(written).why();
+    for (Loss& loss : *written) add_loss(made.written.losses, std::move(loss));
+    made.beside = path.string();
+    return output.commit(request.files.load.monitor);
+}
+
+Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest& request, GridMade& report, CornerPointGrid& beside) {
+    if (std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<CellMesh>(o); }))
+        topology::build_breps(dataset);
+    auto found = gridding::structure_of(dataset, request.structure);
+    if (!found) return std::move(found).why();
+    auto zones = zones_of(request, *found);
+    if (!zones) return std::move(zones).why();
+    request.options.zones = std::move(*zones);
+    if (!request.area.empty()) {
+        auto lines = lines_called(dataset, request.area, "--area");
+        if (!lines) return std::move(lines).why();
+        for (const Vec3& p : (*lines)->points) request.options.area.push_back({p[0], p[1]});
+    }
+    const double level = gridding::mid_level(found->structure);
+    Net net;
+    if (!request.pillars_of.empty()) {
+        auto like = net_like(request);
+        if (!like) return std::move(like).why();
+        net = std::move(*like);
+    } else {
+        auto frame = frame_of(request, *found, request.options.area);
+        if (!frame) return std::move(frame).why();
+        report.rotation = frame->rotation;
+        net = gridding::net_of(*frame, level, level + 1);
+    }
+    auto made = gridding::build_grid(found->structure, net, request.options);
+    if (!made) return std::move(made).why();
+    report.map_volumes = gridding::map_volumes(found->structure, made->grid, made->report.zones);
+    report.made = std::move(made->report);
+    report.dims = made->grid.dims;
+    report.left_out = std::move(found->left_out);
+    report.notes = std::move(found->notes);
+    made->grid.info.crs = system_of(dataset, *found);
+    if (request.count_connections) report.nnc = grid::connections(made->grid).others.size();
+    if (request.files.output != "-") beside = taken_off(made->grid, target);
+    Dataset only;
+    only.format = "grid";
+    only.losses = std::move(dataset.losses);
+    only.findings = std::move(dataset.findings);
+    only.objects.emplace_back(std::move(made->grid));
+    dataset = std::move(only);
+    return {};
+}
+
+}  // namespace
+
+Result<GridMade> make_grid(GridRequest request) {
+    for (std::string& name : request.structure.horizons) take_file(name, request.files.inputs);
+    for (std::string& name : request.structure.fault_polygons) take_file(name, request.files.inputs);
+    take_file(request.area, request.files.inputs);
+    if (!request.cells && !request.size && request.pillars_of.empty())
+        return failure(FailureKind::usage, "F018", {}, "say how fine the grid is: --cells NIxNJ or --size DX,DY");
+    request.files.load.command = grid_option_rows();
+    GridMade made;
+    CornerPointGrid beside;
+    auto written = convert(request.files,
+                           [&](Dataset& dataset, const Format& target) { return replace_by_grid(dataset, target, request, made, beside); });
+    if (!written) return std::move(written).why();
+    made.written = std::move(*written);
+    if (auto done = write_beside(std::move(beside), request, made); !done) return std::move(done).why();
+    return made;
+}
+
+std::string grid_json(const GridMade& made) {
+    Json zones = Json::array(), faults = Json::array(), horizons = Json::array(), out = Json::array(), regions = Json::object();
+    for (std::size_t z = 0; z < made.made.zones.size(); ++z) {
+        const auto& r = made.made.zones[z];
+        Json zone{{"name", r.name},     {"number", z + 1},    {"first_layer", r.first_layer + 1},        {"last_layer", r.last_layer + 1},
+                  {"volume", r.volume}, {"active", r.active}, {"without_thickness", r.without_thickness}};
+        if (z < made.map_volumes.size()) zone["map_volume"] = made.map_volumes[z];
+        zones.push_back(std::move(zone));
+    }
+    for (const auto& r : made.made.faults) {
+        if (!r.why_not.empty()) {
+            out.push_back({{"name", r.name}, {"why", r.why_not}});
+            continue;
+        }
+        faults.push_back({{"name", r.name},
+                          {"faces", r.faces},
+                          {"boxes", r.boxes},
+                          {"max_deviation", r.max_deviation},
+                          {"mean_deviation", r.mean_deviation},
+                          {"max_deviation_cells", r.max_deviation_cells},
+                          {"mean_deviation_cells", r.mean_deviation_cells},
+                          {"max_throw", r.max_throw},
+                          {"shared_faces", r.shared},
+                          {"ends_on", r.ends_on}});
+    }
+    for (const auto& r : made.made.horizons) {
+        horizons.push_back({{"name", r.name},
+                            {"read", r.read},
+                            {"extended", r.extended},
+                            {"without_value", r.filled},
+                            {"unfaulted_pillars", r.unfaulted},
+                            {"max_difference", r.max_difference},
+                            {"gave_way", r.moved},
+                            {"max_gave_way", r.max_moved}});
+    }
+    for (const auto& l : made.left_out) out.push_back({{"name", l.name}, {"why", l.why}});
+    Json all{{"dims", made.dims},           {"active_cells", made.made.active},
+             {"rotation", made.rotation},   {"spacing", made.made.cell},
+             {"blocks", made.made.blocks},  {"joined_cells", made.made.joined_cells},
+             {"zones", std::move(zones)},   {"horizons", std::move(horizons)},
+             {"faults", std::move(faults)}, {"left_out", std::move(out)},
+             {"notes", made.notes},         {"loss", losses_json(made.written.losses)}};
+    if (made.nnc) all["nnc"] = *made.nnc;
+    if (!made.beside.empty()) all["include"] = made.beside;
+    if (!made.deck.empty()) all["deck"] = made.deck;
+    return json_text(all);
+}
+
+}  // namespace geomend

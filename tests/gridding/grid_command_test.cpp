@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/program.h"
+#include "support/real_data.h"
+#include "support/temporary_folder.h"
+
+// The command grid as a user runs it.
+
+namespace geomend {
+namespace {
+
+using nlohmann::json;
+using test::run_geomend;
+using test::TemporaryFolder;
+
+std::string sample(const std::string& name) { return std::string(GEOMEND_SOURCE_DIR) + "/samples/" + name; }
+
+json make(const std::vector<std::string>& in, const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"grid"};
+    arguments.insert(arguments.end(), in.begin(), in.end());
+    arguments.insert(arguments.end(), {"-o", out, "--json"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return json::parse(run_geomend(arguments).out, nullptr, false);
+}
+
+std::vector<std::string> two_maps() { return {sample("top_map.irap"), sample("base_map.irap"), sample("top_faults.pol")}; }
+
+TEST(Grid, MapsAndPolygonsMakeAGridWithoutErrorsInEveryFormat) {
+    const TemporaryFolder folder;
+    for (const char* extension : {".grdecl", ".egrid", ".roff", ".vtu", ".data"}) {
+        const std::string out = folder / (std::string("out") + extension);
+        std::vector<std::string> how{"--cells", "20x15", "--layers", "reservoir=proportional:4"};
+        if (std::string(extension) == ".vtu") how.insert(how.end(), {"--option", "faces=conformal"});  // else cells hang at the fault
+        const json made = make(two_maps(), out, how);
+        ASSERT_TRUE(made.is_object()) << extension;
+        EXPECT_EQ(made["dims"], json({20, 15, 4}));
+        EXPECT_EQ(made["zones"][0]["name"], "reservoir");
+        EXPECT_NEAR(made["zones"][0]["volume"].get<double>() / made["zones"][0]["map_volume"].get<double>(), 1, 0.005);
+        ASSERT_EQ(made["faults"].size(), 1u);
+        EXPECT_GT(made["faults"][0]["max_throw"].get<double>(), 35);
+        EXPECT_LT(made["faults"][0]["max_throw"].get<double>(), 41);
+        EXPECT_EQ(run_geomend({"validate", out}).status, 0) << extension;
+    }
+}
+
+TEST(Grid, ASealedModelIsGriddedInItsBox) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "box.grdecl";
+    const json made = make({sample("layered_box.ml")}, out, {"--cells", "20x16", "--layers", "proportional:2"});
+    ASSERT_TRUE(made.is_object());
+    EXPECT_EQ(made["rotation"], 0);
+    EXPECT_EQ(made["blocks"], 2);
+    EXPECT_EQ(made["zones"].size(), 3u);
+    double sum = 0;
+    for (const json& zone : made["zones"]) sum += zone["volume"].get<double>();
+    EXPECT_NEAR(sum, 8e8, 1);
+    EXPECT_EQ(made["faults"][0]["ends_on"].size(), 0u);
+    EXPECT_NEAR(made["faults"][0]["max_throw"].get<double>(), 100, 15);  // the horizons wave, and the fault dips
+    EXPECT_EQ(run_geomend({"validate", out}).status, 0);
+}
+
+TEST(Grid, WrongCommandLinesAreRefused) {
+    const TemporaryFolder folder;
+    const auto status = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"grid", sample("top_map.irap"), sample("base_map.irap"), "-o", folder / "x.grdecl"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_geomend(arguments).status;
+    };
+    EXPECT_EQ(status({}), 2);
+    EXPECT_EQ(status({"--cells", "20"}), 2);
+    EXPECT_EQ(status({"--cells", "20x0"}), 2);
+    EXPECT_EQ(status({"--size", "10,-1"}), 2);
+    EXPECT_EQ(status({"--cells", "20x15", "--layers", "up:3"}), 2);
+    EXPECT_EQ(status({"--cells", "20x15", "--layers", "a=proportional:1,b=proportional:2"}), 2);
+    EXPECT_EQ(status({"--cells", "20x15", "--horizons", "top_map,bottom_map"}), 2);
+    EXPECT_EQ(status({"--cells", "20x15", "--fault-polygons", "nothing"}), 2);
+    EXPECT_EQ(status({"--cells", "20x15", "--horizons", "top_map"}), 4);
+    EXPECT_EQ(status({"--cells", "20x15"}), 0);
+}
+
+TEST(Grid, HorizonsAndPolygonsMayBeNamedAsFiles) {
+    const TemporaryFolder folder;
+    const json by_name = make({}, folder / "a.grdecl",
+                              {"--cells", "20x15", "--horizons", sample("top_map.irap") + "," + sample("base_map.irap"), "--fault-polygons",
+                               sample("top_faults.pol") + ",-", "--option", "z=depth"});
+    const json in_order = make(two_maps(), folder / "b.grdecl", {"--cells", "20x15", "--option", "z=depth"});
+    ASSERT_TRUE(by_name.is_object() && in_order.is_object());
+    EXPECT_EQ(by_name["notes"].size(), 0u);
+    EXPECT_EQ(by_name["zones"], in_order["zones"]);
+    EXPECT_EQ(by_name["faults"], in_order["faults"]);
+}
+
+TEST(Grid, ReekIsMetByItsMaps) {
+    const auto folder_of_maps = test::real_data("maps/reek");
+    if (!folder_of_maps) GTEST_SKIP() << "no real data";
+    const TemporaryFolder folder;
+    const std::string out = folder / "reek.grdecl", maps = folder_of_maps->string() + "/";
+    const json made = make({maps + "01_topreek_rota.gri", maps + "02_midreek_rota.gri", maps + "03_lowreek_rota.gri",
+                            maps + "04_basereek_rota.gri", maps + "top_upper_reek_faultpoly.pol"},
+                           out, {"--cells", "100x80", "--layers", "proportional:5"});
+    ASSERT_TRUE(made.is_object());
+    ASSERT_EQ(made["zones"].size(), 3u);
+    for (const json& zone : made["zones"]) EXPECT_NEAR(zone["volume"].get<double>() / zone["map_volume"].get<double>(), 1, 0.005);
+    EXPECT_EQ(made["faults"].size(), 7u);
+    EXPECT_EQ(made["left_out"].size(), 0u);
+    for (const json& fault : made["faults"]) EXPECT_LT(fault["max_deviation_cells"].get<double>(), 0.75) << fault["name"];
+    for (std::size_t h = 0; h < 3; ++h) EXPECT_EQ(made["horizons"][h]["max_difference"], 0);
+    EXPECT_EQ(run_geomend({"validate", out}).status, 0);
+}
+
+}  // namespace
+}  // namespace geomend
