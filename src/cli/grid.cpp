@@ -19,7 +19,7 @@ struct GridCommand : CommonOptions {
     std::vector<double> box;
     double rotation = 0, least_dip = 30, min_thickness = 0;
     bool rotated = false, allow_repeated = false, lossy = false;
-    std::string fault_sides = "one";
+    std::string fault_sides = "one", pillars = "vertical";
 };
 
 Failure wrong(const char* option, const std::string& expected, const std::string& found) {
@@ -68,6 +68,7 @@ Result<GridRequest> request_of(const GridCommand& o) {
     if (o.rotated) request.rotation = o.rotation;
     request.options.min_thickness = o.min_thickness;
     request.options.allow_repeated = o.allow_repeated;
+    request.options.follow_faults = o.pillars == "follow-faults";
     request.options.fault_sides_both = o.fault_sides == "both";
     if (!o.box.empty()) {
         if (!(o.box[0] < o.box[1] && o.box[2] < o.box[3]))
@@ -93,6 +94,8 @@ std::string fault_line(const gridding::FaultReport& r) {
     text += counted(r.faces, "face", "faces") + ", " + rounded(r.mean_deviation_cells) + " cells from its trace on average, " +
             rounded(r.max_deviation_cells) + " at most, throw up to " + rounded(r.max_throw);
     for (const std::string& other : r.ends_on) text += ", ends on " + geomend::quoted(other);
+    if (r.max_lean > 0) text += ", pillars lean by up to " + rounded(r.max_lean);
+    if (!r.why_upright.empty()) text += ", pillars are upright: " + r.why_upright;
     if (r.shared > 0) text += ", " + counted(r.shared, "face", "faces") + " shared with others";
     return text + "\n";
 }
@@ -117,10 +120,16 @@ std::string summary(const GridMade& made) {
                 " off at unfaulted pillars\n";
     }
     for (const auto& r : made.made.faults) text += fault_line(r);
+    if (made.made.mean_angles_after < 1) {
+        text += "  columns in plan: right-angled to " + rounded(made.made.mean_angles_after) + " on average, " +
+                rounded(made.made.least_angles_after) + " at least; before " + rounded(made.made.mean_angles_before) + " and " +
+                rounded(made.made.least_angles_before) + "\n";
+    }
     for (const auto& l : made.left_out) text += "  " + geomend::quoted(l.name) + " left out: " + l.why + "\n";
     if (made.made.joined_cells > 0) text += "  " + counted(made.made.joined_cells, "thin cell", "thin cells") + " joined with neighbours\n";
     if (made.nnc) text += "  " + counted(*made.nnc, "non-neighbour connection", "non-neighbour connections") + "\n";
     if (!made.beside.empty()) text += "  faults and regions are in " + made.beside + "\n";
+    if (!made.deck.empty()) text += "  deck: " + made.deck + "\n";
     for (const std::string& note : made.notes) text += "  note: " + note + "\n";
     return text;
 }
@@ -188,6 +197,9 @@ void add_grid(CLI::App& program, ExitStatus& status) {
     command->add_option("--pillars-of", o->pillars_of, "File with a corner-point grid whose pillars are taken")
         ->type_name("GRID")
         ->excludes(cells);
+    command->add_option("--pillars", o->pillars, "Whether pillars on faults lean as these do (default vertical)")
+        ->type_name("vertical|follow-faults")
+        ->check(CLI::IsMember({"vertical", "follow-faults"}));
     command->add_option("--min-thickness", o->min_thickness, "Thinner cells are joined with a neighbour of their zone (default 0)")
         ->type_name("L")
         ->check(is_length());

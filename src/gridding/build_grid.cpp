@@ -9,6 +9,7 @@
 #include "gridding/cell_layers.h"
 #include "gridding/fault_faces.h"
 #include "gridding/horizon_checks.h"
+#include "gridding/lean.h"
 #include "gridding/node_depths.h"
 
 namespace geomend::gridding {
@@ -128,6 +129,26 @@ void set_pillars(const Net& net, const std::array<double, 2>& range, CornerPoint
     }
 }
 
+/// Lets pillars lean, checked at the mean depths of all horizons, too.
+LeanResult follow_faults(const Structure& structure, const Chains& chains, const std::array<double, 2>& range, Net& net,
+                         GridReport& report) {
+    std::vector<double> levels;
+    for (const Horizon& horizon : structure.horizons) levels.push_back(mean_depth(horizon));
+    LeanResult lean = lean_pillars(structure, chains, range[0], range[1], levels, net);
+    report.mean_angles_before = lean.angles_before;
+    report.mean_angles_after = lean.angles_after;
+    report.least_angles_before = lean.least_before;
+    report.least_angles_after = lean.least_after;
+    return lean;
+}
+
+void add_lean(const LeanResult& lean, std::vector<FaultReport>& faults) {
+    for (std::size_t f = 0; f < lean.faults.size(); ++f) {
+        if (lean.faults[f].leans) faults[f].max_lean = lean.faults[f].max_shift;
+        faults[f].why_upright = lean.faults[f].why_not;
+    }
+}
+
 Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "stopped; nothing was written"); }
 
 }  // namespace
@@ -136,8 +157,9 @@ double mid_level(const Structure& structure) {
     return (mean_depth(structure.horizons.front()) + mean_depth(structure.horizons.back())) / 2;
 }
 
-Result<MadeGrid> build_grid(const Structure& structure, const Net& net, const GridOptions& options) {
+Result<MadeGrid> build_grid(const Structure& structure, const Net& upright, const GridOptions& options) {
     MadeGrid made;
+    Net net = upright;
     const double level = mid_level(structure);
     const auto range = depth_range(structure);
     made.report.cell = spacing_of(net, level);
@@ -160,11 +182,13 @@ Result<MadeGrid> build_grid(const Structure& structure, const Net& net, const Gr
         const auto& chain = chains.chains[f].pillars;
         if (!chain.empty()) sides[f].go_on(net.is_outermost(chain.front()), net.is_outermost(chain.back()));
     }
+    LeanResult lean;
+    if (options.follow_faults) lean = follow_faults(structure, chains, range, net, made.report);
     const SplitPillars split = split_pillars(net, chains.edges);
     const Blocks blocks = fault_blocks(net, chains.edges);
     made.report.blocks = blocks.count;
     const NodeGraph graph = node_graph(net, split);
-    const NearFaults near = near_faults(net, split, graph, chains, reach, level);
+    const NearFaults near = near_faults(upright, split, graph, chains, reach, level);
     if (options.monitor != nullptr && options.monitor->stopped()) return stopped();
 
     auto depths = all_depths(structure, {net, split, graph, near, sides, reach, level, made.report.cell});
@@ -184,6 +208,7 @@ Result<MadeGrid> build_grid(const Structure& structure, const Net& net, const Gr
     made.report.joined_cells = fill_cells(net, split, depths, options, plan, grid);
     add_regions(made.report, blocks, grid);
     made.report.faults = add_faults(structure, net, chains, split, depths, options.fault_sides_both, made.report.cell, grid);
+    add_lean(lean, made.report.faults);
     measure_zones(grid, made.report.zones);
     made.report.active = active_count(grid);
     return made;

@@ -21,6 +21,7 @@ struct GridOptions {
     Path area;                      ///< columns whose middle is outside of this ring are inactive; empty: none are
     bool fault_sides_both = false;  ///< FAULTS names each face from both of its cells, not from one
     bool allow_repeated = false;    ///< where a pillar meets a horizon more than once the nearest to mid level is taken
+    bool follow_faults = false;     ///< pillars of chains lean as their faults do
     const Monitor* monitor = nullptr;
 };
 
@@ -39,8 +40,10 @@ struct FaultReport {
     double max_deviation_cells = 0, mean_deviation_cells = 0;  ///< by the mean spacing of pillars
     std::uint64_t shared = 0;
     std::vector<std::string> ends_on;
-    double max_throw = 0;  ///< largest difference of a horizon's depths at a pillar of the chain
-    std::string why_not;   ///< why it is not in the grid; empty: it is
+    double max_throw = 0;     ///< largest difference of a horizon's depths at a pillar of the chain
+    double max_lean = 0;      ///< how far its pillars are shifted from the uppermost to the lowest depth; 0: they are upright
+    std::string why_upright;  ///< why they are, where they were to lean
+    std::string why_not;      ///< why it is not in the grid; empty: it is
 };
 
 /// How well a horizon is met.
@@ -61,6 +64,8 @@ struct GridReport {
     std::uint64_t active = 0;
     double cell = 0;  ///< mean spacing of pillars
     std::uint64_t joined_cells = 0;
+    /// How right-angled columns are in plan at the uppermost and the lowest depth, 0 to 1, before and after pillars were made to lean.
+    double mean_angles_before = 1, mean_angles_after = 1, least_angles_before = 1, least_angles_after = 1;
 };
 
 struct MadeGrid {

@@ -121,6 +121,7 @@ SheetReader::SheetReader(const Sheet& sheet) : sheet_(sheet) {
             for (std::size_t a = 0; a < 2; ++a) {
                 const auto [least, most] = std::minmax({sheet.vertices[sheet.triangles[t][0]][a], sheet.vertices[sheet.triangles[t][1]][a],
                                                         sheet.vertices[sheet.triangles[t][2]][a]});
+                widest_ = std::max(widest_, most - least);
                 range[a] = {bin_of(least - 1e-6 * bin_, a), bin_of(most + 1e-6 * bin_, a)};
             }
             for (std::uint32_t j = range[1][0]; j <= range[1][1]; ++j) {

@@ -39,11 +39,13 @@ public:
     /// The corners of a piece: its own place.
     std::span<const Vec3> corners(std::uint32_t piece, std::array<Vec3, 3>& room) const;
     double step() const { return step_; }
+    /// The largest extent of a piece in plan.
+    double widest() const { return widest_; }
 
 private:
     const HorizonMap& map_;
     std::array<Point, 2> inverse_{};  // rows of the inverse of the steps
-    double step_ = 0;
+    double step_ = 0, widest_ = 0;
     std::array<double, 2> lattice(const Point& p) const;
 };
 
@@ -59,12 +61,14 @@ public:
     Vec3 middle(std::uint32_t piece) const;
     std::span<const Vec3> corners(std::uint32_t piece, std::array<Vec3, 3>& room) const;
     double step() const { return step_; }
+    /// The largest extent of a piece in plan.
+    double widest() const { return widest_; }
 
 private:
     const Sheet& sheet_;
     Path hull_;  // closed
     Point low_{};
-    double bin_ = 1, step_ = 0;
+    double bin_ = 1, step_ = 0, widest_ = 0;
     std::array<std::uint32_t, 2> bins_{1, 1};
     std::vector<std::uint64_t> first_by_box_, first_by_middle_;
     std::vector<std::uint32_t> by_box_, by_middle_;

@@ -44,7 +44,7 @@ public:
             reader_.near(p, std::min(reach, most), pieces_);
             std::erase_if(pieces_, [&](const Piece& piece) { return !fits(piece.number, near); });
             if (pieces_.size() < enough_pieces && reach < most) continue;
-            if (pieces_.size() < 3) return std::nullopt;
+            if (pieces_.empty()) return std::nullopt;
             return plane_at(p);
         }
     }
@@ -86,12 +86,17 @@ private:
 
     double plane_at(const Point& p) const {
         PlaneFit fit(p);
+        std::array<Vec3, 3> room;
         double nearest = std::numeric_limits<double>::infinity();
-        for (const Piece& piece : pieces_) nearest = std::min(nearest, distance(p, {piece.at[0], piece.at[1]}));
+        for (const Piece& piece : pieces_) {
+            for (const Vec3& q : reader_.corners(piece.number, room)) nearest = std::min(nearest, distance(p, {q[0], q[1]}));
+        }
         const double soft = std::max(nearest, 0.5 * reader_.step());
         for (const Piece& piece : pieces_) {
-            const double d = distance(p, {piece.at[0], piece.at[1]}) / soft;
-            fit.add(piece.at[0], piece.at[1], piece.at[2], 1 / (1 + d * d));
+            for (const Vec3& q : reader_.corners(piece.number, room)) {
+                const double d = distance(p, {q[0], q[1]}) / soft;
+                fit.add(q[0], q[1], q[2], 1 / (1 + d * d));
+            }
         }
         return fit.depth();
     }
@@ -188,7 +193,7 @@ private:
     double most_reach(std::span<const NearFault> near) const {
         double most = 0;
         for (const NearFault& f : near) most = std::max(most, setting_.reach[f.fault]);
-        return most + 6 * reader_.step() + 2 * setting_.cell;
+        return most + 6 * reader_.step() + 2 * setting_.cell + 2 * reader_.widest();
     }
 };
 

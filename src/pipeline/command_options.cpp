@@ -21,6 +21,7 @@ constexpr OptionRow connections_row{"connections", both, words, "compute|keep",
                                     "works out non-neighbour connections and transmissibilities"};
 constexpr OptionRow faces_row{"faces", both, words, "plain|conformal", "how cells of a corner-point grid become cells of a mesh"};
 constexpr OptionRow quality_row{"quality", both, words, "add", "adds figures of quality as attributes of the cells"};
+constexpr OptionRow deck_row{"deck", both, words, "yes|no", "writes a deck of oil and water beside the grid, for OPM Flow"};
 constexpr OptionRow gap_row{"gap", both, length, "L", "the largest gap or overlap that close-gaps closes"};
 
 constexpr std::array info_rows{
@@ -29,7 +30,7 @@ constexpr std::array info_rows{
     OptionRow{"angle", both, length, "A", "characteristic angle in degrees"},
 };
 constexpr std::array convert_rows{as_row, regions_row, horizons_row, crs_row, map_row, origin_row, connections_row, faces_row, quality_row};
-constexpr std::array grid_rows{as_row, regions_row, horizons_row, crs_row, origin_row, connections_row, faces_row, quality_row};
+constexpr std::array grid_rows{as_row, regions_row, horizons_row, crs_row, origin_row, connections_row, faces_row, quality_row, deck_row};
 constexpr std::array validate_rows{cells_row, as_row, regions_row, horizons_row};
 constexpr std::array repair_rows{gap_row, cells_row,  as_row,          regions_row, horizons_row, crs_row,
                                  map_row, origin_row, connections_row, faces_row,   quality_row};

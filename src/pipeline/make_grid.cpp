@@ -9,11 +9,14 @@
 
 #include "base/output.h"
 #include "base/wording.h"
+#include "formats/options.h"
+#include "formats/option_row.h"
 #include "formats/registry.h"
 #include "grid/connections.h"
 #include "grid/map_axes.h"
 #include "gridding/map_volumes.h"
 #include "pipeline/command_options.h"
+#include "pipeline/flow_deck.h"
 #include "pipeline/json_parts.h"
 #include "topology/brep_from_dataset.h"
 
@@ -25,6 +28,12 @@ using gridding::FoundStructure;
 using gridding::Net;
 using gridding::Path;
 using gridding::Point;
+
+/// What is written beside the grid.
+struct Beside {
+    CornerPointGrid grid;  ///< without geometry: what the format has no place for
+    std::string deck;
+};
 
 /// A name given on the command line is that of a file, whose object has the name of the file without its extension, or of an object.
 void take_file(std::string& name, std::vector<std::string>& inputs) {
@@ -135,6 +144,26 @@ CoordinateSystem system_of(const Dataset& dataset, const FoundStructure& found) 
     return crs;
 }
 
+/// The deck beside the grid, as text; FIPNUM goes from the grid into it.
+std::string deck_of(CornerPointGrid& grid, const gridding::GridReport& report, const std::string& output) {
+    std::vector<FipLayers> layers;
+    for (std::uint32_t z = 0; z < report.zones.size(); ++z)
+        layers.push_back({z + 1, report.zones[z].first_layer, report.zones[z].last_layer});
+    std::erase_if(grid.info.attributes, [](const Attribute& a) { return a.name == "FIPNUM"; });
+    const std::filesystem::path path(output);
+    return flow_deck(grid, path.stem().string(), path.filename().string(), layers);
+}
+
+Result<void> write_deck(const std::string& text, const GridRequest& request, GridMade& made) {
+    if (text.empty()) return {};
+    std::filesystem::path path(request.files.output);
+    path.replace_extension(".DATA");
+    OutputSet output(path);
+    output.main_file() << text;
+    made.deck = path.string();
+    return output.commit(request.files.load.monitor);
+}
+
 /// Takes off a grid what the target has no place for, as a grid of its own without geometry: an include holds it beside.
 CornerPointGrid taken_off(CornerPointGrid& grid, const Format& target) {
     CornerPointGrid beside;
@@ -162,7 +191,7 @@ Result<void> write_beside(CornerPointGrid grid, const GridRequest& request, Grid
     return output.commit(request.files.load.monitor);
 }
 
-Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest& request, GridMade& report, CornerPointGrid& beside) {
+Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest& request, GridMade& report, Beside& beside) {
     if (std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<CellMesh>(o); }))
         topology::build_breps(dataset);
     auto found = gridding::structure_of(dataset, request.structure);
@@ -196,7 +225,13 @@ Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest
     report.notes = std::move(found->notes);
     made->grid.info.crs = system_of(dataset, *found);
     if (request.count_connections) report.nnc = grid::connections(made->grid).others.size();
-    if (request.files.output != "-") beside = taken_off(made->grid, target);
+    if (option_value(request.files.load.options, "deck") == "yes") {
+        if (target.name != std::string_view("grdecl") || request.files.output == "-")
+            return failure(FailureKind::usage, "F018", {}, "--option deck=yes: the grid must go into a GRDECL file");
+        if (report.made.active == 0) return failure(FailureKind::cannot_hold, "F027", {}, "no cell is active: there is nothing to run");
+        beside.deck = deck_of(made->grid, report.made, request.files.output);
+    }
+    if (request.files.output != "-") beside.grid = taken_off(made->grid, target);
     Dataset only;
     only.format = "grid";
     only.losses = std::move(dataset.losses);
@@ -216,17 +251,18 @@ Result<GridMade> make_grid(GridRequest request) {
         return failure(FailureKind::usage, "F018", {}, "say how fine the grid is: --cells NIxNJ or --size DX,DY");
     request.files.load.command = grid_option_rows();
     GridMade made;
-    CornerPointGrid beside;
+    Beside beside;
     auto written = convert(request.files,
                            [&](Dataset& dataset, const Format& target) { return replace_by_grid(dataset, target, request, made, beside); });
     if (!written) return std::move(written).why();
     made.written = std::move(*written);
-    if (auto done = write_beside(std::move(beside), request, made); !done) return std::move(done).why();
+    if (auto done = write_beside(std::move(beside.grid), request, made); !done) return std::move(done).why();
+    if (auto done = write_deck(beside.deck, request, made); !done) return std::move(done).why();
     return made;
 }
 
 std::string grid_json(const GridMade& made) {
-    Json zones = Json::array(), faults = Json::array(), horizons = Json::array(), out = Json::array(), regions = Json::object();
+    Json zones = Json::array(), faults = Json::array(), horizons = Json::array(), out = Json::array(), made_upright = Json::array();
     for (std::size_t z = 0; z < made.made.zones.size(); ++z) {
         const auto& r = made.made.zones[z];
         Json zone{{"name", r.name},     {"number", z + 1},    {"first_layer", r.first_layer + 1},        {"last_layer", r.last_layer + 1},
@@ -247,8 +283,12 @@ std::string grid_json(const GridMade& made) {
                           {"max_deviation_cells", r.max_deviation_cells},
                           {"mean_deviation_cells", r.mean_deviation_cells},
                           {"max_throw", r.max_throw},
+                          {"max_lean", r.max_lean},
                           {"shared_faces", r.shared},
                           {"ends_on", r.ends_on}});
+    }
+    for (const auto& r : made.made.faults) {
+        if (!r.why_upright.empty()) made_upright.push_back({{"name", r.name}, {"why", r.why_upright}});
     }
     for (const auto& r : made.made.horizons) {
         horizons.push_back({{"name", r.name},
@@ -261,12 +301,24 @@ std::string grid_json(const GridMade& made) {
                             {"max_gave_way", r.max_moved}});
     }
     for (const auto& l : made.left_out) out.push_back({{"name", l.name}, {"why", l.why}});
-    Json all{{"dims", made.dims},           {"active_cells", made.made.active},
-             {"rotation", made.rotation},   {"spacing", made.made.cell},
-             {"blocks", made.made.blocks},  {"joined_cells", made.made.joined_cells},
-             {"zones", std::move(zones)},   {"horizons", std::move(horizons)},
-             {"faults", std::move(faults)}, {"left_out", std::move(out)},
-             {"notes", made.notes},         {"loss", losses_json(made.written.losses)}};
+    Json all{{"dims", made.dims},
+             {"active_cells", made.made.active},
+             {"rotation", made.rotation},
+             {"spacing", made.made.cell},
+             {"blocks", made.made.blocks},
+             {"joined_cells", made.made.joined_cells},
+             {"zones", std::move(zones)},
+             {"horizons", std::move(horizons)},
+             {"faults", std::move(faults)},
+             {"upright_pillars", std::move(made_upright)},
+             {"right_angledness",
+              {{"mean", made.made.mean_angles_after},
+               {"least", made.made.least_angles_after},
+               {"mean_before", made.made.mean_angles_before},
+               {"least_before", made.made.least_angles_before}}},
+             {"left_out", std::move(out)},
+             {"notes", made.notes},
+             {"loss", losses_json(made.written.losses)}};
     if (made.nnc) all["nnc"] = *made.nnc;
     if (!made.beside.empty()) all["include"] = made.beside;
     if (!made.deck.empty()) all["deck"] = made.deck;

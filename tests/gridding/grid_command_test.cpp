@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "support/program.h"
 #include "support/real_data.h"
@@ -91,6 +92,23 @@ TEST(Grid, HorizonsAndPolygonsMayBeNamedAsFiles) {
     EXPECT_EQ(by_name["notes"].size(), 0u);
     EXPECT_EQ(by_name["zones"], in_order["zones"]);
     EXPECT_EQ(by_name["faults"], in_order["faults"]);
+}
+
+TEST(Grid, ADeckHasTheZonesAndRunsInFlowWhereThatIsInstalled) {
+    const TemporaryFolder folder;
+    const json made = make(two_maps(), folder / "small.grdecl", {"--cells", "12x9", "--layers", "proportional:3", "--option", "deck=yes"});
+    ASSERT_TRUE(made.is_object());
+    const std::string deck = made["deck"];
+    const json info = test::info(deck);
+    ASSERT_TRUE(info.is_object());
+    EXPECT_EQ(info["objects"][0]["counts"]["active_cells"], made["active_cells"]);
+    EXPECT_EQ(run_geomend({"validate", deck}).status, 0);
+    if (std::system("command -v flow > /dev/null 2>&1") != 0) GTEST_SKIP() << "flow is not installed";
+    const std::string run = "cd " + folder.path().string() + " && flow small.DATA --output-dir=out > log 2>&1";
+    ASSERT_EQ(std::system(run.c_str()), 0);
+    const json ran = test::info(folder / "out/SMALL.EGRID");
+    EXPECT_EQ(ran["objects"][0]["counts"]["active_cells"], made["active_cells"]);
+    EXPECT_EQ(ran["connections"]["nnc"], made["nnc"]);
 }
 
 TEST(Grid, ReekIsMetByItsMaps) {

@@ -5,6 +5,8 @@
 #include "grid/connections.h"
 #include "gridding/chains.h"
 #include "gridding/made_models.h"
+#include "pipeline/load.h"
+#include "support/real_data.h"
 
 // Grids whose every number is known beforehand.
 
@@ -147,6 +149,62 @@ TEST(KnownAnswers, G_AWedgeLapsOntoItsBase) {
     }
     EXPECT_EQ(none, 0);
     EXPECT_NEAR(made.report.zones[0].volume, 300 * 500 * 25.0, 1e-6);
+}
+
+/// Triangles through the corners of one layer boundary, cell by cell.
+Horizon boundary(const CornerPointGrid& grid, const std::string& name, std::uint32_t k, bool base) {
+    Sheet sheet;
+    for (std::uint32_t j = 0; j < grid.dims[1]; ++j) {
+        for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
+            const auto corners = cell_corners(grid, i, j, k);
+            const auto first = static_cast<std::uint32_t>(sheet.vertices.size());
+            for (unsigned c = 0; c < 4; ++c) sheet.vertices.push_back(corners[c + (base ? 4 : 0)]);
+            sheet.triangles.push_back({first, first + 1, first + 3});
+            sheet.triangles.push_back({first, first + 3, first + 2});
+        }
+    }
+    return {name, std::move(sheet)};
+}
+
+TEST(KnownAnswers, H_AGridIsMadeAgainFromItsHorizonsAndItsFault) {
+    const auto file = geomend::test::real_data("cornerpoint/pygrdecl/Simple20x20x5_Fault.grdecl");
+    if (!file) GTEST_SKIP() << "no real data";
+    const auto read = load(file->string(), {});
+    ASSERT_TRUE(read.ok());
+    const auto& before = std::get<CornerPointGrid>(read->objects.at(0));
+    ASSERT_EQ(before.dims, (std::array<std::uint32_t, 3>{20, 20, 5}));
+    // The one row of pillars on which cells side by side differ.
+    std::uint32_t cut = 0;
+    for (std::uint32_t i = 1; i < 20; ++i) {
+        if (before.depths[corner_index(before.dims, i, 3, 0, 0)] != before.depths[corner_index(before.dims, i - 1, 3, 0, 1)]) cut = i;
+    }
+    ASSERT_GT(cut, 0u);
+    Structure structure{{boundary(before, "top", 0, false), boundary(before, "base", 4, true)}, {{"F", {}, {}, {}, {}}}};
+    Fault& fault = structure.faults[0];
+    for (std::uint32_t j = 0; j <= 20; ++j) {
+        const double* p = before.pillars.data() + 6 * (cut + 21 * j);
+        for (const double depth : {-1.0, 2.0}) fault.sheet.vertices.push_back(pillar_point(p, depth));
+        const Vec3 mid = pillar_point(p, mid_level(structure));
+        fault.trace.push_back({mid[0], mid[1]});
+        if (j == 0) continue;
+        fault.sheet.triangles.push_back({2 * j - 2, 2 * j - 1, 2 * j});
+        fault.sheet.triangles.push_back({2 * j - 1, 2 * j + 1, 2 * j});
+    }
+    Net pillars;
+    pillars.cells = {20, 20};
+    pillars.lines = before.pillars;
+    const auto made = grid(structure, pillars, {proportional(5)});
+    ASSERT_EQ(made.grid.depths.size(), before.depths.size());
+    const std::size_t boundary_size = 4 * 20 * 20;
+    double outer = 0, inner = 0;  // layers of the file are rounded to five digits, horizons are taken as they are
+    for (std::size_t z = 0; z < before.depths.size(); ++z) {
+        const bool is_outer = z < boundary_size || z >= 9 * boundary_size;
+        double& most = is_outer ? outer : inner;
+        most = std::max(most, std::abs(made.grid.depths[z] - before.depths[z]));
+    }
+    EXPECT_LT(outer, 1e-9);
+    EXPECT_LT(inner, 2e-4);
+    EXPECT_EQ(made.report.faults[0].faces, 20u);
 }
 
 TEST(KnownAnswers, RepeatedBedsAreRefusedWithTheirPlace) {

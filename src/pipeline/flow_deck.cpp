@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/flow_deck.h"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+
+#include "base/number_text.h"
+
+namespace geomend {
+
+namespace {
+
+/// What is needed of the grid.
+struct GridFacts {
+    double top = 1e300, base = -1e300;                        ///< depths of active cells, metres
+    std::vector<std::array<std::uint32_t, 2>> whole_columns;  ///< columns all of whose cells are active, from 0
+    std::uint64_t fault_boxes = 0;
+};
+
+GridFacts facts_of(const CornerPointGrid& grid) {
+    GridFacts facts;
+    const bool feet = grid.info.crs.axis_units[2] == "ft" || grid.info.crs.axis_units[2] == "FEET";
+    const double metres = feet ? 0.3048 : 1;
+    for (std::uint32_t j = 0; j < grid.dims[1]; ++j) {
+        for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
+            bool whole = true;
+            for (std::uint32_t k = 0; k < grid.dims[2]; ++k) {
+                if (!grid.is_active(grid.cell(i, j, k))) {
+                    whole = false;
+                    continue;
+                }
+                for (unsigned c = 0; c < 4; ++c) {
+                    facts.top = std::min(facts.top, metres * grid.depths[corner_index(grid.dims, i, j, k, c)]);
+                    facts.base = std::max(facts.base, metres * grid.depths[corner_index(grid.dims, i, j, k, c + 4)]);
+                }
+            }
+            if (whole) facts.whole_columns.push_back({i, j});
+        }
+    }
+    for (const auto& fault : grid.faults) facts.fault_boxes += fault.boxes.size();
+    return facts;
+}
+
+std::string numbers(std::initializer_list<std::uint64_t> all) {
+    std::string text;
+    for (const std::uint64_t n : all) text += ' ' + std::to_string(n);
+    return text;
+}
+
+/// A pressure in bar that rises with depth like that of water, and is 50 at the top at least.
+double pressure(const GridFacts& facts, double depth) { return std::max(50.0, 0.1 * facts.top) + 0.1 * (depth - facts.top); }
+
+std::string runspec(const CornerPointGrid& grid, const GridFacts& facts, const std::string& title) {
+    std::string text = "RUNSPEC\n\nTITLE\n " + title + "\n\nDIMENS\n" + numbers({grid.dims[0], grid.dims[1], grid.dims[2]}) +
+                       " /\n\nOIL\nWATER\nMETRIC\n\nSTART\n 1 JAN 2025 /\n\nEQLDIMS\n/\n\nTABDIMS\n/\n\nREGDIMS\n 100 /\n\n";
+    if (facts.whole_columns.size() > 1) text += "WELLDIMS\n 2 " + std::to_string(grid.dims[2]) + " 1 2 /\n\n";
+    if (facts.fault_boxes > 0) text += "FAULTDIM\n " + std::to_string(facts.fault_boxes) + " /\n\n";
+    return text + "UNIFOUT\n\n";
+}
+
+std::string regions(const CornerPointGrid& grid, const std::vector<FipLayers>& layers) {
+    if (layers.empty()) return {};
+    std::string text = "REGIONS\n\nEQUALS\n";
+    for (const FipLayers& l : layers)
+        text += " FIPNUM" + numbers({l.number, 1, grid.dims[0], 1, grid.dims[1], l.first + std::uint64_t{1}, l.last + std::uint64_t{1}}) +
+                " /\n";
+    return text + "/\n\n";
+}
+
+std::string well(const std::string& name, const std::array<std::uint32_t, 2>& column) {
+    return " '" + name + "' 'G' " + numbers({column[0] + std::uint64_t{1}, column[1] + std::uint64_t{1}}) + " 1* " +
+           (name == "PROD" ? "OIL" : "WATER") + " /\n";
+}
+
+std::string schedule(const CornerPointGrid& grid, const GridFacts& facts) {
+    std::string text = "SCHEDULE\n\n";
+    if (facts.whole_columns.size() > 1) {
+        const auto &injector = facts.whole_columns.front(), &producer = facts.whole_columns.back();
+        const auto completion = [&](const std::string& name, const std::array<std::uint32_t, 2>& c) {
+            return " '" + name + "' " + numbers({c[0] + std::uint64_t{1}, c[1] + std::uint64_t{1}, 1, grid.dims[2]}) + " OPEN 2* 0.2 /\n";
+        };
+        text += "WELSPECS\n" + well("PROD", producer) + well("INJ", injector) + "/\n\nCOMPDAT\n" + completion("PROD", producer) +
+                completion("INJ", injector) + "/\n\nWCONPROD\n 'PROD' OPEN BHP 5* " + number_text(0.8 * pressure(facts, facts.top)) +
+                " /\n/\n\nWCONINJE\n 'INJ' WATER OPEN BHP 2* " + number_text(1.2 * pressure(facts, facts.base)) + " /\n/\n\n";
+    }
+    return text + "TSTEP\n 6*30 /\n\nEND\n";
+}
+
+}  // namespace
+
+std::string flow_deck(const CornerPointGrid& grid, const std::string& title, const std::string& include,
+                      const std::vector<FipLayers>& layers) {
+    const GridFacts facts = facts_of(grid);
+    const double contact = (facts.top + facts.base) / 2;
+    return runspec(grid, facts, title) + "GRID\n\nINIT\n\nGRIDFILE\n 0 1 /\n\nINCLUDE\n '" + include +
+           "' /\n\nEQUALS\n PORO 0.2 /\n PERMX 200 /\n PERMY 200 /\n PERMZ 20 /\n/\n\n"
+           "PROPS\n\nPVTW\n 200 1.02 4.5E-5 0.5 0 /\n\nPVDO\n 1 1.2 1\n 200 1.15 1.1\n 2000 1.1 1.5 /\n\nROCK\n 200 5E-5 /\n\n"
+           "DENSITY\n 850 1020 1 /\n\nSWOF\n 0.2 0 1 0\n 0.5 0.2 0.3 0\n 0.8 1 0 0 /\n\n" +
+           regions(grid, layers) + "SOLUTION\n\nEQUIL\n " + number_text(facts.top) + ' ' + number_text(pressure(facts, facts.top)) + ' ' +
+           number_text(contact) + " 0 /\n\nSUMMARY\n\nFPR\nFOPR\nFWIR\n\n" + schedule(grid, facts);
+}
+
+}  // namespace geomend
