@@ -9,8 +9,8 @@
 
 #include "base/output.h"
 #include "base/wording.h"
-#include "formats/options.h"
 #include "formats/option_row.h"
+#include "formats/options.h"
 #include "formats/registry.h"
 #include "grid/connections.h"
 #include "grid/map_axes.h"
