@@ -2,12 +2,15 @@
 #include "arrangement/cut_round.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "arrangement/circles.h"
 #include "arrangement/cut_triangle.h"
 #include "arrangement/search.h"
 #include "arrangement/triple_points.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "geometry/predicates.h"
 #include "geometry/vectors.h"
 #include "model/objects.h"
 
@@ -21,8 +24,20 @@ void sort_unique(std::vector<T>& all) {
     all.erase(std::unique(all.begin(), all.end()), all.end());
 }
 
+constexpr unsigned patient_rounds = 3;
+
+/// Where planes are next to parallel, each look may find edges that pass each other a little farther on, and make points there without
+/// end. So what late rounds make keeps more than the tolerance from what is there: they become what is near.
+double distance_of_round(const CutState& state) {
+    constexpr double most = 4;
+    const double widened = state.rounds > patient_rounds ? std::exp2(0.5 * (state.rounds - patient_rounds)) : 1;
+    return state.points.distance() * std::min(most, widened);
+}
+
 /// Gives each new point its vertex, in the order of their keys; the result runs along `made`.
-std::vector<std::uint32_t> add_points(SpacedPoints& points, const std::vector<NewPoint>& made) {
+std::vector<std::uint32_t> add_points(CutState& state, const std::vector<NewPoint>& made) {
+    SpacedPoints& points = state.points;
+    const double distance = distance_of_round(state);
     std::vector<std::uint32_t> order(made.size()), vertex(made.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -31,9 +46,50 @@ std::vector<std::uint32_t> add_points(SpacedPoints& points, const std::vector<Ne
     });
     for (std::size_t i = 0; i < order.size(); ++i) {
         const bool again = i > 0 && made[order[i]].key() == made[order[i - 1]].key();
-        vertex[order[i]] = again ? vertex[order[i - 1]] : points.add(made[order[i]].position);
+        vertex[order[i]] = again ? vertex[order[i - 1]] : points.add(made[order[i]].position, distance);
     }
     return vertex;
+}
+
+/// Whether a vertex lies strictly inside of a triangle, seen as a cut sees it: along the axis that its normal follows most.
+bool is_seen_inside(std::span<const Vec3> points, const Triangle& t, std::uint32_t vertex) {
+    const Vec3 n = cross(minus(points[t[1]], points[t[0]]), minus(points[t[2]], points[t[0]]));
+    unsigned axis = 2;
+    if (std::abs(n[0]) > std::abs(n[axis])) axis = 0;
+    if (std::abs(n[1]) > std::abs(n[axis])) axis = 1;
+    const int turn = orientation_2d(points[t[0]], points[t[1]], points[t[2]], axis);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (turn * orientation_2d(points[t[i]], points[t[(i + 1) % 3]], points[vertex], axis) <= 0) return false;
+    }
+    return true;
+}
+
+double square_from_segment(const Vec3& x, const Vec3& p, const Vec3& q) {
+    const Vec3 d = minus(q, p), w = minus(x, p);
+    const Vec3 off = minus(w, times(std::clamp(dot(w, d) / dot(d, d), 0.0, 1.0), d));
+    return dot(off, off);
+}
+
+/// A point where an edge pierces a face may have become a vertex that is near, and lies beside the face: it goes onto the side
+/// of the face that is next to it, or could never be brought in.
+void move_to_sides(const CutState& state, std::vector<VertexOnEdge>& on_edges, std::vector<VertexOnFace>& on_faces) {
+    const auto& points = state.points.points();
+    std::erase_if(on_faces, [&](const VertexOnFace& on) {
+        const Triangle& t = state.triangles[on.triangle];
+        if (on.vertex == t[0] || on.vertex == t[1] || on.vertex == t[2]) return true;
+        if (is_seen_inside(points, t, on.vertex)) return false;
+        std::size_t nearest = 0;
+        double least = HUGE_VAL;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double square = square_from_segment(points[on.vertex], points[t[i]], points[t[(i + 1) % 3]]);
+            if (square < least) {
+                least = square;
+                nearest = i;
+            }
+        }
+        on_edges.push_back({Link(t[nearest], t[(nearest + 1) % 3]), on.vertex});
+        return true;
+    });
 }
 
 void put_on_features(const NearFeatures& found, const std::vector<std::uint32_t>& vertex, std::vector<VertexOnEdge>& on_edges,
@@ -234,7 +290,7 @@ void add_crossings(CutState& state, const LinkTable& links, const std::vector<Se
         triangles.insert(triangles.end(), b.triangles.begin(), b.triangles.end());
     }
     join_triple_points(state.points.points(), meetings, triangles, crossings);
-    const auto vertex = add_points(state.points, crossings);
+    const auto vertex = add_points(state, crossings);
     for (std::size_t i = 0; i < crossings.size(); ++i) {
         on_edges.push_back({crossings[i].edge, vertex[i]});
         on_edges.push_back({crossings[i].other, vertex[i]});
@@ -319,8 +375,6 @@ void cut_edges(CutState& state, const LinkTable& links) {
     state.edge_source = std::move(source);
 }
 
-constexpr unsigned patient_rounds = 3;
-
 /// A corner next to another one may make whatever triangle is tried around it a flat one, so that rounds go in circles: then the two
 /// become one. Only what is new and flat is looked at, and only edges of a few times the distance that points keep.
 void merge_ends_of_flat_triangles(CutState& state) {
@@ -374,18 +428,20 @@ void merge_ends_of_flat_triangles(CutState& state) {
 
 bool cut_round(CutState& state, const Monitor* monitor) {
     if (++state.rounds > patient_rounds) merge_ends_of_flat_triangles(state);
-    const NearFeatures found = search(state.points.points(), state.triangles, state.is_new, state.reach, monitor);
+    NearFeatures found = search(state.points.points(), state.triangles, state.is_new, state.reach, monitor);
+    if (state.rounds > patient_rounds) break_circles(state, found, state.points.distance());
     return !cut_at(state, found);
 }
 
 bool cut_at(CutState& state, const NearFeatures& found) {
     const auto is_double = doubles_of(state, found);
     if (found.on_edges.empty() && found.on_faces.empty() && found.points.empty() && is_double.empty()) return false;
-    const auto vertex = add_points(state.points, found.points);
+    const auto vertex = add_points(state, found.points);
     std::vector<VertexOnEdge> on_edges;
     std::vector<VertexOnFace> on_faces;
     put_on_features(found, vertex, on_edges, on_faces);
     sort_unique(on_faces);
+    move_to_sides(state, on_edges, on_faces);
     LinkTable links(state.points.points(), on_edges);
     const auto meetings = segments_of_pairs(state, links, found, vertex);
     const auto segments = each_once(meetings);

@@ -118,6 +118,17 @@ void split_sides(const Triangle& triangle, const std::array<std::vector<std::uin
     }
 }
 
+/// A triangle between a point inside and each piece of the border; nothing where one of them would be turned over.
+bool fan_out(std::span<const Vec3> points, const View& view, std::span<const std::uint32_t> border, std::uint32_t middle,
+             std::vector<Triangle>& parts) {
+    const auto next = [&](std::size_t i) { return border[i + 1 == border.size() ? 0 : i + 1]; };
+    for (std::size_t i = 0; i < border.size(); ++i) {
+        if (view.turn * orientation_2d(points[border[i]], points[next(i)], points[middle], view.axis) <= 0) return false;
+    }
+    for (std::size_t i = 0; i < border.size(); ++i) parts.push_back({border[i], next(i), middle});
+    return true;
+}
+
 }  // namespace
 
 bool cut_triangle(std::span<const Vec3> points, const Triangle& triangle, const LinkTable& links, std::span<const Link> segments,
@@ -135,14 +146,16 @@ bool cut_triangle(std::span<const Vec3> points, const Triangle& triangle, const 
         for (const std::uint32_t v : c) names.add(v);
     }
     names.sort();
-    const auto pinched = [&] {
-        auto& border = scratch.way;
-        border.clear();
+    const auto border = [&]() -> const std::vector<std::uint32_t>& {
+        scratch.way.clear();
         for (std::size_t i = 0; i < 3; ++i) {
-            border.push_back(triangle[i]);
-            border.insert(border.end(), chain[i].begin(), chain[i].end());
+            scratch.way.push_back(triangle[i]);
+            scratch.way.insert(scratch.way.end(), chain[i].begin(), chain[i].end());
         }
-        triangulate_pinched(points, view, border, scratch, parts);
+        return scratch.way;
+    };
+    const auto pinched = [&] {
+        triangulate_pinched(points, view, border(), scratch, parts);
         return plain;
     };
     if (names.has_twice()) return pinched();
@@ -193,7 +206,8 @@ bool cut_triangle(std::span<const Vec3> points, const Triangle& triangle, const 
         scratch.local.clear();
         for (std::size_t k = 0; k < chain[i].size(); ++k) scratch.local.push_back(next++);
         if (mesh.add_on_border(i, i == 2 ? 0 : i + 1, scratch.local)) continue;
-        split_sides(triangle, chain, parts);
+        const auto fan = [&](std::uint32_t v) { return fan_out(points, view, border(), v, parts); };
+        if (!std::ranges::any_of(on_face, fan)) split_sides(triangle, chain, parts);
         return plain;
     }
     bool complete = true;

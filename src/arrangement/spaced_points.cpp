@@ -58,22 +58,22 @@ void SpacedPoints::grow() {
     }
 }
 
-std::uint32_t SpacedPoints::add(const Vec3& point) {
+std::uint32_t SpacedPoints::add(const Vec3& point, double distance) {
     std::array<std::int64_t, 3> low{}, high{}, own{};
     for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = static_cast<std::int64_t>(std::floor((point[k] - distance_) / cell_));
-        high[k] = static_cast<std::int64_t>(std::floor((point[k] + distance_) / cell_));
+        low[k] = static_cast<std::int64_t>(std::floor((point[k] - distance) / cell_));
+        high[k] = static_cast<std::int64_t>(std::floor((point[k] + distance) / cell_));
         own[k] = static_cast<std::int64_t>(std::floor(point[k] / cell_));
     }
     std::uint32_t nearest = nobody;
-    double least = distance_ * distance_;
+    double least = distance * distance;
     for (std::int64_t x = low[0]; x <= high[0]; ++x) {
         for (std::int64_t y = low[1]; y <= high[1]; ++y) {
             for (std::int64_t z = low[2]; z <= high[2]; ++z) {
                 for (std::uint32_t p = heads_[slot_of(cell_key(x, y, z))]; p != nobody; p = next_[p]) {
                     const Vec3 d = minus(points_[p], point);
                     const double square = dot(d, d);
-                    if (square < least || (square == least && square < distance_ * distance_ && p < nearest)) {
+                    if (square < least || (square == least && square < distance * distance && p < nearest)) {
                         least = square;
                         nearest = p;
                     }

@@ -18,8 +18,11 @@ public:
     SpacedPoints(double distance, std::size_t expected);
 
     /// The number of the point: of an earlier one, where one is closer than the distance. Constant time where few are near.
-    std::uint32_t add(const Vec3& point);
+    std::uint32_t add(const Vec3& point) { return add(point, distance_); }
+    /// The same, where it need be farther than `distance` from others, up to 32 times the usual one.
+    std::uint32_t add(const Vec3& point, double distance);
     const std::vector<Vec3>& points() const { return points_; }
+    double distance() const { return distance_; }
 
 private:
     double distance_, cell_;

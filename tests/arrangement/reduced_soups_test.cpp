@@ -35,5 +35,18 @@ TEST(ReducedSoups, TriplePointsOfTrianglesNextToParallelAreOne) {
     EXPECT_EQ(to_string(fault_in_child(other, 1e-5, 60)), "none");
 }
 
+// Four points of one triangle in a chain that bends by less than the tolerance: each diagonal between them passes by the next point, and
+// whichever was drawn, the next look put that point on it.
+TEST(ReducedSoups, ChainsNextToStraightDoNotGoRoundInCircles) {
+    const auto soup = soup_of({{0.19853, -0.12267, 0.41204},
+                               {0.06022, -0.83542, -0.80615},
+                               {0, -1, -1},
+                               {0.15017, -0.37188, -0.01389},
+                               {0, -0.7, -0.6},
+                               {0.116, -0.5355, -0.2943}},
+                              {{0, 1, 2}, {3, 4, 5}});
+    EXPECT_EQ(to_string(fault_in_child(soup, 1e-6, 60)), "none");
+}
+
 }  // namespace
 }  // namespace geomend::test

@@ -119,12 +119,14 @@ TEST_P(RandomSoupKinds, AreCutWithoutFault) {
 }
 
 const auto name_of = [](const testing::TestParamInfo<std::string>& kind) { return kind.param; };
-INSTANTIATE_TEST_SUITE_P(Clean, RandomSoupKinds, testing::Values("uniform", "lattice", "coplanar"), name_of);
-// Some soups of these kinds still go round in circles, or were not tried far enough: asked for by --gtest_also_run_disabled_tests.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Open, RandomSoupKinds,
-                         testing::Values("nearly_coplanar", "shared_vertices", "needles", "near_contacts", "duplicates", "common_line",
-                                         "grids", "clusters", "mixed", "flat_box"),
+INSTANTIATE_TEST_SUITE_P(Clean, RandomSoupKinds,
+                         testing::Values("uniform", "lattice", "coplanar", "shared_vertices", "needles", "duplicates", "common_line",
+                                         "mixed"),
                          name_of);
+// Where all is next to parallel or within a few tolerances, some soups still make points without end, and are given up: asked for by
+// --gtest_also_run_disabled_tests.
+INSTANTIATE_TEST_SUITE_P(DISABLED_Open, RandomSoupKinds,
+                         testing::Values("nearly_coplanar", "near_contacts", "grids", "clusters", "flat_box"), name_of);
 
 }  // namespace
 }  // namespace geomend::test
