@@ -48,9 +48,14 @@ Snapped snapped(const TriangleSoup& soup, double tolerance) {
     return s;
 }
 
-/// Up to which distance features are one: a share of the tolerance, by default a thirty-second, where rounding to the grid does
-/// no harm.
-double reach_of(const SnapGrid& grid, double share) { return std::max(2.0, grid.tolerance_steps * share); }
+/// Up to which distance features are one in a round: a share of the tolerance, by default a thirty-second, where rounding to the grid does
+/// no harm. What is still new after many rounds is looked at ever more widely, up to half of the tolerance: planes that are next
+/// to parallel become one where they are that near.
+double reach_of_round(const SnapGrid& grid, double share, unsigned rounds) {
+    constexpr unsigned patient_rounds = 6;
+    const double first = std::max(2.0, grid.tolerance_steps * share), most = std::max(first, grid.tolerance_steps / 2);
+    return rounds < patient_rounds ? first : std::min(most, first * std::exp2(rounds - patient_rounds));
+}
 
 /// Vertices of the result: those of the soup that are used, in their order, then new ones as they were made.
 void write_vertices(const TriangleSoup& soup, const Snapped& s, Arrangement& result) {
@@ -130,7 +135,7 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     std::size_t after_first = 0;
     const auto grows = [&] { return result.rounds > first_rounds && s.state.triangles.size() > most_growth * after_first + 1000; };
     while (!result.clean && result.rounds < options.most_rounds && !stopped() && !grows()) {
-        s.state.reach = reach_of(s.grid, options.reach);
+        s.state.reach = reach_of_round(s.grid, options.reach, result.rounds);
         result.clean = cut_round(s.state, options.monitor);
         ++result.rounds;
         if (result.rounds <= first_rounds) after_first = s.state.triangles.size();

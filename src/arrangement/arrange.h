@@ -38,10 +38,11 @@ struct Arrangement {
 /// of an edge or a face become a part of it, which then bends that much; edges that pierce faces get a vertex there. All positions
 /// lie on a grid of powers of two, some 500 times finer than the tolerance, apart from vertices that were there before and keep
 /// their own to the bit. The result is looked through again until nothing is found, so that nothing crosses in doubles, and cutting
-/// again changes nothing; where `most_rounds` do not suffice, or pieces only grow in number, `clean` says so. Triangles of
-/// several patches that lie on each other stay, one for each patch, over the same vertices. Same input, same bytes, whatever the number of
-/// threads. After N. Euler's "découpage franc" (thesis, 3.1), by features within a tolerance instead of exact points. Fails (unusable)
-/// where positions are not finite or the tolerance is not above 0. Cost: near-linear in triangles and cuts.
+/// again changes nothing. What is still found after some rounds, planes next to parallel above all, is looked at ever more coarsely: there,
+/// and only there, new points keep up to 32 tolerances from others. Where `most_rounds` do not suffice, or pieces only grow in number,
+/// `clean` says so. Triangles of several patches that lie on each other stay, one for each patch, over the same vertices. Same input, same
+/// bytes, whatever the number of threads. After N. Euler's "découpage franc" (thesis, 3.1), by features within a tolerance instead of exact
+/// points. Fails (unusable) where positions are not finite or the tolerance is not above 0. Cost: near-linear in triangles and cuts.
 Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& options);
 
 }  // namespace geomend::arrangement

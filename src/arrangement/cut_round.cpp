@@ -29,8 +29,8 @@ constexpr unsigned patient_rounds = 3;
 /// Where planes are next to parallel, each look may find edges that pass each other a little farther on, and make points there without
 /// end. So what late rounds make keeps more than the tolerance from what is there: they become what is near.
 double distance_of_round(const CutState& state) {
-    constexpr double most = 4;
-    const double widened = state.rounds > patient_rounds ? std::exp2(0.5 * (state.rounds - patient_rounds)) : 1;
+    constexpr double most = 32;
+    const double widened = state.rounds > patient_rounds ? std::exp2(state.rounds - patient_rounds) : 1;
     return state.points.distance() * std::min(most, widened);
 }
 
@@ -379,7 +379,7 @@ void cut_edges(CutState& state, const LinkTable& links) {
 /// become one. Only what is new and flat is looked at, and only edges of a few times the distance that points keep.
 void merge_ends_of_flat_triangles(CutState& state) {
     const auto& points = state.points.points();
-    const double longest = 128 * state.reach;
+    const double longest = std::max(128 * state.reach, distance_of_round(state));
     DisjointSets same(points.size());
     std::uint64_t merged = 0;
     for (std::size_t t = 0; t < state.triangles.size(); ++t) {

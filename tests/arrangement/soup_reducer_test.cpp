@@ -125,8 +125,8 @@ INSTANTIATE_TEST_SUITE_P(Clean, RandomSoupKinds,
                          name_of);
 // Where all is next to parallel or within a few tolerances, some soups still make points without end, and are given up: asked for by
 // --gtest_also_run_disabled_tests.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Open, RandomSoupKinds,
-                         testing::Values("nearly_coplanar", "near_contacts", "grids", "clusters", "flat_box"), name_of);
+INSTANTIATE_TEST_SUITE_P(DISABLED_Open, RandomSoupKinds, testing::Values("nearly_coplanar", "near_contacts", "clusters", "flat_box"),
+                         name_of);
 
 }  // namespace
 }  // namespace geomend::test
