@@ -19,7 +19,7 @@ struct GridCommand : CommonOptions {
     std::vector<double> box;
     double rotation = 0, least_dip = 30, min_thickness = 0;
     bool rotated = false, allow_repeated = false, lossy = false;
-    std::string fault_sides = "one", pillars = "vertical";
+    std::string fault_sides = "one", pillars = "follow-faults";
 };
 
 Failure wrong(const char* option, const std::string& expected, const std::string& found) {
@@ -197,7 +197,7 @@ void add_grid(CLI::App& program, ExitStatus& status) {
     command->add_option("--pillars-of", o->pillars_of, "File with a corner-point grid whose pillars are taken")
         ->type_name("GRID")
         ->excludes(cells);
-    command->add_option("--pillars", o->pillars, "Whether pillars on faults lean as these do (default vertical)")
+    command->add_option("--pillars", o->pillars, "Whether pillars on faults lean as these do (default follow-faults)")
         ->type_name("vertical|follow-faults")
         ->check(CLI::IsMember({"vertical", "follow-faults"}));
     command->add_option("--min-thickness", o->min_thickness, "Thinner cells are joined with a neighbour of their zone (default 0)")

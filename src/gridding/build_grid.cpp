@@ -183,7 +183,8 @@ Result<MadeGrid> build_grid(const Structure& structure, const Net& upright, cons
         if (!chain.empty()) sides[f].go_on(net.is_outermost(chain.front()), net.is_outermost(chain.back()));
     }
     LeanResult lean;
-    if (options.follow_faults) lean = follow_faults(structure, chains, range, net, made.report);
+    const bool has_surfaces = std::ranges::any_of(structure.faults, [](const Fault& f) { return !f.sheet.triangles.empty(); });
+    if (options.follow_faults && has_surfaces) lean = follow_faults(structure, chains, range, net, made.report);
     const SplitPillars split = split_pillars(net, chains.edges);
     const Blocks blocks = fault_blocks(net, chains.edges);
     made.report.blocks = blocks.count;

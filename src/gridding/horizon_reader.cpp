@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/vectors.h"
+
 namespace geomend::gridding {
 
 MapReader::MapReader(const HorizonMap& map) : map_(map) {
@@ -161,6 +163,21 @@ void SheetReader::hits(const Point& p, std::vector<Hit>& found) const {
     }
     std::sort(found.begin() + static_cast<std::ptrdiff_t>(begin), found.end(),
               [](const Hit& a, const Hit& b) { return a.depth != b.depth ? a.depth < b.depth : a.pieces[0] < b.pieces[0]; });
+}
+
+std::optional<double> SheetReader::crossing(std::uint32_t piece, const double* pillar) const {
+    const Vec3 &a = sheet_.vertices[sheet_.triangles[piece][0]], &b = sheet_.vertices[sheet_.triangles[piece][1]],
+               &c = sheet_.vertices[sheet_.triangles[piece][2]];
+    const Vec3 from{pillar[0], pillar[1], pillar[2]}, way{pillar[3] - pillar[0], pillar[4] - pillar[1], pillar[5] - pillar[2]};
+    const Vec3 normal = cross(minus(b, a), minus(c, a));
+    const double size = dot(normal, normal), along = dot(way, normal);
+    if (!(std::abs(along) > 1e-9 * std::sqrt(size * dot(way, way)))) return std::nullopt;
+    const double t = dot(minus(a, from), normal) / along;
+    const Vec3 p = minus({from[0] + t * way[0], from[1] + t * way[1], from[2] + t * way[2]}, a);
+    const double v = dot(cross(p, minus(c, a)), normal) / size, w = dot(cross(minus(b, a), p), normal) / size;
+    constexpr double slack = 1e-7;
+    if (v < -slack || w < -slack || v + w > 1 + slack) return std::nullopt;
+    return from[2] + t * way[2];
 }
 
 bool SheetReader::covers(const Point& p) const { return is_inside(hull_, p) || nearest_on(hull_, p).distance <= 1e-6 * step_; }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,8 @@ public:
     /// The samples with depths not farther from a place than `reach`.
     void near(const Point& p, double reach, std::vector<Piece>& found) const;
     Vec3 middle(std::uint32_t piece) const;
+    /// Nothing: samples are not met by lines.
+    std::optional<double> crossing(std::uint32_t, const double*) const { return std::nullopt; }
     /// The corners of a piece: its own place.
     std::span<const Vec3> corners(std::uint32_t piece, std::array<Vec3, 3>& room) const;
     double step() const { return step_; }
@@ -55,6 +58,8 @@ public:
     explicit SheetReader(const Sheet& sheet);
     /// All depths, ascending; equal ones once for each triangle. Triangles that stand upright give none.
     void hits(const Point& p, std::vector<Hit>& found) const;
+    /// The depth at which a pillar (six values) passes through a triangle, its border included; rounding may put it beside.
+    std::optional<double> crossing(std::uint32_t piece, const double* pillar) const;
     /// Whether a place lies in the hull of the sheet.
     bool covers(const Point& p) const;
     void near(const Point& p, double reach, std::vector<Piece>& found) const;

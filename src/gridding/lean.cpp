@@ -209,9 +209,9 @@ LeanResult lean_pillars(const Structure& structure, const Chains& chains, double
         if (chains.chains[f].pillars.empty()) continue;
         LeanReport& report = result.faults[f];
         Shifts tried = taken;
-        if (structure.faults[f].sheet.triangles.empty() ||
-            !leaner.shift_chain(structure.faults[f], chains.chains[f], tried, report.max_shift)) {
-            report.why_not = "no surface says how it leans";
+        if (structure.faults[f].sheet.triangles.empty()) continue;
+        if (!leaner.shift_chain(structure.faults[f], chains.chains[f], tried, report.max_shift)) {
+            report.why_not = "its surface does not reach along its trace at all depths";
             continue;
         }
         Shifts whole = tried;

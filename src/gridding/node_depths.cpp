@@ -37,6 +37,20 @@ public:
         });
     }
 
+    /// The depth nearest to `guess` at which a pillar passes through the horizon on the sides given, near a place; nothing where it
+    /// passes by.
+    std::optional<double> met_by(const double* pillar, const Point& p, std::span<const NearFault> near, double guess) {
+        pieces_.clear();
+        reader_.near(p, reader_.widest() + 2 * reader_.step(), pieces_);
+        std::optional<double> best;
+        for (const Piece& piece : pieces_) {
+            const auto depth = reader_.crossing(piece.number, pillar);
+            if (!depth || !fits(piece.number, near)) continue;
+            if (!best || std::abs(*depth - guess) < std::abs(*best - guess)) best = depth;
+        }
+        return best;
+    }
+
     /// The horizon continued to a place from the sides given; nothing where no piece is near enough.
     std::optional<double> extended(const Point& p, std::span<const NearFault> near, double most) {
         for (double reach = 3 * reader_.step();; reach *= 1.5) {
@@ -183,6 +197,12 @@ private:
         }
         made_.depths[node] = depth;
         made_.sources[node] = DepthSource::extended;
+        if (setting_.net.is_upright(pillar)) return;
+        // Where the pillar lies in the fault the horizon ends right there: the way to it was beside it.
+        const auto met = seen_.met_by(setting_.net.lines.data() + 6 * pillar, setting_.net.at(pillar, depth), near, depth);
+        if (!met) return;
+        made_.depths[node] = *met;
+        made_.sources[node] = DepthSource::read;
     }
 
     bool reaches(const Point& p, std::span<const NearFault> near) const {

@@ -210,6 +210,7 @@ Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest
         auto like = net_like(request);
         if (!like) return std::move(like).why();
         net = std::move(*like);
+        request.options.follow_faults = false;  // the pillars are as they are wanted
     } else {
         auto frame = frame_of(request, *found, request.options.area);
         if (!frame) return std::move(frame).why();
