@@ -6,6 +6,7 @@
 
 #include "base/text_cursor.h"
 #include "formats/meshes/mesh_writing.h"
+#include "model/cell_faces.h"
 
 namespace geomend::meshes {
 
@@ -91,6 +92,26 @@ void write_faces_file(const VolumeMesh& mesh, OutputFile& file) {
     }
 }
 
+/// For each cell the cells beyond the faces opposite to its corners, -1 where there is none.
+void write_neighbours_file(const VolumeMesh& mesh, OutputFile& file) {
+    std::vector<std::array<std::int64_t, 4>> beyond(mesh->cell_count(), {-1, -1, -1, -1});
+    const auto opposite = [](std::uint32_t face) {
+        std::size_t sum = 0;
+        for (const std::uint8_t corner : faces_of(CellType::tetrahedron)[face].corners()) sum += corner;
+        return 6 - sum;  // of 0 + 1 + 2 + 3
+    };
+    for (const auto& c : mesh->network.connections) {
+        beyond[c.from][opposite(c.from_face)] = c.to + std::int64_t{1};
+        beyond[c.to][opposite(c.to_face)] = c.from + std::int64_t{1};
+    }
+    file.number(static_cast<std::uint64_t>(mesh->cell_count())) << " 4\n";
+    for (std::size_t c = 0; c < beyond.size() && file.good(); ++c) {
+        file.number(static_cast<std::uint64_t>(c + 1));
+        for (const std::int64_t other : beyond[c]) file << ' ', file.number(other);
+        file << '\n';
+    }
+}
+
 void list_attribute_losses(const VolumeMesh& mesh, std::vector<Loss>& losses) {
     for (const Attribute& a : mesh->attributes) {
         if (a.location != AttributeLocation::point) continue;
@@ -114,6 +135,7 @@ Result<std::vector<Loss>> write_tetgen(const VolumeMesh& mesh, OutputSet& out, c
     Files files(out);
     write_nodes_file(mesh, files.file(".node"));
     write_cells_file(mesh, all_second ? 10 : 4, files.file(".ele"));
+    write_neighbours_file(mesh, files.file(".neigh"));
     if (!mesh->face_sets.empty()) write_faces_file(mesh, files.file(".face"));
     return losses;
 }

@@ -11,7 +11,7 @@ namespace geomend::cli {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> planned{"batch", "grid"};
+constexpr std::array<std::string_view, 1> planned{"batch"};
 
 std::vector<std::string> command_names(const CLI::App& program) {
     std::vector<std::string> names;

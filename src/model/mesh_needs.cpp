@@ -48,7 +48,7 @@ constexpr std::array<MeshNeeds, 20> rows{{
     {"pflotran", all_cells, 1, CellOrder::any, Splitting::none, CornerOrder::either, false, Naming::words, true, false, false, false, false,
      false, 32, true},
     {"tetgen", tetrahedra, 2, CellOrder::any, Splitting::as_given, CornerOrder::outward, false, Naming::numbers, true, false, false, false,
-     true, false, 0},
+     true, false, 0, true},
     {"tough2", all_cells, 1, CellOrder::any, Splitting::none, CornerOrder::either, false, Naming::words, false, false, false, false, false,
      false, 5, true},
     {"tsolid", tetrahedra, 1, CellOrder::by_region, Splitting::on_all_surfaces, CornerOrder::outward, false, Naming::texts, true, true,

@@ -22,9 +22,6 @@ TEST(CommandLine, NamesTheNearestCommandAndOption) {
     run = run_geomend({"validate", "x.ts", "--tolerence", "3"});
     EXPECT_EQ(run.status, 2);
     EXPECT_TRUE(says(run, "no such option '--tolerence'; the nearest is '--tolerance'")) << run.err;
-    run = run_geomend({"grid", "x.ts"});
-    EXPECT_EQ(run.status, 2);
-    EXPECT_TRUE(says(run, "'grid' is not in this version yet")) << run.err;
 }
 
 TEST(CommandLine, WithoutACommandPrintsTheHelp) {

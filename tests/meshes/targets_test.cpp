@@ -388,6 +388,39 @@ TEST(Modflow, ConnectionsAreSymmetricAndGiveAreasOfFaces) {
     EXPECT_GT(lists["CL12"][1], 0.5);
 }
 
+TEST(TetGenNeighbours, AreBeyondTheFaceOppositeToTheirCornerAndMutual) {
+    CellMesh mesh;
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {-1, 0, 0}};
+    for (const std::vector<std::uint32_t>& cell : {std::vector<std::uint32_t>{0, 1, 2, 3}, {1, 2, 3, 4}, {0, 3, 2, 5}})
+        mesh.add_cell(CellType::tetrahedron, cell);
+    const TemporaryFolder folder;
+    write_into(mesh, "tetgen", folder / "m.node");
+    const auto cells = lines_of(read_file(folder / "m.ele")), beyond = lines_of(read_file(folder / "m.neigh"));
+    EXPECT_EQ(beyond[0], "3 4");
+    std::map<std::size_t, std::vector<std::string>> nodes;
+    for (const auto& line : cells) {
+        const auto words = words_of(line);
+        if (words.size() == 6 && words[0] != "#") nodes[std::stoul(words[0])] = {words.begin() + 1, words.begin() + 5};
+    }
+    ASSERT_EQ(nodes.size(), 3u);
+    std::size_t shared = 0;
+    for (std::size_t c = 1; c <= 3; ++c) {
+        const auto words = words_of(beyond[c]);
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (words[k + 1] == "-1") continue;
+            ++shared;
+            const std::size_t other = std::stoul(words[k + 1]);
+            for (std::size_t m = 0; m < 4; ++m) {
+                const std::ptrdiff_t wanted = m == k ? 0 : 1;
+                EXPECT_EQ(std::ranges::count(nodes[other], nodes[c][m]), wanted) << "corners of the face are shared, the other one is not";
+            }
+            const auto back = words_of(beyond[other]);
+            EXPECT_EQ(std::count(back.begin() + 1, back.end(), std::to_string(c)), 1);
+        }
+    }
+    EXPECT_EQ(shared, 4u) << "two faces, from both sides";
+}
+
 TEST(Gprs, HasPipesVolumesCentresAndAreas) {
     const TemporaryFolder folder;
     write_into(two_boxes(false), "gprs", folder / "m.gprs");
