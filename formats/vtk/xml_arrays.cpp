@@ -429,4 +429,26 @@ std::optional<std::uint64_t> count_attribute(const XmlDocument& document, const 
     return value;
 }
 
+Result<std::optional<std::uint64_t>> stated_count(const XmlDocument& document, const XmlElement& element, std::string_view name) {
+    bool stated = false;
+    const std::string_view text = document.raw_attribute(element, name, &stated);
+    if (!stated) return std::optional<std::uint64_t>();
+    const auto count = count_attribute(document, element, name);
+    if (!count)
+        return unreadable("F005", document.where(element),
+                          "expected a count in " + std::string(name) + ", found '" + std::string(text.substr(0, 40)) + "'");
+    return count;
+}
+
+Result<std::uint64_t> components_of(const XmlDocument& document, const XmlElement& array, std::uint64_t usual) {
+    constexpr std::uint64_t most = 1000000;
+    const auto stated = stated_count(document, array, "NumberOfComponents");
+    if (!stated) return stated.why();
+    const std::uint64_t components = stated->value_or(usual);
+    if (components == 0 || components > most)
+        return unreadable("F005", document.where(array),
+                          "expected NumberOfComponents from 1 to " + std::to_string(most) + ", found " + std::to_string(components));
+    return components;
+}
+
 }  // namespace geomend::vtk

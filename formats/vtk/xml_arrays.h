@@ -37,4 +37,10 @@ Result<AttributeValues> decode_array(const XmlDocument& document, const XmlEncod
 /// A whole attribute value as a number that is not negative, or nothing.
 std::optional<std::uint64_t> count_attribute(const XmlDocument& document, const XmlElement& element, std::string_view name);
 
+/// The same of one that may be left out: nothing where it is. Failure (F005) where it is no such number.
+Result<std::optional<std::uint64_t>> stated_count(const XmlDocument& document, const XmlElement& element, std::string_view name);
+
+/// The NumberOfComponents of an array, from 1; `usual` where it is not stated. Failure (F005) where it makes no sense.
+Result<std::uint64_t> components_of(const XmlDocument& document, const XmlElement& array, std::uint64_t usual);
+
 }  // namespace geomend::vtk

@@ -88,8 +88,9 @@ private:
             if (count == 0) return {};
             return fail("F012", piece_, "expected a DataArray inside Points for " + std::to_string(count) + " points, found none");
         }
-        const auto components = count_attribute(doc_, *array, "NumberOfComponents").value_or(3);
-        if (components != 3) return fail("F012", *array, "expected points of 3 components, found " + std::to_string(components));
+        const auto components = components_of(doc_, *array, 3);
+        if (!components) return std::move(components).why();
+        if (*components != 3) return fail("F012", *array, "expected points of 3 components, found " + std::to_string(*components));
         auto values = decode_array(doc_, encoding_, *array, 3 * count);
         if (!values) return std::move(values).why();
         out_.single_precision = std::holds_alternative<std::vector<float>>(*values);
@@ -424,11 +425,8 @@ private:
     }
 
     Result<void> read_attribute(const XmlElement& array, std::uint64_t count, Attribute& a) const {
-        bool stated = false;
-        const std::string_view text = doc_.raw_attribute(array, "NumberOfComponents", &stated);
-        const auto components = stated ? count_attribute(doc_, array, "NumberOfComponents") : std::uint64_t{1};
-        if (!components || *components == 0 || *components > 1000000)
-            return fail("F012", array, "expected a number of components, found '" + std::string(text.substr(0, 40)) + "'");
+        const auto components = components_of(doc_, array, 1);
+        if (!components) return std::move(components).why();
         a.components = static_cast<std::uint32_t>(*components);
         auto values = decode_array(doc_, encoding_, array, count * *components);
         if (!values) return std::move(values).why();
@@ -532,20 +530,22 @@ Result<std::vector<Attribute>> read_field_data(const XmlDocument& document, cons
         Attribute a;
         a.location = AttributeLocation::object;
         a.name = document.attribute(*array, "Name");
-        const std::uint64_t components = count_attribute(document, *array, "NumberOfComponents").value_or(1);
-        const auto tuples = count_attribute(document, *array, "NumberOfTuples");
+        const auto components = components_of(document, *array, 1);
+        if (!components) return std::move(components).why();
+        const auto tuples = stated_count(document, *array, "NumberOfTuples");
+        if (!tuples) return std::move(tuples).why();
         std::optional<std::uint64_t> expected;
-        if (tuples) {
-            if (components > 1000000 || *tuples > most_points)
+        if (*tuples) {
+            if (**tuples > most_points)
                 return unreadable("F014", document.where(*array),
                                   "the field array '" + a.name.substr(0, 80) + "' asks for more than the file can hold");
-            expected = *tuples * components;
+            expected = **tuples * *components;
         }
         auto values = decode_array(document, *encoding, *array, expected);
         if (!values) return std::move(values).why();
         a.values = std::move(*values);
         a.components = static_cast<std::uint32_t>(value_count(a));
-        if (components > 1) a.annotations.emplace_back("vtk.components", std::to_string(components));
+        if (*components > 1) a.annotations.emplace_back("vtk.components", std::to_string(*components));
         PieceReader::read_details(document, *array, a);
         a.component_names.clear();
         fields.push_back(std::move(a));

@@ -60,6 +60,19 @@ TEST(XmlRead, RefusesCountsThatTheFileCannotHold) {
     EXPECT_EQ(failure_code(text), "F014");
 }
 
+TEST(XmlRead, RefusesNumbersOfComponentsThatMakeNoSense) {
+    for (const char* count : {"-1e300", "x", "3.0", "0", "99999999999", ""}) {
+        std::string text = tetrahedron();
+        text.replace(text.find("NumberOfComponents=\"3\""), 22, "NumberOfComponents=\"" + std::string(count) + "\"");
+        EXPECT_EQ(failure_code(text), "F005") << count;
+        const std::string field = "<FieldData><DataArray type=\"Int32\" Name=\"f\" NumberOfComponents=\"" + std::string(count) +
+                                  "\" NumberOfTuples=\"1\" format=\"ascii\">1</DataArray></FieldData>";
+        text = tetrahedron();
+        text.insert(text.find("<Piece"), field);
+        EXPECT_EQ(failure_code(text), "F005") << "field data " << count;
+    }
+}
+
 TEST(XmlRead, CellsOfHigherOrderAreHeldByTheirCorners) {
     const Dataset data = must_read_xml(unstructured("0 0 0 1 0 0 0 1 0 0 0 1 0.5 0 0 0.5 0.5 0 0 0.5 0 0 0 0.5 0.5 0 0.5 0 0.5 0.5",
                                                     "0 1 2 3 4 5 6 7 8 9", "10", "71", 10, 1));
