@@ -254,6 +254,19 @@ void write_binary(const WrittenFaces& faces, OutputFile& file, std::vector<Loss>
                           rounded});
 }
 
+/// Points of a surface that are apart at one position, as along a cut, are one for whoever reads triangles.
+void list_joined_points(const WrittenFaces& faces, std::vector<Loss>& losses) {
+    for (std::size_t s = 0; s < faces.surfaces.size(); ++s) {
+        const auto& surface = faces.surfaces[s];
+        PositionNumbers numbers;
+        for (std::size_t p = surface.first_point; p < faces.point_end(s); ++p) numbers.number(faces.points[p]);
+        const std::size_t joined = faces.point_end(s) - surface.first_point - numbers.positions().size();
+        if (joined > 0)
+            add_loss(losses, {LossClass::identity, surface.info->name, "points apart at one position",
+                              "STL has no numbers of points: whoever reads it joins them", joined});
+    }
+}
+
 }  // namespace
 
 int sniff_stl(std::string_view head, std::string_view) {
@@ -287,6 +300,7 @@ Result<std::vector<Loss>> write_stl(const Dataset& dataset, OutputSet& out, cons
     const bool binary = option_value(options.options, "encoding") == "binary";
     const auto faces = faces_for_writing(dataset, binary ? binary_holds : text_holds, out, losses);
     if (!faces) return faces.why();
+    list_joined_points(*faces, losses);
     if (binary) write_binary(*faces, out.main_file(), losses);
     else write_text(*faces, out.main_file());
     return losses;

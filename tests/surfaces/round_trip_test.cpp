@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "surfaces/surface_files.h"
@@ -65,6 +66,23 @@ RC_GTEST_PROP(SurfaceRoundTrip, StlKeepsTrianglesAndNamesOfSolids, ()) {
     for (std::size_t s = 0; s < 2; ++s) {
         RC_ASSERT(shapes_of(surface_at(back, s)) == shapes_of(surfaces[s]));
         RC_ASSERT(surface_at(back, s).info.name == surfaces[s].info.name);
+    }
+}
+
+TEST(SurfaceRoundTrip, StlListsPointsThatAreApartAtOnePosition) {
+    Surface surface;  // cut along the edge from (1, 0, 0) to (0, 1, 0)
+    surface.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    surface.polygons.push_back(std::array<std::uint32_t, 3>{0, 1, 2});
+    surface.polygons.push_back(std::array<std::uint32_t, 3>{3, 4, 5});
+    surface.info.name = "cut";
+    for (const char* encoding : {"text", "binary"}) {
+        const WrittenSurface file = written_surface("stl", dataset_of({surface}), encoding);
+        const auto joined = std::ranges::find(file.losses, "points apart at one position", &Loss::what);
+        ASSERT_NE(joined, file.losses.end()) << encoding;
+        EXPECT_EQ(joined->loss_class, LossClass::identity);
+        EXPECT_EQ(joined->entity, "cut");
+        EXPECT_EQ(joined->count, 2u);
+        EXPECT_EQ(surface_at(good_surface("stl", file.bytes), 0).points.size(), 4u);
     }
 }
 
