@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "base/vectors.h"
 #include "validators/cell_findings.h"
 #include "validators/cell_scope.h"
 #include "validators/readiness.h"
@@ -19,19 +20,28 @@ Finding about(const CellMesh& mesh, std::string_view code, std::string message) 
     return f;
 }
 
-void list(const CellMesh& mesh, std::size_t cell, Finding& f) {
+Vec3 middle_of(const CellMesh& mesh, std::span<const std::uint32_t> nodes) {
+    Vec3 sum{};
+    for (const std::uint32_t n : nodes) sum = plus(sum, times(1.0 / static_cast<double>(nodes.size()), mesh.points[n]));
+    return sum;
+}
+
+/// \param nodes where in the cell: all of it, or a face
+void list(const CellMesh& mesh, std::size_t cell, std::span<const std::uint32_t> nodes, Finding& f) {
     ++f.count;
     f.element_kind = "cell";
     if (f.elements.size() >= listed_elements) return;
     f.elements.push_back(mesh.cell_labels[cell]);
     f.index.push_back(static_cast<std::int64_t>(cell));
+    if (!nodes.empty()) f.points.push_back(middle_of(mesh, nodes));
 }
 
 void check_types(const Target& target, const CellMesh& mesh, std::vector<Finding>& findings) {
     std::map<CellType, Finding> unknown;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         const CellType type = mesh.types[cell];
-        if (dimension(type) == 3 && std::ranges::find(target.cell_types, type) == target.cell_types.end()) list(mesh, cell, unknown[type]);
+        if (dimension(type) == 3 && std::ranges::find(target.cell_types, type) == target.cell_types.end())
+            list(mesh, cell, mesh.cell_nodes(cell), unknown[type]);
     }
     for (auto& [type, cells] : unknown) {
         Finding f =
@@ -41,6 +51,7 @@ void check_types(const Target& target, const CellMesh& mesh, std::vector<Finding
         f.element_kind = cells.element_kind;
         f.elements = std::move(cells.elements);
         f.index = std::move(cells.index);
+        f.points = std::move(cells.points);
         findings.push_back(std::move(f));
     }
 }
@@ -54,7 +65,7 @@ void check_tags(const Target& target, const CellMesh& mesh, std::vector<Finding>
     Finding untagged = about(mesh, "S08", {});
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         if (dimension(mesh.types[cell]) != 3) continue;
-        if (mesh.cell_entity.empty() || mesh.cell_entity[cell] == no_index) list(mesh, cell, untagged);
+        if (mesh.cell_entity.empty() || mesh.cell_entity[cell] == no_index) list(mesh, cell, mesh.cell_nodes(cell), untagged);
     }
     if (untagged.count == 0) return;
     untagged.message = "no region is stated for " + counted(untagged.count, "cell", "cells") + ": " + std::string(target.title) +
@@ -90,7 +101,7 @@ void check_patches(const Target& target, const CellMesh& mesh, std::vector<Findi
         ++outer;
         const VolumeFace& face = scope.faces()[group[0]];
         if (named.contains(sorted_vertices(scope, scope.nodes_of(face)))) continue;
-        list(mesh, face.cell, bare);
+        list(mesh, face.cell, scope.nodes_of(face), bare);
     }
     if (bare.count == 0) return;
     bare.message = std::to_string(bare.count) + " of " + counted(outer, "outer face", "outer faces") +

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "validators/cell_findings.h"
+#include "validators/object_places.h"
 #include "validators/readiness.h"
 
 // What a black-oil simulator needs of a corner-point grid beside sound cells.
@@ -60,6 +61,7 @@ void check_values(const CornerPointGrid& grid, const Property& p, std::vector<Fi
     if (bad.missing.count > 0 && !may_be_missing) {
         Finding f = about(grid, "S04", name + " has no value in " + counted(bad.missing.count, "active cell", "active cells"));
         list_cells(grid, bad.missing, f);
+        place_cells(grid, f);
         findings.push_back(std::move(f));
     }
     if (bad.outside.count > 0) {
@@ -67,6 +69,7 @@ void check_values(const CornerPointGrid& grid, const Property& p, std::vector<Fi
                           name + " is " + (p.most == 1 ? "below 0 or above 1" : "below 0") + " in " +
                               counted(bad.outside.count, "active cell", "active cells"));
         list_cells(grid, bad.outside, f);
+        place_cells(grid, f);
         findings.push_back(std::move(f));
     }
 }

@@ -39,12 +39,8 @@ const std::map<std::string, std::string> without_place = {
     {"S02", "repeats findings that have places of their own"},
     {"S03", "about the whole grid: no cell is active"},
     {"S04", "about a property that is not there"},
-    {"S05", "not given yet: cells with the wrong values"},
     {"S06", "about names"},
-    {"S07", "not given yet: cells that the target does not know"},
-    {"S08", "not given yet: cells without a region"},
     {"S09", "about keywords"},
-    {"S10", "not given yet: faces without a name"},
     {"S12", "about defaults"},
 };
 
