@@ -322,7 +322,7 @@ Finding common_finding(const ModelScope& scope, std::string_view code, const Sur
     add_kind(kinds, common.inside, "touching along an inner edge");
     add_kind(kinds, common.point, "touching at a point");
     if (common.has_more) kinds += ", and more that were not counted";
-    Finding finding = polygons_finding(scope, code, pair.first, std::move(message) + ": pairs of triangles " + kinds, common.polygons);
+    Finding finding = polygons_finding(scope, code, pair.first, std::move(message) + ": pairs of triangles: " + kinds, common.polygons);
     if (pair.second != pair.first) finding.entities.push_back(surface_ref(scope, pair.second));
     finding.count = common.all();
     finding.points = std::move(common.points);

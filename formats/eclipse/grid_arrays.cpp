@@ -99,7 +99,7 @@ Result<bool> take_grid_array(const ArrayFile& file, const Array& array, GridPart
     if (array.name == "COORD" || array.name == "ZCORN") {
         const bool depths = array.name == "ZCORN";
         if ((depths ? parts.depths : parts.pillars) != nullptr)
-            return unreadable("F009", place_of(file, array), "'" + array.name + "' stands twice in one grid");
+            return unreadable("F009", place_of(file, array), "'" + array.name + "' is given twice in one grid");
         auto values = reals(file, array);
         if (!values) return values.why();
         (depths ? parts.grid.depths : parts.grid.pillars) = std::move(*values);

@@ -232,7 +232,7 @@ private:
         Group& group = groups_.back();
         const char last = array.name.back();
         const Array*& place = last == '1' ? group.first : last == '2' ? group.second : last == 'L' ? group.own : group.global;
-        if (place != nullptr) return fail("F009", array, "'" + array.name + "' stands twice after one head");
+        if (place != nullptr) return fail("F009", array, "'" + array.name + "' is given twice after one head");
         place = &array;
         return {};
     }

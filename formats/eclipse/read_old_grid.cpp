@@ -101,7 +101,7 @@ private:
         if (parts_.grid.activity.empty()) parts_.grid.activity.assign(parts_.grid.cell_count(), absent);
         const std::size_t cell = parts_.grid.cell(ijk[0], ijk[1], ijk[2]);
         std::uint8_t& state = parts_.grid.activity[cell];
-        if (state != absent) return fail("F009", array, "cell " + std::to_string(head->at(3)) + " stands twice");
+        if (state != absent) return fail("F009", array, "cell " + std::to_string(head->at(3)) + " is given twice");
         state = head->size() > 4 && head->at(4) == 0 ? 0 : 1;
         if (parts_.grid.host && head->size() > 5 && head->at(5) > 0) {
             parts_.grid.host->cells.resize(parts_.grid.cell_count(), 0);

@@ -33,7 +33,7 @@ void add_rounding_loss(const Rounding& rounding, const CornerPointGrid& grid, st
     if (rounding.changed == 0) return;
     const bool harmless = rounding.largest <= largest_harmless_shift * diagonal_of(grid);
     const char* way_out =
-        harmless ? "" : ": --option origin=local lets coordinates count from a round origin near the grid, told by MAPAXES";
+        harmless ? "" : ": --option origin=local lets coordinates count from a round origin near the grid, which MAPAXES states";
     add_loss(losses, {harmless ? LossClass::identity : LossClass::substance, grid.info.name,
                       "coordinates rounded to single precision, by at most " + number_text(rounding.largest),
                       std::string(title) + " files store float32" + way_out, rounding.changed});

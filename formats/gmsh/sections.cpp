@@ -112,11 +112,11 @@ Result<void> read_format(const Input& input, std::string_view content, MshLayout
     const char* one = cursor.next_line_begin();
     std::uint32_t bits = 0;
     if (content.data() + content.size() - one < 4)
-        return unreadable("F004", place(input, one), "section $MeshFormat: the integer 1 that tells the byte order is missing");
+        return unreadable("F004", place(input, one), "section $MeshFormat: the integer 1 that gives the byte order is missing");
     std::memcpy(&bits, one, 4);
     if (bits == 1) return {};
     if (bits != __builtin_bswap32(1))
-        return unreadable("F012", place(input, one), "section $MeshFormat: the integer that tells the byte order is not 1");
+        return unreadable("F012", place(input, one), "section $MeshFormat: the integer that gives the byte order is not 1");
     layout.encoding.swapped = true;
     return {};
 }

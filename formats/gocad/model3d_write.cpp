@@ -289,8 +289,9 @@ Result<std::vector<Loss>> write_model3d(const Dataset& dataset, OutputSet& files
     std::vector<Loss> losses;
     GocadOutput to{files, files.main_file(), options, dataset, losses};
     if (dataset.models.empty()) {
-        return cannot_write(
-            to, "a Model3d needs a model with faces and regions, and none is stated or could be built: write the objects to .ts");
+        return cannot_write(to,
+                            "a Model3d needs a model with faces and regions, and none is stated: --option as=brep finds one in loose "
+                            "surfaces; else write them to .ts");
     }
     write_file_comments(dataset, to.out);
     std::vector<bool> written(dataset.objects.size(), false);

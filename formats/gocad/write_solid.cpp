@@ -94,8 +94,9 @@ private:
                 }
             }
             if (count == 0) continue;
-            add_loss(to_.losses, {LossClass::substance, mesh_.info.name, "values of '" + a->name + "' on cells that are no tetrahedra",
-                                  "a solid has properties of nodes and of tetrahedra", count});
+            add_loss(to_.losses, {LossClass::substance, mesh_.info.name,
+                                  "values of '" + a->name + "' on triangles and other elements that are no tetrahedra",
+                                  "a TSolid has properties of nodes and tetrahedra only", count});
         }
     }
 

@@ -305,14 +305,14 @@ bool Parser::coordinates(std::size_t axis, std::uint64_t at) {
             return s_.fail_at("F006", s_.value_location(block, type_here, i),
                               std::string(names[axis]) + " holds a value that is not finite");
     }
-    if (file_.coordinates_stated[axis]) return s_.fail("F009", at, std::string(names[axis]) + " stands twice");
+    if (file_.coordinates_stated[axis]) return s_.fail("F009", at, std::string(names[axis]) + " is given twice");
     file_.coordinates_stated[axis] = true;
     file_.coordinates_type[axis] = type_here;
     return metadata(nullptr);
 }
 
 bool Parser::points(std::uint64_t at) {
-    if (file_.points_stated) return s_.fail("F009", at, "POINTS stands twice");
+    if (file_.points_stated) return s_.fail("F009", at, "POINTS is given twice");
     std::uint64_t n = 0;
     if (!s_.count(n, "the number of POINTS") || !type(file_.points_type, "POINTS")) return false;
     if (n >= no_index) return s_.fail("F014", at, "POINTS asks for " + std::to_string(n) + " points: at most 4294967294 can be read");
@@ -333,7 +333,7 @@ bool Parser::points(std::uint64_t at) {
 }
 
 bool Parser::cells(LegacyCells& out, std::uint64_t at, const char* what) {
-    if (out.stated) return s_.fail("F009", at, std::string(what) + " stands twice");
+    if (out.stated) return s_.fail("F009", at, std::string(what) + " is given twice");
     out.stated = true;
     out.offset = at;
     std::uint64_t count = 0, size = 0;
@@ -405,7 +405,7 @@ bool Parser::offset_cells(LegacyCells& out, std::uint64_t count, std::uint64_t s
 }
 
 bool Parser::cell_types(std::uint64_t at) {
-    if (file_.types_stated) return s_.fail("F009", at, "CELL_TYPES stands twice");
+    if (file_.types_stated) return s_.fail("F009", at, "CELL_TYPES is given twice");
     std::uint64_t n = 0;
     if (!s_.count(n, "the number of CELL_TYPES") || !s_.room_for(LegacyType::int32, n, "CELL_TYPES")) return false;
     file_.types_stated = true;

@@ -205,7 +205,7 @@ private:
         const bool stated = !well_.measured_depth.empty();
         const std::vector<double> depths = stated ? well_.measured_depth : lengths_along(well_.path);
         if (!stated && !logs_.empty()) {
-            Finding f = make_finding("F163", "no log MD states measured depths: the logs stand along the length of the path",
+            Finding f = make_finding("F163", "no log MD gives measured depths: the logs are placed by the length along the path",
                                      {input_.name(), cursor_.line()});
             f.entities.push_back({"well", well_.info.name});
             data_.findings.push_back(std::move(f));

@@ -229,7 +229,7 @@ void keep_unclosed(const ReportedFile& before, ReportedFile& after) {
         if (unclosed && !known) after.findings.push_back(f);
     }
     const bool told = std::ranges::any_of(after.findings, [](const Finding& f) { return f.severity == Severity::error; });
-    if (!told) after.findings.push_back(make_finding("B06", "the surfaces close around no volume: the result has no region"));
+    if (!told) after.findings.push_back(make_finding("B06", "the surfaces enclose no volume: the result has no region"));
     after.valid = false;
 }
 

@@ -33,7 +33,7 @@ ReportedFile ended_badly(const std::string& path, FileOutcome outcome, const cha
 std::string last_words(const WorkerEnd& end) {
     std::string text = end.last_words;
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    return text.empty() ? std::string() : "; its last words: " + text;
+    return text.empty() ? std::string() : "; its last output: " + text;
 }
 
 std::string seconds_text(double seconds) {
@@ -81,9 +81,9 @@ ReportedFile judge_end(const std::string& path, const WorkerEnd& end, double sec
     switch (end.how) {
         case WorkerEnd::How::timed_out:
             return ended_badly(path, FileOutcome::limit, "F023",
-                               "the time limit of " + seconds_text(seconds) + " was hit: checking this file was broken off");
+                               "the time limit of " + seconds_text(seconds) + " was hit: the check of this file was stopped");
         case WorkerEnd::How::too_much_output:
-            return ended_badly(path, FileOutcome::limit, "F023", "the report of this file grows beyond bounds: it was broken off");
+            return ended_badly(path, FileOutcome::limit, "F023", "the report of this file is too large: the check was stopped");
         case WorkerEnd::How::signalled:
             if (end.number == SIGXCPU) return ended_badly(path, FileOutcome::limit, "F023", "the limit of processor time was hit");
             if (end.number == SIGKILL)
