@@ -60,7 +60,7 @@ void add_common_options(CLI::App& command, CommonOptions& o, bool writes) {
     command.add_option("--progress", o.progress, "Progress on standard error (default auto: on a terminal)")
         ->type_name("auto|always|never")
         ->check(CLI::IsMember({"auto", "always", "never"}));
-    command.add_option("--tolerance", o.tolerance, "Welding length for checks and repairs; reading and converting never weld by it")
+    command.add_option("--tolerance", o.tolerance, "Welding length for checks and repairs, and with --option as=brep")
         ->type_name("L")
         ->check(is_length());
     command.add_option("--near", o.near, "Search length for near misses in checks; not used by reading and converting")
@@ -74,6 +74,15 @@ CLI::Validator is_length() {
         double value = 0;
         const bool good = parse_real(text, value) == NumberStatus::ok && value >= 0 && value <= 1e20;
         return good ? std::string() : "expected a length, a number of at least 0; found '" + text + "'";
+    };
+    return CLI::Validator(check, std::string());
+}
+
+CLI::Validator is_positive_length() {
+    const auto check = [](const std::string& text) {
+        double value = 0;
+        const bool good = parse_real(text, value) == NumberStatus::ok && value > 0 && value <= 1e20;
+        return good ? std::string() : "expected a length, a number above 0; found '" + text + "'";
     };
     return CLI::Validator(check, std::string());
 }
@@ -139,6 +148,26 @@ void report(const std::vector<Finding>& findings, bool verbose) {
     for (const Finding& f : findings) {
         if (verbose || f.severity != Severity::info) print_finding(f);
     }
+}
+
+void report(const std::vector<Loss>& losses, bool verbose) {
+    end_progress();
+    for (const Loss& loss : losses) {
+        if (loss.loss_class == LossClass::style && !verbose) continue;
+        std::string line = std::string("lost (") + to_string(loss.loss_class) + "): ";
+        if (!loss.entity.empty()) line += loss.entity + ": ";
+        line += loss.what;
+        if (loss.count > 1) line += " (" + std::to_string(loss.count) + " times)";
+        if (!loss.why.empty()) line += ": " + loss.why;
+        std::fprintf(stderr, "%s\n", line.c_str());
+    }
+}
+
+ExitStatus print_beside(const std::string& text, const std::string& output) {
+    const ExitStatus status = print(text);
+    if (status != ExitStatus::done && !output.empty())
+        std::fprintf(stderr, "geomend: %s is written all the same; only the report of it is not\n", output.c_str());
+    return status;
 }
 
 ExitStatus print(const std::string& text) {

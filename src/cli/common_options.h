@@ -31,6 +31,9 @@ void add_common_options(CLI::App& command, CommonOptions& options, bool writes);
 /// A check of options: a finite number of at least 0 and at most 1e20.
 CLI::Validator is_length();
 
+/// The same, above 0.
+CLI::Validator is_positive_length();
+
 /// KEY=VALUE texts as pairs; failure (usage) where one has no '='.
 Result<FormatOptions> format_options(const std::vector<std::string>& texts);
 
@@ -48,7 +51,11 @@ bool wants_color(int descriptor);
 ExitStatus report(const Failure& failure);
 /// Prints findings on standard error: warnings and errors, with `verbose` also information.
 void report(const std::vector<Finding>& findings, bool verbose);
-/// Writes text to standard output; a failure (full disk, closed pipe) is told by the status.
+/// Prints on standard error what was lost: substance and identity, with `verbose` also style.
+void report(const std::vector<Loss>& losses, bool verbose);
+/// Writes text to standard output; a failure (full disk, closed pipe) is given by the status.
 ExitStatus print(const std::string& text);
+/// The same of a command that has written `output`, which is named where its report cannot be printed; empty: nothing was written.
+ExitStatus print_beside(const std::string& text, const std::string& output);
 
 }  // namespace geomend::cli

@@ -19,23 +19,6 @@ struct ConvertOptions : CommonOptions {
     bool lossy = false;
 };
 
-std::string loss_line(const Loss& loss) {
-    std::string line = std::string("lost (") + to_string(loss.loss_class) + "): ";
-    if (!loss.entity.empty()) line += loss.entity + ": ";
-    line += loss.what;
-    if (loss.count > 1) line += " (" + std::to_string(loss.count) + " times)";
-    if (!loss.why.empty()) line += ": " + loss.why;
-    return line + '\n';
-}
-
-// Substance and identity are always told; style only when asked.
-void report_losses(const std::vector<Loss>& losses, const ConvertOptions& o) {
-    end_progress();
-    for (const Loss& loss : losses) {
-        if (loss.loss_class != LossClass::style || o.verbose) std::fputs(loss_line(loss).c_str(), stderr);
-    }
-}
-
 Json result_json(const ConvertOptions& o, const Result<ConvertReport>& result) {
     Json j{{"inputs", o.inputs}, {"output", o.output}};
     if (!result) {
@@ -66,6 +49,7 @@ ExitStatus run(const ConvertOptions& o) {
     request.to = o.to;
     request.like = o.like;
     request.lossy = o.lossy;
+    request.tolerance = o.tolerance;
     request.accept_unterminated = o.accept_unterminated;
     request.load = {o.from, std::move(*options), &monitor};
     const auto result = convert(request);
@@ -73,9 +57,9 @@ ExitStatus run(const ConvertOptions& o) {
     if (!result) status = report(result.why());
     else if (!o.quiet) {
         report(result->findings, o.verbose);
-        report_losses(result->losses, o);
+        report(result->losses, o.verbose);
     }
-    if (o.json) status = worse(status, print(json_text(result_json(o, result))));
+    if (o.json) status = worse(status, print_beside(json_text(result_json(o, result)), result ? o.output : std::string()));
     return status;
 }
 

@@ -48,7 +48,7 @@ ExitStatus run(const InfoOptions& o) {
     std::vector<FileSummary> summaries;
     Dataset sites;
     for (const std::string& file : o.files) {
-        FileSummary summary = summarise(file, load, measured ? &*measures : nullptr);
+        FileSummary summary = summarise(file, load, measured ? &*measures : nullptr, o.tolerance);
         if (!summary.error) take_sites(summary, sites);
         if (summary.error) status = worse(status, report(*summary.error));
         else if (!o.quiet) report(summary.findings, o.verbose);

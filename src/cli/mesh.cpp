@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/mesh.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -49,12 +50,11 @@ std::string region_lines(const MeshReport& report, bool all_tries) {
     return text;
 }
 
-void tell_losses(const MeshReport& report, bool verbose) {
-    for (const Loss& loss : report.written.losses) {
-        if (loss.loss_class == LossClass::style && !verbose) continue;
-        std::fprintf(stderr, "lost (%s): %s%s%s\n", to_string(loss.loss_class), loss.entity.c_str(), loss.entity.empty() ? "" : ": ",
-                     loss.what.c_str());
-    }
+/// Exit status 5 where a limit is the reason why a region was not filled.
+ExitStatus status_of(const MeshReport& report) {
+    if (report.is_written) return ExitStatus::done;
+    const bool limit = std::ranges::any_of(report.regions, [](const auto& r) { return !r.filled() && r.hit_limit; });
+    return limit ? ExitStatus::limit : ExitStatus::invalid_result;
 }
 
 ExitStatus run(const MeshOptions& o) {
@@ -83,16 +83,18 @@ ExitStatus run(const MeshOptions& o) {
     const auto made = mesh(request);
     if (!made) return report(made.why());
     end_progress();
-    ExitStatus status = made->is_written ? ExitStatus::done : ExitStatus::invalid_result;
-    if (o.json) return worse(status, print(mesh_json(*made)));
+    ExitStatus status = status_of(*made);
+    if (o.json) return worse(status, print_beside(mesh_json(*made), made->is_written ? o.output : std::string()));
     report(made->errors, false);
     if (!o.quiet) {
-        tell_losses(*made, o.verbose);
+        report(made->written.losses, o.verbose);
         const std::string text = region_lines(*made, o.verbose);
         if (o.output == "-") std::fputs(text.c_str(), stderr);
-        else status = worse(status, print(text));
+        else status = worse(status, print_beside(text, made->is_written ? o.output : std::string()));
     }
     if (!made->errors.empty()) std::fputs("geomend: the model has errors: nothing was written; geomend repair may mend them\n", stderr);
+    else if (status == ExitStatus::limit)
+        std::fputs("geomend: not all regions could be filled within --time-limit and --memory-limit: nothing was written\n", stderr);
     else if (!made->is_written) std::fputs("geomend: not all regions could be filled: nothing was written\n", stderr);
     return status;
 }
@@ -108,7 +110,7 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
         ->add_option("--size", o->size,
                      "Edges of cells inside of regions, as far as surfaces allow (default: the median edge of the triangles around each)")
         ->type_name("L")
-        ->check(is_length());
+        ->check(is_positive_length());
     command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
         ->type_name("R")
         ->check(is_length());

@@ -139,16 +139,6 @@ Result<RepairRequest> request_of(const RepairOptions& o, const Monitor& monitor)
     return request;
 }
 
-void tell_losses(const std::vector<Loss>& losses, bool verbose) {
-    end_progress();
-    for (const Loss& loss : losses) {
-        if (loss.loss_class == LossClass::style && !verbose) continue;
-        const std::string entity = loss.entity.empty() ? std::string() : loss.entity + ": ",
-                          why = loss.why.empty() ? std::string() : ": " + loss.why;
-        std::fprintf(stderr, "lost (%s): %s%s%s\n", to_string(loss.loss_class), entity.c_str(), loss.what.c_str(), why.c_str());
-    }
-}
-
 bool is_same_file(const std::string& a, const std::string& b) {
     std::error_code none;
     return a == b || std::filesystem::equivalent(a, b, none);
@@ -229,7 +219,7 @@ ExitStatus run(const RepairOptions& o) {
     for (const std::string& file : o.reports) {
         if (auto written = write_report(all, file, &monitor); !written) status = worse(status, report(written.why()));
     }
-    if (!o.quiet) tell_losses(repaired->losses, o.verbose);
+    if (!o.quiet) report(repaired->losses, o.verbose);
     if (!o.write_recipe.empty()) {
         OutputSet output(o.write_recipe);
         name_from(o.write_recipe, repaired->recipe.edits);

@@ -10,7 +10,8 @@ namespace {
 using enum OptionValue;
 constexpr OptionUse both = OptionUse::both;
 
-constexpr OptionRow as_row{"as", both, words, "brep|cells", "a corner-point grid as boundary representation, or as cells"};
+constexpr OptionRow as_row{"as", both, words, "brep|cells",
+                           "loose surfaces and corner-point grids as boundary representation, or as they are"};
 constexpr OptionRow regions_row{"regions", both, text, "NAME", "attribute whose values are the regions of a corner-point grid"};
 constexpr OptionRow horizons_row{"horizons", both, whole_numbers, "N,M,...", "layers of a corner-point grid below which a horizon lies"};
 constexpr OptionRow cells_row{"cells", both, words, "active|all", "whether inactive cells are judged, too"};
@@ -25,6 +26,9 @@ constexpr OptionRow deck_row{"deck", both, words, "yes|no", "writes a deck of oi
 constexpr OptionRow gap_row{"gap", both, length, "L", "the largest gap or overlap that close-gaps closes"};
 
 constexpr std::array info_rows{
+    as_row,
+    regions_row,
+    horizons_row,
     OptionRow{"sites", both, whole_number, "N", "number of cells in which elements are counted; 0 leaves them out"},
     OptionRow{"size", both, length, "L", "characteristic length"},
     OptionRow{"angle", both, length, "A", "characteristic angle in degrees"},

@@ -9,6 +9,7 @@
 #include "formats/registry.h"
 #include "pipeline/command_options.h"
 #include "pipeline/deck_parts.h"
+#include "pipeline/found_models.h"
 #include "pipeline/grid_origin.h"
 #include "pipeline/grids.h"
 #include "pipeline/merge.h"
@@ -156,6 +157,9 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Dat
     const Monitor* monitor = request.load.monitor;
     if (monitor != nullptr && monitor->stopped()) return stopped();
     if (auto joined = join_properties(*dataset); !joined) return std::move(joined).why();
+    if (!change && option_value(options.options, "as") == "brep") {
+        if (auto stated = state_found_models(*dataset, request.tolerance); !stated) return std::move(stated).why();
+    }
     if (change) {
         if (auto changed = change(*dataset, **format); !changed) return std::move(changed).why();
     }

@@ -17,6 +17,7 @@ struct ConvertRequest {
     std::string output;                ///< "-" is standard output
     std::string to;                    ///< format name; empty: by the output's extension
     std::string like;                  ///< a file whose corner-point grid takes the values of the inputs' cells; may be empty
+    double tolerance = -1;             ///< of welding with option as=brep; negative: that of validate
     bool lossy = false;                ///< substance may be lost
     bool accept_unterminated = false;  ///< a last object without END is taken as it is
     LoadOptions load;

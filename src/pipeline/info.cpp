@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/info.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <new>
+#include <set>
 
 #include "formats/registry.h"
 #include "geometry/measures.h"
+#include "grid/boundary_model.h"
 #include "grid/cell_geometry.h"
 #include "grid/connections.h"
 #include "pipeline/command_options.h"
+#include "pipeline/found_models.h"
+#include "pipeline/grids.h"
 #include "topology/brep_from_dataset.h"
 
 namespace geomend {
@@ -126,15 +132,19 @@ void into_frame(std::array<Vec3, 2>& box, ZPositive frame) {
     box[1][2] = 0.0 - low;
 }
 
-// The file's word for an object's role: its own, else that of the faces that a model makes of it.
+// The file's word for an object's role: its own, else that of the faces that a model makes of it where all have the same.
 std::string role_of(const Dataset& dataset, std::size_t object) {
     const ObjectInfo& info = info_of(dataset.objects[object]);
     std::string word = info.role_text;
     if (word.empty() && info.role != FeatureRole::unknown) word = to_string(info.role);
-    for (const StatedModel& model : dataset.models) {
-        for (const StatedModel::Face& face : model.faces) {
-            if (face.object == object && word.empty()) word = face.role_text;
+    if (word.empty()) {
+        std::set<std::string_view> words;
+        for (const StatedModel& model : dataset.models) {
+            for (const StatedModel::Face& face : model.faces) {
+                if (face.object == object) words.insert(face.role_text);
+            }
         }
+        if (words.size() == 1) word = *words.begin();
     }
     return word == "none" ? std::string() : word;
 }
@@ -158,6 +168,24 @@ ObjectSummary summarise_object(const Dataset& dataset, std::size_t index) {
         s.attributes.push_back({a.name, to_string(a.location), type_name(a.values), a.unit, a.components});
     for (const NamedSet& set : info.sets) s.sets.push_back({set.name, to_string(set.location), set.members.size()});
     return s;
+}
+
+std::vector<BrepSummary::GroupRow> group_rows(std::span<const BrepData::RegionList> lists,
+                                              std::span<const BrepSummary::RegionRow> regions) {
+    std::vector<BrepSummary::GroupRow> rows;
+    for (const BrepData::RegionList& list : lists) {
+        BrepSummary::GroupRow& row = rows.emplace_back();
+        row.name = list.name;
+        row.volume = 0;
+        for (const RegionId region : list.regions) {
+            if (region.value >= regions.size()) continue;
+            row.regions.push_back(region.value);
+            const auto& volume = regions[region.value].volume;
+            row.volume = row.volume && volume ? std::optional(*row.volume + *volume) : std::nullopt;
+        }
+        if (row.regions.empty()) row.volume.reset();
+    }
+    return rows;
 }
 
 BrepSummary summarise_brep(const BrepData& b) {
@@ -186,6 +214,10 @@ BrepSummary summarise_brep(const BrepData& b) {
         if (measurable && region.volume_known && std::isfinite(region.volume)) row.volume = std::abs(region.volume);
         s.region_volumes.push_back(std::move(row));
     }
+    s.layer_rows = group_rows(b.layers, s.region_volumes);
+    s.block_rows = group_rows(b.fault_blocks, s.region_volumes);
+    const auto& units = b.crs.axis_units;
+    if (measurable && !units[0].empty()) s.volume_unit = units[0] + "3";
     if (measurable && !b.universe.empty() && std::isfinite(b.universe_volume)) s.universe_volume = std::abs(b.universe_volume);
     return s;
 }
@@ -217,7 +249,33 @@ FileSummary summarise(const std::string& path, const Dataset& dataset) {
     return summary;
 }
 
-FileSummary summarise(const std::string& path, const LoadOptions& options, const complexity::ComplexityOptions* complexity) {
+namespace {
+
+/// Adds what option as=brep asks for; how many there are.
+Result<std::size_t> add_found_models(Dataset& dataset, const FormatOptions& options, double tolerance) {
+    const std::string_view as = option_value(options, "as");
+    if (as.empty() || as == "cells") return std::size_t{0};
+    if (as != "brep") return failure(FailureKind::usage, "F018", {}, "--option as=" + std::string(as) + ": expected brep or cells");
+    const auto request = model_request(options);
+    if (!request) return request.why();
+    auto found = models_in_loose_surfaces(dataset, tolerance);
+    if (!found) return std::move(found).why();
+    for (const Object& object : dataset.objects) {
+        const auto* grid = std::get_if<CornerPointGrid>(&object);
+        if (grid == nullptr || grid->pillars.empty()) continue;
+        auto model = grid::boundary_model(*grid, *request);
+        if (!model) return std::move(model).why();
+        topology::build_breps(*model);
+        std::ranges::move(model->breps, std::back_inserter(found->breps));
+    }
+    std::ranges::move(found->breps, std::back_inserter(dataset.breps));
+    return found->breps.size();
+}
+
+}  // namespace
+
+FileSummary summarise(const std::string& path, const LoadOptions& options, const complexity::ComplexityOptions* complexity,
+                      double tolerance) {
     FileSummary failed;
     failed.file = path;
     LoadOptions reading = options;
@@ -229,7 +287,13 @@ FileSummary summarise(const std::string& path, const LoadOptions& options, const
     }
     try {
         topology::build_breps(*dataset);
+        const auto found = add_found_models(*dataset, reading.options, tolerance);
+        if (!found) {
+            failed.error = found.why();
+            return failed;
+        }
         FileSummary summary = summarise(path, *dataset);
+        for (std::size_t b = summary.breps.size() - *found; b < summary.breps.size(); ++b) summary.breps[b].is_found = true;
         for (std::size_t b = 0; complexity != nullptr && b < dataset->breps.size(); ++b)
             summary.breps[b].complexity = complexity::measure(*dataset->breps[b], *complexity);
         if (complexity != nullptr && complexity->monitor != nullptr && complexity->monitor->stopped())

@@ -53,6 +53,15 @@ struct BrepSummary {
         std::uint64_t cells = 0;
     };
     std::vector<RegionRow> region_volumes;
+    /// A layer or fault block.
+    struct GroupRow {
+        std::string name;
+        std::vector<std::uint32_t> regions;  ///< rows of region_volumes
+        std::optional<double> volume;        ///< none where that of a region is not known
+    };
+    std::vector<GroupRow> layer_rows, block_rows;
+    std::string volume_unit;  ///< as m3; empty where axes state none, or several
+    bool is_found = false;    ///< in loose surfaces or a grid, because --option as=brep asked for it; false: the file states it
     std::optional<double> universe_volume;
     std::optional<geomend::complexity::Complexity> complexity;  ///< where it was asked for
 };
@@ -73,9 +82,11 @@ struct FileSummary {
     std::optional<Failure> error;
 };
 
-/// Reads a file, builds its boundary representations at zero distance and measures them.
+/// Reads a file, builds its boundary representations at zero distance and measures them. With option as=brep also those of its grids,
+/// and those that checks find in its loose surfaces, welded at `tolerance` (negative: by rule).
 /// \param complexity measures how complex they are, too; nullptr: does not
-FileSummary summarise(const std::string& path, const LoadOptions& options, const complexity::ComplexityOptions* complexity = nullptr);
+FileSummary summarise(const std::string& path, const LoadOptions& options, const complexity::ComplexityOptions* complexity = nullptr,
+                      double tolerance = -1);
 
 /// The same of a Dataset whose breps have been built.
 FileSummary summarise(const std::string& path, const Dataset& dataset);

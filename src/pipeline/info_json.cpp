@@ -47,6 +47,18 @@ Json object_json(const ObjectSummary& o) {
     return j;
 }
 
+Json groups_json(const std::vector<BrepSummary::GroupRow>& groups, const BrepSummary& b) {
+    Json all = Json::array();
+    for (const auto& group : groups) {
+        Json names = Json::array();
+        for (const std::uint32_t r : group.regions) names.push_back(b.region_volumes[r].name);
+        Json one{{"name", group.name}, {"regions", std::move(names)}};
+        if (group.volume) one["volume"] = *group.volume;
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
 Json brep_json(const BrepSummary& b, bool named) {
     Json j = Json::object();
     if (named) j["name"] = b.name;
@@ -73,9 +85,19 @@ Json brep_json(const BrepSummary& b, bool named) {
         volumes.push_back(std::move(one));
     }
     j["region_volumes"] = std::move(volumes);
+    if (!b.layer_rows.empty()) j["layer_list"] = groups_json(b.layer_rows, b);
+    if (!b.block_rows.empty()) j["fault_block_list"] = groups_json(b.block_rows, b);
+    if (b.is_found) j["found"] = true;
     if (b.universe_volume) j["universe_volume"] = *b.universe_volume;
     if (named && b.complexity) j["complexity"] = complexity_json(*b.complexity);
     return j;
+}
+
+void add_groups(const std::vector<BrepSummary::GroupRow>& groups, std::size_t first_region, std::vector<BrepSummary::GroupRow>& to) {
+    for (BrepSummary::GroupRow group : groups) {
+        for (std::uint32_t& r : group.regions) r += static_cast<std::uint32_t>(first_region);
+        to.push_back(std::move(group));
+    }
 }
 
 BrepSummary sum_of(const std::vector<BrepSummary>& all) {
@@ -95,7 +117,10 @@ BrepSummary sum_of(const std::vector<BrepSummary>& all) {
         sum.fault_blocks += b.fault_blocks;
         sum.internal_lines_of_regions += b.internal_lines_of_regions;
         sum.internal_lines_of_surfaces += b.internal_lines_of_surfaces;
+        add_groups(b.layer_rows, sum.region_volumes.size(), sum.layer_rows);
+        add_groups(b.block_rows, sum.region_volumes.size(), sum.block_rows);
         sum.region_volumes.insert(sum.region_volumes.end(), b.region_volumes.begin(), b.region_volumes.end());
+        sum.is_found = sum.is_found || b.is_found;
         if (b.universe_volume) sum.universe_volume = sum.universe_volume.value_or(0) + *b.universe_volume;
     }
     return sum;

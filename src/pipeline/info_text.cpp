@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
 #include "base/number_text.h"
 #include "base/wording.h"
 #include "pipeline/complexity_report.h"
@@ -7,6 +11,13 @@
 namespace geomend {
 
 namespace {
+
+/// Twelve digits: what a sum of many terms is worth.
+std::string full_figure(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.12g", value);
+    return text;
+}
 
 /// The same word for one and for many: a type or a role.
 std::string counted(std::uint64_t n, const std::string& what) { return geomend::counted(n, what, what); }
@@ -49,10 +60,10 @@ std::string object_text(const ObjectSummary& o, bool verbose) {
     if (!o.feature.empty() && o.feature != o.name) text += " of '" + o.feature + "'";
     if (!o.groups.empty()) text += ", in " + joined(o.groups, "/");
     text += ": " + counts_line(o) + '\n';
-    if (o.area) text += "    area " + short_number(*o.area) + unit_suffix(o.units, "2") + '\n';
-    if (o.volume) text += "    volume " + short_number(*o.volume) + unit_suffix(o.units, "3") + '\n';
+    if (o.area) text += "    area " + full_figure(*o.area) + unit_suffix(o.units, "2") + '\n';
+    if (o.volume) text += "    volume " + full_figure(*o.volume) + unit_suffix(o.units, "3") + '\n';
     if (o.volume_trilinear)
-        text += "    trilinear volume " + short_number(*o.volume_trilinear) + unit_suffix(o.units, "3") + " (warped faces)\n";
+        text += "    trilinear volume " + full_figure(*o.volume_trilinear) + unit_suffix(o.units, "3") + " (warped faces)\n";
     if (o.bounds) {
         const char* axes[] = {"x", "y", o.z_positive == ZPositive::depth ? "z (depth)" : "z"};
         text += "    bounds";
@@ -78,9 +89,61 @@ std::string object_text(const ObjectSummary& o, bool verbose) {
     return text;
 }
 
+/// A table of names and volumes, with what else is said of each.
+class VolumeTable {
+public:
+    VolumeTable(std::string title, const std::string& unit) {
+        rows_.push_back({std::move(title), unit.empty() ? std::string("volume") : "volume (" + unit + ")", {}});
+    }
+    void add(const std::string& name, const std::optional<double>& volume, std::string more) {
+        rows_.push_back({name.empty() ? "''" : name, volume ? full_figure(*volume) : std::string("not known"), std::move(more)});
+    }
+    std::string text() const {
+        std::array<std::size_t, 2> width{};
+        for (const auto& row : rows_) {
+            for (std::size_t c = 0; c < 2; ++c) width[c] = std::max(width[c], std::min<std::size_t>(row[c].size(), 40));
+        }
+        std::string text;
+        for (const auto& [name, volume, more] : rows_) {
+            text += "    " + name + std::string(width[0] - std::min(width[0], name.size()) + 2, ' ');
+            text += std::string(width[1] - std::min(width[1], volume.size()), ' ') + volume;
+            text += more.empty() ? "\n" : "  " + more + '\n';
+        }
+        return text;
+    }
+
+private:
+    std::vector<std::array<std::string, 3>> rows_;
+};
+
+std::string regions_text(const BrepSummary& b) {
+    VolumeTable table("region", b.volume_unit);
+    for (const auto& r : b.region_volumes) table.add(r.name, r.volume, r.cells > 0 ? counted(r.cells, "cells") : std::string());
+    if (b.universe_volume) table.add("all together", *b.universe_volume, {});
+    return b.region_volumes.empty() && !b.universe_volume ? std::string() : table.text();
+}
+
+std::string groups_text(const char* title, const std::vector<BrepSummary::GroupRow>& groups, const BrepSummary& b) {
+    if (groups.empty()) return {};
+    VolumeTable table(title, b.volume_unit);
+    for (const auto& group : groups) {
+        std::vector<std::string> names;
+        for (const std::uint32_t r : group.regions) names.push_back(b.region_volumes[r].name);
+        constexpr std::size_t shown = 8;
+        std::string more;
+        if (names.size() > shown) {
+            more = " and " + std::to_string(names.size() - shown) + " more";
+            names.resize(shown);
+        }
+        table.add(group.name, group.volume, joined(names, ", ") + more);
+    }
+    return table.text();
+}
+
 std::string brep_text(const BrepSummary& b) {
     std::string text = "  boundary representation";
     if (!b.name.empty()) text += " '" + b.name + "'";
+    if (b.is_found) text += " (found, not stated)";
     text += ": " + counted(b.corners, "corners") + ", " + counted(b.lines, "lines") + ", " + counted(b.surfaces, "surfaces") + ", " +
             counted(b.regions, "regions") + " (" + counted(b.vertices, "vertices") + ", " + counted(b.triangles, "triangles") + ")\n";
     std::vector<std::string> parts;
@@ -90,13 +153,7 @@ std::string brep_text(const BrepSummary& b) {
     text += "    " + counted(b.interfaces, "interfaces");
     if (!parts.empty()) text += " (" + joined(parts, ", ") + ')';
     text += ", " + counted(b.contacts, "contacts") + ", " + counted(b.layers, "layers") + '\n';
-    for (const auto& r : b.region_volumes) {
-        text += "    region '" + r.name + "': ";
-        text += r.volume ? "volume " + short_number(*r.volume) : std::string("volume not known");
-        if (r.cells > 0) text += ", " + counted(r.cells, "cells");
-        text += '\n';
-    }
-    if (b.universe_volume) text += "    all together: volume " + short_number(*b.universe_volume) + '\n';
+    text += regions_text(b) + groups_text("layer", b.layer_rows, b) + groups_text("fault block", b.block_rows, b);
     if (b.complexity) text += complexity_text(*b.complexity);
     return text;
 }

@@ -2,6 +2,7 @@
 #include "pipeline/mesh.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "base/wording.h"
 #include "exchange/model_from_brep.h"
@@ -15,7 +16,24 @@ namespace geomend {
 
 namespace {
 
-Failure cannot_fill(const std::string& file, const std::string& why) { return failure(FailureKind::cannot_hold, "F026", {file}, why); }
+/// \param measure by which advice fits the reason; empty: none
+Failure cannot_fill(const std::string& file, const std::string& why, const char* measure = "") {
+    Failure f = failure(FailureKind::cannot_hold, "F026", {file}, why);
+    if (*measure != 0) f.error.measures.emplace_back(measure, 1);
+    return f;
+}
+
+/// Why a file without regions has none, and the measure of that.
+Failure no_region(const std::string& file, const Dataset& dataset) {
+    const auto any = [&]<class Shape>(std::type_identity<Shape>) {
+        return std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<Shape>(o); });
+    };
+    if (any(std::type_identity<Surface>{}) || any(std::type_identity<CellMesh>{}))
+        return cannot_fill(file, "no surfaces enclose a region: there is nothing to fill");
+    if (any(std::type_identity<CornerPointGrid>{}) || any(std::type_identity<StructuredGrid>{}))
+        return cannot_fill(file, "a grid has its cells: mesh fills the regions between surfaces", "grid");
+    return cannot_fill(file, "there are no surfaces: mesh fills the regions between surfaces", "no_surfaces");
+}
 
 /// Errors of the model, which is not filled where there are any.
 Result<std::vector<Finding>> errors_of(const Dataset& dataset, const MeshRequest& request) {
@@ -32,8 +50,9 @@ Result<topology::JudgedModel> model_to_fill(const Dataset& dataset, const MeshRe
     auto models = topology::models_to_judge(dataset, topology::model_sources(dataset, lengths));
     if (!models) return std::move(models).why();
     std::erase_if(*models, [](const topology::JudgedModel& m) { return m.found.regions.empty(); });
-    if (models->empty()) return cannot_fill(file, "no surfaces close around a region: there is nothing to fill");
-    if (models->size() > 1) return cannot_fill(file, std::to_string(models->size()) + " models with regions: fill them one by one");
+    if (models->empty()) return no_region(file, dataset);
+    if (models->size() > 1)
+        return cannot_fill(file, std::to_string(models->size()) + " models with regions, where one is expected", "several_models");
     return std::move(models->front());
 }
 

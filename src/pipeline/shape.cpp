@@ -117,10 +117,10 @@ void append(Dataset& dataset, Dataset model) {
     std::ranges::move(model.objects, std::back_inserter(dataset.objects));
 }
 
-// Puts in place of a dataset's models what add(brep) makes of each; objects outside the models stay behind them.
+// Puts in place of what a dataset's boundary representations were made from what add(brep) makes of each; objects outside of them
+// stay behind them.
 template <class Add>
-void replace_models(Dataset& dataset, const Add& add) {
-    topology::build_breps(dataset);
+void replace_sources(Dataset& dataset, const Add& add) {
     if (dataset.breps.empty()) return;
     std::vector<Object> outside = objects_outside(dataset);
     std::vector<Brep> breps = std::move(dataset.breps);
@@ -131,12 +131,15 @@ void replace_models(Dataset& dataset, const Add& add) {
     std::ranges::move(outside, std::back_inserter(dataset.objects));
 }
 
+// Replaces what the models of the file were made from.
 void to_faced_models(Dataset& dataset) {
-    replace_models(dataset, [&](const Brep& brep) { append(dataset, exchange::faced_model(brep, dataset.losses)); });
+    topology::build_breps(dataset);
+    replace_sources(dataset, [&](const Brep& brep) { append(dataset, exchange::faced_model(brep, dataset.losses)); });
 }
 
 void to_tagged_meshes(Dataset& dataset, const Format& target) {
-    replace_models(dataset, [&](const Brep& brep) {
+    topology::build_breps(dataset);
+    replace_sources(dataset, [&](const Brep& brep) {
         if (target.statements) append(dataset, exchange::tagged_model(brep, dataset.losses));
         else dataset.objects.emplace_back(exchange::tagged_mesh(brep, dataset.losses));
     });
@@ -172,6 +175,13 @@ void surround_regions(Dataset& dataset, const Format& target) {
 }  // namespace
 
 void flatten_meshes(Dataset& dataset) { to_flat_objects(dataset); }
+
+void state_models(Dataset& dataset, std::vector<Brep> found) {
+    if (found.empty()) return;
+    topology::build_breps(dataset);
+    std::ranges::move(found, std::back_inserter(dataset.breps));
+    replace_sources(dataset, [&](const Brep& brep) { append(dataset, exchange::faced_model(brep, dataset.losses)); });
+}
 
 void shape_for(Dataset& dataset, const Format& target) {
     surround_regions(dataset, target);

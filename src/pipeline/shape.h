@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "base/result.h"
 #include "formats/format.h"
+#include "model/brep.h"
 #include "model/dataset.h"
 
 namespace geomend {
@@ -11,6 +14,10 @@ namespace geomend {
 /// representations, turns tagged meshes into faced models and the other way round. A Dataset that already has the
 /// shape, or that states no model, stays as it is. Losses of the change are added to dataset.losses.
 void shape_for(Dataset& dataset, const Format& target);
+
+/// Puts boundary representations that were found in a Dataset into it as models over surfaces, in the place of the objects that they
+/// were made from. Models that it states become such ones, too; other objects follow behind them.
+void state_models(Dataset& dataset, std::vector<Brep> found);
 
 /// Takes meshes that have no volumes and no entities apart into surfaces, polylines and point sets.
 void flatten_meshes(Dataset& dataset);

@@ -71,7 +71,10 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
         auto cells = all ? cells_of_region(facets, std::move(*all)) : Result<RegionCells>(all.why());
         if (!cells) {
             report.why_not.push_back(std::string(rung.name) + ": " + cells.why().error.message);
-            if (cells.why().error.code == "F023") too_slow = rung.switches;
+            if (cells.why().error.code == "F023") {
+                too_slow = rung.switches;
+                report.hit_limit = true;
+            }
             continue;
         }
         report.rung = rung.name;

@@ -33,6 +33,7 @@ struct FilledRegion {
     std::string rung;                  ///< the method that served; empty: none did
     bool as_asked = true;              ///< false: shapes and sizes that were asked for could not be had
     std::vector<std::string> why_not;  ///< why those before it did not
+    bool hit_limit = false;            ///< of time: one of those did
     double seconds = 0;                ///< on the wall
     bool filled() const { return !rung.empty(); }
 };

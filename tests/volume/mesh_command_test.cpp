@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include "support/program.h"
@@ -89,10 +90,50 @@ TEST(Mesh, ATryThatHitsItsLimitLeavesTheOlderOutputAndNamesRegionsAndReason) {
     const std::string out = folder / "out.vtu";
     test::write_file(out, "old");
     const auto run = run_geomend({"mesh", sample("layered_box.ml"), "-o", out, "--time-limit", "0.0001"});
-    EXPECT_EQ(run.status, 6);
+    EXPECT_EQ(run.status, 5) << "a limit was hit";
+    EXPECT_NE(run.err.find("--time-limit"), std::string::npos) << run.err;
     EXPECT_NE(run.out.find("did not end"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("'west_1'"), std::string::npos) << run.out;
     EXPECT_EQ(test::read_file(out), "old");
+}
+
+TEST(Mesh, AdviceFitsTheReasonWhyThereIsNothingToFill) {
+    const TemporaryFolder folder;
+    const auto words = [&](const std::string& file) {
+        const auto run = run_geomend({"mesh", file, "-o", folder / "out.vtu"});
+        EXPECT_EQ(run.status, 4) << file;
+        return run.err;
+    };
+    for (const char* name : {"wells.wl", "h1_grid.zmap", "h1_picks.vs"})
+        EXPECT_NE(words(sample(name)).find("there are no surfaces"), std::string::npos) << name;
+    EXPECT_NE(words(sample("faulted_grid.grdecl")).find("a grid has its cells"), std::string::npos);
+    EXPECT_NE(words(sample("open_layers.ts")).find("geomend repair closes gaps"), std::string::npos);
+    const std::string box = test::read_file(sample("layered_box.ml"));
+    std::string other = box;
+    other.replace(other.find("name:layered_box"), 16, "name:layered_too");
+    test::write_file(folder / "two.ml", box + other);
+    const std::string two = words(folder / "two.ml");
+    EXPECT_NE(two.find("2 models with regions"), std::string::npos) << two;
+    EXPECT_NE(two.find("one by one"), std::string::npos) << two;
+}
+
+TEST(Mesh, AReportThatCannotBePrintedSaysThatTheMeshIsWritten) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.vtu";
+    const std::string words = folder / "err";
+    const std::string line =
+        std::string(GEOMEND_PROGRAM) + " mesh " + sample("layered_box.ml") + " -o " + out + " --json >/dev/full 2>" + words;
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 4);
+    EXPECT_NE(test::read_file(words).find("out.vtu is written all the same"), std::string::npos) << test::read_file(words);
+    EXPECT_TRUE(std::filesystem::exists(out));
+}
+
+TEST(Mesh, TheRoleOfOneSurfaceIsNotThatOfTheMesh) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu"}).status, 0);
+    for (const json& object : test::info(folder / "out.vtu")["objects"]) {
+        EXPECT_TRUE(object["kind"] != "cell-mesh" || !object.contains("role")) << object;
+    }
 }
 
 TEST(Mesh, ATargetWithoutCellsRefusesThem) {
@@ -122,6 +163,7 @@ TEST(Mesh, OptionsThatAreNoNumbersAreRefused) {
             EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu", option, value}).status, 2)
                 << option << ' ' << value;
     }
+    EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu", "--size", "0"}).status, 2);
 }
 
 TEST(Mesh, SurfacesWithoutARegionAreRefused) {
