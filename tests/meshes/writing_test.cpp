@@ -275,7 +275,7 @@ TEST(TetGen, FilesOfOneNameHaveNumbersOfRegionsAndSetsAndValuesOfPoints) {
     heat.values = std::vector<double>{0.5, 1, 1.5, 2};
     mesh.info.attributes.push_back(heat);
     const Written written = write(mesh, "tetgen", ".ele");
-    ASSERT_EQ(written.files.size(), 3u);
+    ASSERT_EQ(written.files.size(), 4u);
     EXPECT_EQ(numbers_after(written.files.at(".node"), ""),
               (std::vector<double>{4, 3, 1, 0, 1, 0, 0, 0, 0.5, 2, 2, 0, 0, 1, 3, 0, 2, 0, 1.5, 4, 0, 0, 3, 2}));
     EXPECT_EQ(numbers_after(written.files.at(".ele"), ""), (std::vector<double>{1, 4, 1, 1, 1, 2, 3, 4, 1}));
