@@ -59,10 +59,10 @@ const Format* format_by_name(std::string_view name) {
         if (same_word(format.name, name)) return &format;
     }
     for (const Format& format : all_formats()) {
-        if (same_word(format.family, name)) return &format;
+        if (has_extension(format, "." + lower_case(name))) return &format;
     }
     for (const Format& format : all_formats()) {
-        if (has_extension(format, "." + lower_case(name))) return &format;
+        if (same_word(format.family, name)) return &format;
     }
     return nullptr;
 }

@@ -3,7 +3,19 @@
 
 #include <algorithm>
 
+#include "formats/meshes/mesh_reading.h"
+
 namespace geomend::meshes {
+
+namespace {
+
+std::string_view unquoted(std::string_view text) {
+    return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
+}  // namespace
+
+DeckLines::DeckLines(std::string_view text) : cursor_(without_byte_order_mark(text)) {}
 
 std::string_view DeckKeyword::value(std::string_view name) const {
     const auto at = std::ranges::find(parameters, name, [](const auto& p) { return std::string_view(p.first); });
@@ -16,7 +28,9 @@ bool DeckKeyword::has(std::string_view name) const {
 
 void DeckLines::split(std::string_view text) {
     while (!trimmed(text).empty()) {
-        const std::size_t comma = text.find(',');
+        std::size_t comma = 0;
+        for (bool quoted = false; comma < text.size() && (quoted || text[comma] != ','); ++comma) quoted = quoted != (text[comma] == '"');
+        if (comma == text.size()) comma = std::string_view::npos;
         fields_.push_back(trimmed(text.substr(0, comma)));
         if (comma == std::string_view::npos) return;
         text.remove_prefix(comma + 1);
@@ -37,8 +51,9 @@ void DeckLines::read_keyword() {
         std::string name = upper_case(trimmed(fields_[i].substr(0, equals)));
         if (i == 0) keyword_.word = std::move(name);
         else
-            keyword_.parameters.emplace_back(
-                std::move(name), equals == std::string_view::npos ? std::string() : std::string(trimmed(fields_[i].substr(equals + 1))));
+            keyword_.parameters.emplace_back(std::move(name), equals == std::string_view::npos
+                                                                  ? std::string()
+                                                                  : std::string(unquoted(trimmed(fields_[i].substr(equals + 1)))));
     }
 }
 

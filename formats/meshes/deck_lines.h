@@ -25,7 +25,7 @@ struct DeckKeyword {
 /// Walks over a deck line by line: keyword lines, lines of data in between; comments ("**") and empty lines are passed over.
 class DeckLines {
 public:
-    explicit DeckLines(std::string_view text) : cursor_(text) {}
+    explicit DeckLines(std::string_view text);
 
     enum class Kind : std::uint8_t { end, keyword, data };
     Kind next();

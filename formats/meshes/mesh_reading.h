@@ -16,10 +16,13 @@
 
 namespace geomend::meshes {
 
+/// A text behind the mark that editors on Windows put before it.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// The words of a text, whatever lines they stand on; what follows a '#' on a line is a comment.
 class Words {
 public:
-    explicit Words(std::string_view text) : cursor_(text) {}
+    explicit Words(std::string_view text) : cursor_(without_byte_order_mark(text)) {}
 
     /// The next word; empty at the end of the text. Comments that are passed are kept in comment() until the next call.
     std::string_view next();
@@ -48,11 +51,14 @@ public:
     /// The entity of a dimension with a number; made where it is not there.
     std::uint32_t entity(int dimension, std::int64_t tag, const std::string& name);
     void add(CellType type, std::span<const std::uint32_t> nodes, std::uint32_t entity);
-    /// Drops entities where none of the cells has a number but 0, so that a mesh without regions has none.
+    /// Drops entities where none of the cells has a number but 0, so that a mesh without regions has none. A surface that lies between
+    /// several pairs of regions becomes one entity for each, in a group with its name and number.
     void finish();
 
 private:
     std::map<std::pair<int, std::int64_t>, std::uint32_t> entity_of_;
+
+    void cut_surfaces();
 };
 
 /// The next word as a whole number, or the failure that says what was expected (F004 at the end of the text, F005).

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <unordered_map>
 
@@ -20,6 +22,18 @@ namespace {
 
 using Members = std::vector<std::uint32_t>;
 
+void sort_and_unite(Members& members) {
+    std::ranges::sort(members);
+    members.erase(std::ranges::unique(members).begin(), members.end());
+}
+
+/// Coordinates of a NODE in a cylindrical (C) or spherical (S) system, angles in degrees, as Cartesian ones.
+Vec3 cartesian(const Vec3& p, char system) {
+    const double turn = p[1] * std::numbers::pi / 180, up = p[2] * std::numbers::pi / 180;
+    if (system == 'C') return {p[0] * std::cos(turn), p[0] * std::sin(turn), p[2]};
+    return {p[0] * std::cos(turn) * std::cos(up), p[0] * std::sin(turn) * std::cos(up), p[0] * std::sin(up)};
+}
+
 /// A face of elements that a SURFACE names, waiting for all elements.
 struct WaitingFace {
     std::string surface, elements, face;
@@ -34,6 +48,10 @@ public:
         if (auto failed = read(input, 0)) return std::move(*failed);
         if (mesh_.points.empty()) return unreadable("F017", {input.name()}, "there are no nodes: expected *NODE with a line for each");
         if (auto failed = add_surfaces(input)) return std::move(*failed);
+        name_both_sides();
+        if (faces_again_ > 0)
+            list_dropped(data_.losses, {LossClass::style, "", "faces of *SURFACE from their other side, or again",
+                                        "a surface is there once", faces_again_});
         for (auto& [name, members] : node_sets_) add_set(name, AttributeLocation::point, members);
         for (auto& [name, members] : element_sets_) {
             if (!is_entity_.contains(name)) add_set(name, AttributeLocation::cell, members);
@@ -51,10 +69,13 @@ private:
     Dataset data_;
     std::size_t part_ = 0, parts_ = 0;  // ids count anew in each PART; part 0 is what stands outside
     std::vector<std::unordered_map<std::int64_t, std::uint32_t>> nodes_ = {{}}, elements_ = {{}};
-    std::map<std::string, Members> node_sets_, element_sets_;  // by name in upper case: either case is the same
-    std::map<std::string, std::int64_t> tag_of_;               // of entities, by name
+    std::map<std::string, Members> node_sets_, element_sets_;             // by name in upper case: either case is the same
+    std::map<std::pair<std::size_t, std::string>, std::int64_t> tag_of_;  // of entities, by part and name
     std::set<std::string> is_entity_;
     std::vector<WaitingFace> faces_;
+    std::set<std::vector<std::uint32_t>> faces_taken_;  // by their nodes: a surface that was there from its other side
+    std::uint64_t faces_again_ = 0;
+    std::set<std::string> surfaces_;
 
     bool is_stopped(std::uint64_t line) const { return line % 16384 == 0 && options_.monitor != nullptr && options_.monitor->stopped(); }
 
@@ -79,6 +100,8 @@ private:
     }
 
     std::optional<Failure> include(const Input& input, const DeckKeyword& keyword, int depth) {
+        if (keyword.value("INPUT").empty())
+            return unreadable("F012", {input.name(), keyword.line}, "expected *INCLUDE, INPUT=FILE, found no file");
         auto found = input.companion(keyword.value("INPUT"));
         if (!found) return std::move(found).why();
         return read(*found, depth + 1);
@@ -95,6 +118,7 @@ private:
         };
         if (keyword.word == "NODE") return each_line([&] { return node(input, keyword, lines); });
         if (keyword.word == "ELEMENT") return elements(input, keyword, lines, kind);
+        if (keyword.word == "NSET" && keyword.has("ELSET")) add_nodes_of_elements(keyword);
         if (keyword.word == "NSET" || keyword.word == "ELSET") return each_line([&] { return set_line(input, keyword, lines); });
         if (keyword.word == "SURFACE" && (!keyword.has("TYPE") || upper_case(keyword.value("TYPE")) == "ELEMENT"))
             return each_line([&] { return surface_line(keyword, lines); });
@@ -146,13 +170,19 @@ private:
             return unreadable(status == NumberStatus::malformed ? "F005" : "F006", location_of(input, lines.cursor(), text),
                               "expected a coordinate, found " + shown(text));
         }
+        const std::string system = upper_case(keyword.value("SYSTEM"));
+        if (system == "C" || system == "S") p = cartesian(p, system[0]);
         const auto [at, is_new] = nodes_[part_].try_emplace(id, static_cast<std::uint32_t>(mesh_.points.size()));
         if (is_new) {
             if (mesh_.points.size() + 1 >= no_index)
                 return unreadable("F014", {input.name(), lines.line()}, "more nodes than can be numbered");
             mesh_.points.push_back(p);
         } else {
-            mesh_.points[at->second] = p;  // the last one holds, as in the program
+            mesh_.points[at->second] = p;
+            drop(data_.findings, data_.losses,
+                 {.what = "the first statement of a node that is there twice",
+                  .why = "the last one holds",
+                  .where = {input.name(), lines.line()}});
         }
         if (keyword.has("NSET")) node_sets_[upper_case(keyword.value("NSET"))].push_back(at->second);
         return std::nullopt;
@@ -222,8 +252,17 @@ private:
 
     std::uint32_t entity_of(int dimension, const std::string& name) {
         if (!name.empty()) is_entity_.insert(upper_case(name));
-        const auto [at, is_new] = tag_of_.try_emplace(upper_case(name), name.empty() ? 0 : static_cast<std::int64_t>(tag_of_.size()) + 1);
+        const auto [at, is_new] =
+            tag_of_.try_emplace({part_, upper_case(name)}, name.empty() ? 0 : static_cast<std::int64_t>(tag_of_.size()) + 1);
         return grown_.entity(dimension, at->second, name);
+    }
+
+    /// NSET=..., ELSET=...: the nodes of the elements of a set.
+    void add_nodes_of_elements(const DeckKeyword& keyword) {
+        Members& members = node_sets_[upper_case(keyword.value("NSET"))];
+        for (const std::uint32_t element : element_sets_[upper_case(keyword.value("ELSET"))])
+            members.insert(members.end(), mesh_.cell_nodes(element).begin(), mesh_.cell_nodes(element).end());
+        sort_and_unite(members);
     }
 
     /// Numbers, names of other sets, or first, last and step.
@@ -263,7 +302,10 @@ private:
                 }
                 const auto other = sets.find(upper_case(field));
                 if (other == sets.end()) ++missing;
-                else if (&other->second != &members) members.insert(members.end(), other->second.begin(), other->second.end());
+                else if (&other->second != &members) {
+                    members.insert(members.end(), other->second.begin(), other->second.end());
+                    sort_and_unite(members);  // sets of sets of sets would grow without end
+                }
             }
         }
         if (missing > 0)
@@ -274,6 +316,7 @@ private:
 
     std::optional<Failure> surface_line(const DeckKeyword& keyword, DeckLines& lines) {
         const auto& fields = lines.fields();
+        surfaces_.insert(std::string(keyword.value("NAME")));
         faces_.push_back({std::string(keyword.value("NAME")), std::string(fields[0]),
                           fields.size() > 1 ? upper_case(fields[1]) : std::string(), lines.line()});
         return std::nullopt;
@@ -307,6 +350,20 @@ private:
         return std::nullopt;
     }
 
+    /// Surfaces of which both sides were stated as "X_front" and "X_back", or as hanging wall and footwall, are called X.
+    void name_both_sides() {
+        for (const auto& [one, other] : {std::pair("_front", "_back"), std::pair("_hanging_wall", "_footwall")}) {
+            for (CellMesh::Entity& entity : mesh_.entities) {
+                for (const std::string suffix : {one, other}) {
+                    if (entity.dimension != 2 || !entity.name.ends_with(suffix)) continue;
+                    const std::string name = entity.name.substr(0, entity.name.size() - suffix.size());
+                    const bool has_both = surfaces_.contains(name + one) && surfaces_.contains(name + other);
+                    if (has_both) entity.name = name;
+                }
+            }
+        }
+    }
+
     bool add_face(std::uint32_t element, const WaitingFace& waiting) {
         const AbaqusElement* row = abaqus_element_of(mesh_.types[element]);
         std::int64_t wanted = 0;
@@ -315,16 +372,21 @@ private:
             return false;
         const auto face = std::ranges::find(row->faces, wanted);
         if (face == row->faces.end()) return false;
-        std::vector<std::uint32_t> nodes;
+        std::vector<std::uint32_t> nodes, key;
         for (const std::uint8_t corner : faces_of(row->type)[static_cast<std::size_t>(face - row->faces.begin())].corners())
             nodes.push_back(mesh_.cell_nodes(element)[corner]);
+        key = nodes;
+        std::ranges::sort(key);
+        if (!faces_taken_.insert(std::move(key)).second) {
+            ++faces_again_;
+            return true;
+        }
         grown_.add(nodes.size() == 3 ? CellType::triangle : CellType::quad, nodes, entity_of(2, waiting.surface));
         return true;
     }
 
     void add_set(const std::string& name, AttributeLocation location, Members& members) {
-        std::ranges::sort(members);
-        members.erase(std::ranges::unique(members).begin(), members.end());
+        sort_and_unite(members);
         if (!members.empty()) mesh_.info.sets.push_back({name, location, std::move(members)});
     }
 };

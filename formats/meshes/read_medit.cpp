@@ -195,7 +195,6 @@ Result<Dataset> read_medit(const Input& input, const ReadOptions& options) {
     if (!data) return data;
     data->format = "mesh";
     data->variant = "Medit";
-    tell_missing_line_end(input, *data);
     return data;
 }
 

@@ -13,6 +13,8 @@ struct Word {
     CellType type;
     const char* word;
 };
+// The first triangle of PENTA6 looks into the cell, that of VTK's wedge out of it.
+constexpr std::array<std::size_t, 6> penta6_order{0, 2, 1, 3, 5, 4};
 constexpr std::array<Word, 4> words{
     {{CellType::tetrahedron, "TETRA4"}, {CellType::pyramid, "PYRAM5"}, {CellType::wedge, "PENTA6"}, {CellType::hexahedron, "HEXA8"}}};
 
@@ -62,8 +64,13 @@ void write_cells(const VolumeMesh& mesh, OutputFile& file) {
         if (blocks.empty()) continue;
         file << word.word << '\n';
         for (const VolumeMeshData::Block& block : blocks) {
-            for (std::uint32_t c = block.first; c < block.first + block.count && file.good(); ++c)
-                write_element(file, c + 1, mesh->nodes_of(c));
+            for (std::uint32_t c = block.first; c < block.first + block.count && file.good(); ++c) {
+                std::vector<std::uint32_t> nodes(mesh->nodes_of(c).begin(), mesh->nodes_of(c).end());
+                if (word.type == CellType::wedge) {
+                    for (std::size_t k = 0; k < penta6_order.size(); ++k) nodes[k] = mesh->nodes_of(c)[penta6_order[k]];
+                }
+                write_element(file, c + 1, nodes);
+            }
         }
         file << "FINSF\n";
     }

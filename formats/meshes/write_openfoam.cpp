@@ -122,7 +122,6 @@ void write_face_zones(OutputSet& out, const VolumeMesh& mesh) {
         std::ranges::sort(zone.faces);
         if (!zone.faces.empty()) zones.push_back(std::move(zone));
     }
-    if (zones.empty()) return;
     OutputFile& file = begin(out, "faceZones", "regIOobject");
     write_list(file, zones.size(), [&](std::uint64_t z) {
         std::vector<std::uint32_t> labels;
@@ -136,7 +135,6 @@ void write_face_zones(OutputSet& out, const VolumeMesh& mesh) {
 }
 
 void write_point_zones(OutputSet& out, const VolumeMesh& mesh) {
-    if (mesh->node_sets.empty()) return;
     OutputFile& file = begin(out, "pointZones", "regIOobject");
     write_list(file, mesh->node_sets.size(), [&](std::uint64_t s) {
         file << mesh->node_sets[s].name << "\n{\n    type pointZone;\n";

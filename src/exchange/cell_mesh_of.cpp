@@ -59,9 +59,9 @@ void add_sets(const VolumeMesh& from, CellMesh& to) {
 }
 
 /// For each point the number, from 0, of the one that it was doubled from.
-Attribute doubled_from(std::span<const std::uint32_t> origins) {
+Attribute origins_of(std::span<const std::uint32_t> origins) {
     Attribute a;
-    a.name = "doubled_from";
+    a.name = doubled_from;
     a.location = AttributeLocation::point;
     a.values = std::vector<std::int64_t>(origins.begin(), origins.end());
     return a;
@@ -80,7 +80,7 @@ CellMesh cell_mesh_of(const VolumeMesh& mesh) {
     for (Attribute& a : made.info.attributes) {
         if (a.location == AttributeLocation::cell) resize_with_missing(a, made.cell_count());
     }
-    if (!mesh->vertex_origins.empty()) made.info.attributes.push_back(doubled_from(mesh->vertex_origins));
+    if (!mesh->vertex_origins.empty()) made.info.attributes.push_back(origins_of(mesh->vertex_origins));
     return made;
 }
 

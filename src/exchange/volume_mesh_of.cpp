@@ -5,6 +5,7 @@
 #include <string>
 
 #include "exchange/attribute_merge.h"
+#include "exchange/cell_mesh_of.h"
 #include "exchange/region_faces.h"
 #include "exchange/solid_cells.h"
 #include "exchange/surface_faces.h"
@@ -154,6 +155,7 @@ void add_attributes(const CellMesh& mesh, SolidCells& cells, std::vector<Loss>& 
     }
     AttributeMerge merge;
     for (const Attribute& a : mesh.info.attributes) {
+        if (a.location == AttributeLocation::point && a.name == doubled_from) continue;  // the positions say it
         if (a.location == AttributeLocation::point) {
             merge.add({taken(a, points)}, AttributeLocation::point, AttributeLocation::point, vertices);
         } else if (a.location == AttributeLocation::cell && !a.corner_values) {

@@ -92,6 +92,7 @@ void add_cell_losses(const VolumeMesh& mesh, const MeshNeeds& needs, LossList& l
 
 void add_set_losses(const VolumeMesh& mesh, const MeshNeeds& needs, LossList& list) {
     for (const auto& set : mesh->face_sets) {
+        if (set.surface == no_index && !needs.face_sets) continue;  // what lies between or around regions, which nobody stated
         if (!needs.face_sets) list.add(LossClass::substance, set.name, "face set", "has no face sets", set.faces.size());
         else if (!needs.face_sides && set.side != FaceSide::none) list.add(LossClass::identity, set.name, "side of faces", "has no sides");
         if (needs.face_sets) list.name(set.name, "face set");

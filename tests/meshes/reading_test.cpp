@@ -242,6 +242,44 @@ TEST(Abaqus, PartsCountTheirNodesAnew) {
     EXPECT_EQ(data.findings[0].where.line, 20u);
 }
 
+TEST(Abaqus, SurfacesOfBothSidesAreOneAndAreCutWhereRegionsChange) {
+    const Dataset data = read_text("abaqus",
+                                   "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n6,-1,0,0\n*ELEMENT,TYPE=C3D4,ELSET=a\n1,1,2,3,4\n"
+                                   "*ELEMENT,TYPE=C3D4,ELSET=b\n2,2,3,4,5\n*ELEMENT,TYPE=C3D4,ELSET=c\n3,1,4,3,6\n"
+                                   "*SURFACE, NAME=F_front\n1,S3\n1,S4\n*SURFACE, NAME=F_back\n2,S1\n3,S1\n");
+    const CellMesh& mesh = mesh_in(data);
+    ASSERT_EQ(mesh.cell_count(), 5u) << "each face once";
+    EXPECT_EQ(entity_of(mesh, 3).name, "F");
+    EXPECT_EQ(entity_of(mesh, 4).name, "F");
+    EXPECT_NE(mesh.cell_entity[3], mesh.cell_entity[4]) << "between a and b, and between a and c";
+    ASSERT_EQ(mesh.groups.size(), 1u);
+    EXPECT_EQ(mesh.groups[0].name, "F");
+    EXPECT_EQ(entity_of(mesh, 3).groups, entity_of(mesh, 4).groups);
+}
+
+TEST(Abaqus, NodesOfOtherSystemsAreTurnedIntoCartesianOnes) {
+    const Dataset data = read_text("abaqus", "*NODE, SYSTEM=C\n1,2,90,5\n*NODE, SYSTEM=S\n2,2,0,90\n*NODE\n3,1,2,3\n");
+    const auto& points = mesh_in(data).points;
+    const auto is_near = [](const Vec3& a, const Vec3& b) { return dot(minus(a, b), minus(a, b)) < 1e-24; };
+    EXPECT_TRUE(is_near(points[0], {0, 2, 5}));
+    EXPECT_TRUE(is_near(points[1], {0, 0, 2}));
+    EXPECT_TRUE(is_near(points[2], {1, 2, 3}));
+}
+
+TEST(Abaqus, SetsOfSetsDoNotGrowAndThoseOfElementsHaveTheirNodes) {
+    std::string text =
+        "\xEF\xBB\xBF*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,9,9,9\n*ELEMENT,TYPE=C3D4,ELSET=\"my set, 1\"\n1,1,2,3,4\n"
+        "*ELSET,ELSET=E0\n1\n*NSET,NSET=n,ELSET=E0\n";
+    for (int k = 0; k < 60; ++k)
+        text += "*ELSET,ELSET=E" + std::to_string(k + 1) + "\nE" + std::to_string(k) + ",E" + std::to_string(k) + "\n";
+    const Dataset data = read_text("abaqus", text);
+    const CellMesh& mesh = mesh_in(data);
+    EXPECT_EQ(entity_of(mesh, 0).name, "my set, 1");
+    const auto set = [&](const std::string& name) { return std::ranges::find(mesh.info.sets, name, &NamedSet::name)->members; };
+    EXPECT_EQ(set("E60"), (std::vector<std::uint32_t>{0}));
+    EXPECT_EQ(set("N"), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+}
+
 TEST(Abaqus, IncludedFilesAreRead) {
     const TemporaryFolder folder;
     write_file(folder / "nodes.inp", "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n");

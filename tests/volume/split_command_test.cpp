@@ -44,6 +44,27 @@ TEST(MeshSplit, AlongAllSurfacesEachPairIsTwoFacesOfAbaqus) {
     EXPECT_GT(report["pairs"].get<std::uint64_t>(), 0u);
 }
 
+TEST(MeshFormats, WhatTheyHoldOfASoundModelIsReadAsASoundModel) {
+    const TemporaryFolder folder;
+    const std::string solid = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.so";
+    for (const char* name : {"m.inp", "m.mesh", "m.ele"}) {
+        const std::string out = folder / name;
+        ASSERT_EQ(run_geomend({"convert", solid, "-o", out, "--lossy"}).status, 0) << name;
+        const auto judged = run_geomend({"validate", out});
+        EXPECT_EQ(judged.status, 0) << judged.out;
+        EXPECT_EQ(run_geomend({"mesh", out, "-o", folder / "again.vtu", "--lossy"}).status, 0) << name;
+    }
+    EXPECT_EQ(run_geomend({"convert", solid, "-o", folder / "x", "--to", "mesh", "--lossy"}).status, 0);
+    EXPECT_TRUE(test::read_file(folder / "x").starts_with("MeshVersionFormatted"));
+}
+
+TEST(MeshSplit, ReachesItsTargetsWithoutALossOfItsOwn) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_geomend({"mesh", sample, "-o", folder / "m.msh", "--lossy", "--split", "faults"}).status, 0);
+    const auto run = run_geomend({"convert", folder / "m.msh", "-o", folder / "m.inp", "--lossy", "--verbose"});
+    EXPECT_EQ(run.err.find("doubled_from"), std::string::npos) << run.err;
+}
+
 TEST(MeshSplit, NamesThatAreNotThereAreNamedWithTheNearest) {
     const TemporaryFolder folder;
     const auto run = run_geomend({"mesh", sample, "-o", folder / "m.vtu", "--lossy", "--split", "fautl"});
