@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <cstdio>
 #include <memory>
 
 #include "base/number_text.h"
@@ -134,14 +133,6 @@ std::string summary(const GridMade& made) {
     return text;
 }
 
-void list_losses(const GridMade& made, bool verbose) {
-    for (const Loss& loss : made.written.losses) {
-        if (loss.loss_class == LossClass::style && !verbose) continue;
-        std::fprintf(stderr, "lost (%s): %s%s%s\n", to_string(loss.loss_class), loss.entity.c_str(), loss.entity.empty() ? "" : ": ",
-                     loss.what.c_str());
-    }
-}
-
 ExitStatus run(const GridCommand& o) {
     if (o.json && o.output == "-")
         return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
@@ -158,7 +149,7 @@ ExitStatus run(const GridCommand& o) {
     if (o.json) return print(grid_json(*made));
     if (o.quiet) return ExitStatus::done;
     report(made->written.findings, o.verbose);
-    list_losses(*made, o.verbose);
+    report(made->written.losses, o.verbose);
     const std::string text = summary(*made);
     if (o.output == "-") {
         std::fputs(text.c_str(), stderr);

@@ -97,11 +97,7 @@ ExitStatus run(const RemeshArguments& o) {
     if (o.json) return worse(status, print(remesh_json(*made)));
     if (!made->why_not.empty()) report(made->errors, false);
     if (!o.quiet) {
-        for (const Loss& loss : made->written.losses) {
-            if (loss.loss_class == LossClass::style && !o.verbose) continue;
-            std::fprintf(stderr, "lost (%s): %s%s%s\n", to_string(loss.loss_class), loss.entity.c_str(), loss.entity.empty() ? "" : ": ",
-                         loss.what.c_str());
-        }
+        report(made->written.losses, o.verbose);
         std::string text;
         for (const auto& model : made->models) text += model_lines(model, o.verbose);
         if (o.output == "-") std::fputs(text.c_str(), stderr);

@@ -97,7 +97,11 @@ Result<void> remesh(Dataset& dataset, const Format& target, const RemeshRequest&
     report.errors_before = before->size();
     auto models = models_of(dataset, request.checks);
     if (!models) return std::move(models).why();
-    if (models->empty()) return failure(FailureKind::cannot_hold, "F026", {file}, "there is no surface: there is nothing to remesh");
+    if (models->empty()) {
+        Failure none = failure(FailureKind::cannot_hold, "F026", {file}, "there is no surface: there is nothing to remesh");
+        none.error.measures.emplace_back("no_surfaces", 1);
+        return none;
+    }
     std::vector<std::uint8_t> is_part(dataset.objects.size(), 0);
     std::vector<Dataset> made;
     for (const topology::JudgedModel& model : *models) {
