@@ -54,6 +54,12 @@ constexpr Keeps points_keeps(Keeping attributes, Keeping units) {
     return keeps;
 }
 
+constexpr Keeps table_keeps() {
+    Keeps keeps = points_keeps(Keeping::yes, Keeping::no);
+    keeps.polylines = Keeping::partly;
+    return keeps;
+}
+
 constexpr Keeps lines_keeps(Keeping names) {
     Keeps keeps;
     keeps.polylines = Keeping::yes;
@@ -91,8 +97,8 @@ constexpr std::array rows = {
            write_irap_polygons, WriterWants::objects, lines_keeps(Keeping::no), plain_note, tried, line_options},
     Format{"zmap-lines", "horizon", "ZMAP+ lines and points", zmap_lines_extensions, sniff_zmap_lines, read_zmap_lines, nullptr,
            WriterWants::objects, lines_keeps(Keeping::partly), "read only", tried, line_options},
-    Format{"points-table", "horizon", "points as a table with a line of names", table_extensions, sniff_named_points, read_named_points,
-           nullptr, WriterWants::objects, points_keeps(Keeping::yes, Keeping::no), "read only", tried, line_options},
+    Format{"points-table", "horizon", "points and lines as a table with a line of names", table_extensions, sniff_named_points,
+           read_named_points, nullptr, WriterWants::objects, table_keeps(), "read only", tried, line_options},
     Format{"ijxyz", "horizon", "maps by inline and crossline (IJXYZ)", ijxyz_extensions, sniff_ijxyz, read_ijxyz, nullptr,
            WriterWants::objects, grid_keeps(Keeping::no, Keeping::no, Keeping::partly), "read only", untried, line_options},
 };

@@ -9,12 +9,13 @@
 #include "formats/horizon/common.h"
 #include "formats/horizon/ijxyz_map.h"
 #include "formats/horizon/point_table.h"
+#include "formats/horizon/polylines.h"
 
 namespace geomend::horizon {
 
 namespace {
 
-enum class Meaning : std::uint8_t { attribute, x, y, z, depth, inline_number, crossline_number };
+enum class Meaning : std::uint8_t { attribute, line, x, y, z, depth, inline_number, crossline_number };
 
 struct KnownName {
     std::string_view name;  ///< in capital letters and digits alone
@@ -37,6 +38,11 @@ constexpr std::array known_names{KnownName{"X", Meaning::x},
                                  KnownName{"ZTVDSS", Meaning::depth},
                                  KnownName{"TVDSS", Meaning::depth},
                                  KnownName{"DEPTH", Meaning::depth},
+                                 KnownName{"POLYID", Meaning::line},
+                                 KnownName{"POLYGONID", Meaning::line},
+                                 KnownName{"LINEID", Meaning::line},
+                                 KnownName{"SEGID", Meaning::line},
+                                 KnownName{"SEGMENTID", Meaning::line},
                                  KnownName{"I", Meaning::inline_number},
                                  KnownName{"IL", Meaning::inline_number},
                                  KnownName{"ILINE", Meaning::inline_number},
@@ -98,6 +104,8 @@ struct TableHead {
 
     bool has(Meaning m) const { return std::ranges::find(meanings, m) != meanings.end(); }
     bool has_positions() const { return has(Meaning::x) && has(Meaning::y) && (has(Meaning::z) || has(Meaning::depth)); }
+    /// Whether each row is a point of the line that a column names, and no further column has values of its own.
+    bool has_polylines() const { return has(Meaning::line) && !has(Meaning::attribute) && !has(Meaning::inline_number); }
     bool has_lines() const { return has(Meaning::inline_number) && has(Meaning::crossline_number); }
 };
 
@@ -156,7 +164,7 @@ public:
             if (auto failed = read_row(cursor)) return std::move(*failed);
         }
         if (points_.empty()) return unreadable("F017", {input_.name(), cursor.line()}, "expected points, found none");
-        Dataset data = head_.has_lines() ? map_or_points() : points_alone();
+        Dataset data = head_.has_polylines() ? lines() : head_.has_lines() ? map_or_points() : points_alone();
         tell_missing_line_end(input_, data);
         return data;
     }
@@ -182,7 +190,7 @@ private:
         LineSample sample;
         for (std::size_t c = 0; c < fields.size(); ++c) {
             const Meaning m = head_.meanings[c];
-            if (m == Meaning::attribute) {
+            if (m == Meaning::attribute || m == Meaning::line) {
                 columns_[c].push_back(fields[c]);
             } else if (m >= Meaning::inline_number) {
                 double number = 0;
@@ -215,10 +223,23 @@ private:
         describe(set.info);
         set.points = std::move(points_);
         for (std::size_t c = 0; c < columns_.size(); ++c) {
-            if (head_.meanings[c] == Meaning::attribute || head_.meanings[c] >= Meaning::inline_number)
+            if (head_.meanings[c] <= Meaning::line || head_.meanings[c] >= Meaning::inline_number)
                 set.info.attributes.push_back(attribute_of(head_.names[c], columns_[c]));
         }
         return dataset_of("points as a table", std::move(set));
+    }
+
+    /// Rows one after the other with the same word in the column of lines are a line.
+    Dataset lines() {
+        PolylineSet set;
+        describe(set.info);
+        const auto column = static_cast<std::size_t>(std::ranges::find(head_.meanings, Meaning::line) - head_.meanings.begin());
+        const auto& names = columns_[column];
+        for (std::size_t first = 0, end = 0; first < names.size(); first = end) {
+            while (end < names.size() && names[end] == names[first]) ++end;
+            add_line(set, std::string(names[first]), std::span(points_).subspan(first, end - first));
+        }
+        return dataset_of("lines as a table", std::move(set));
     }
 
     Dataset map_or_points() {
@@ -233,7 +254,7 @@ private:
         describe(map->raster.info);
         Dataset data = dataset_of("map by lines (IJXYZ)", std::move(map->raster));
         for (std::size_t c = 0; c < columns_.size(); ++c) {
-            if (head_.meanings[c] == Meaning::attribute)
+            if (head_.meanings[c] <= Meaning::line)
                 drop(data.findings, data.losses,
                      {.what = "column '" + head_.names[c] + "'",
                       .why = "a map by lines has its heights alone",

@@ -28,6 +28,22 @@ TEST(ZmapLines, PointsOfOneNumberAreALine) {
     EXPECT_EQ(set.points[2], (Vec3{460536.25, 5934306.5, 1634.260742}));
 }
 
+TEST(PointsTable, ANumberOfLinesMakesLinesOfThePoints) {
+    const std::string head = "X_UTME,Y_UTMN,Z_TVDSS,POLY_ID";
+    const Dataset data = good("points-table", head + "\n0,0,5,a\n1,0,5,a\n1,1,5,a\n0,0,5,a\n7,7,6,b\n8,7,6,b\n");
+    const auto& set = std::get<PolylineSet>(data.objects.at(0));
+    EXPECT_EQ(set.points.size(), 5u);  // the first line is closed
+    EXPECT_EQ(set.edges.size(), 4u);
+    ASSERT_EQ(set.parts.size(), 2u);
+    EXPECT_EQ(set.parts[0].name, "a");
+    EXPECT_EQ(set.parts[1].name, "b");
+    EXPECT_EQ(set.points[0], (Vec3{0, 0, -5}));
+    EXPECT_TRUE(data.losses.empty());
+    // With values beside, points keep all of them.
+    const Dataset values = good("points-table", head + ",THROW\n0,0,5,a,1\n1,0,5,a,2\n");
+    EXPECT_EQ(std::get<PointSet>(values.objects.at(0)).info.attributes.size(), 2u);
+}
+
 TEST(ZmapLines, WithoutNumbersOfLinesPointsStayPointsAndEachFieldHasItsNull) {
     const Dataset data = good("zmap-lines",
                               "@P, DATA, 80, 1\nX,1,1,1,1,5,,1e30\nY,2,2,1,6,10,,1e30\nZ,3,3,1,11,15,,-99\nPOR,4,60,1,16,20,,-1\n@\n"
@@ -126,9 +142,12 @@ TEST(RealTables, LinesPointsAndTablesOfOneFaultModelAgree) {
     };
     const auto lines = read_one("zmap-lines", *zmap), points = read_one("points-table", *csv);
     ASSERT_TRUE(lines.ok() && points.ok());
-    EXPECT_EQ(std::get<PolylineSet>(lines->objects.at(0)).parts.size(), 7u);
-    EXPECT_EQ(std::get<PointSet>(points->objects.at(0)).points.size(), 754u);
-    EXPECT_EQ(info_of(points->objects.at(0)).attributes.at(0).name, "POLY_ID");
+    for (const auto* data : {&lines, &points}) {
+        const auto& set = std::get<PolylineSet>((*data)->objects.at(0));
+        EXPECT_EQ(set.parts.size(), 7u);
+        EXPECT_EQ(set.points.size(), 747u);  // of 754 rows seven close a line
+        EXPECT_EQ(set.edges.size(), 747u);
+    }
 }
 
 }  // namespace
