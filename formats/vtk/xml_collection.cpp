@@ -127,17 +127,22 @@ private:
         std::ranges::move(read->findings, std::back_inserter(out_.findings));
         Dataset& data = out_;
         for (Loss& loss : read->losses) add_loss(data.losses, std::move(loss));
-        for (const StatedModel& model : read->models)
+        if (entries_.size() == 1) data.models = std::move(read->models);  // a series of one file is that file
+        else list_models(read->models, entry);
+        const auto moment = static_cast<std::size_t>(std::ranges::lower_bound(moments_, entry.time) - moments_.begin());
+        auto& series = series_[{entry.group, entry.part}];
+        for (std::size_t i = 0; i < read->objects.size(); ++i) take(entry, std::move(read->objects[i]), moment, i, series);
+        return std::nullopt;
+    }
+
+    void list_models(const std::vector<StatedModel>& models, const Entry& entry) {
+        for (const StatedModel& model : models)
             drop(out_.findings, out_.losses,
                  {.loss_class = LossClass::identity,
                   .entity = model.name,
                   .what = "a model over blocks",
                   .why = "a series holds objects at moments",
                   .where = doc_.where(*entry.element)});
-        const auto moment = static_cast<std::size_t>(std::ranges::lower_bound(moments_, entry.time) - moments_.begin());
-        auto& series = series_[{entry.group, entry.part}];
-        for (std::size_t i = 0; i < read->objects.size(); ++i) take(entry, std::move(read->objects[i]), moment, i, series);
-        return std::nullopt;
     }
 
     /// Puts an object to the one that it is at another moment, or beside all others.

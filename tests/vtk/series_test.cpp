@@ -3,6 +3,7 @@
 
 #include "formats/vtk/xml_read.h"
 #include "formats/vtk/xml_write.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 namespace geomend::test {
@@ -123,6 +124,26 @@ TEST(Series, geometry_that_changes_under_one_name_is_numbered_by_its_moment) {
     ASSERT_EQ(data->objects.size(), 2u);
     EXPECT_EQ(info_of(data->objects[0]).name, "top");
     EXPECT_EQ(info_of(data->objects[1]).name, "top_1");
+}
+
+TEST(Series, of_one_file_is_that_file_with_its_model) {
+    const TemporaryFolder folder;
+    const std::string sample = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.ml";
+    ASSERT_EQ(run_geomend({"convert", sample, "-o", folder / "box.vtu"}).status, 0);
+    write_file(folder / "s.pvd", series_of("<DataSet timestep=\"0\" file=\"box.vtu\"/>"));
+    const auto alone = vtk::read_vtk_xml(*Input::open((folder / "box.vtu").string()), {});
+    const auto series = vtk::read_vtk_xml(*Input::open((folder / "s.pvd").string()), {});
+    ASSERT_TRUE(alone.ok() && series.ok());
+    EXPECT_EQ(series->models.size(), 1u);
+    EXPECT_EQ(series->objects.size(), alone->objects.size());
+    EXPECT_EQ(series->losses.size(), alone->losses.size());
+    EXPECT_EQ(series->findings.size(), alone->findings.size());
+    // With another moment the model has no place.
+    write_file(folder / "s.pvd", series_of("<DataSet timestep=\"0\" file=\"box.vtu\"/><DataSet timestep=\"1\" file=\"box.vtu\"/>"));
+    const auto two = vtk::read_vtk_xml(*Input::open((folder / "s.pvd").string()), {});
+    ASSERT_TRUE(two.ok());
+    EXPECT_TRUE(two->models.empty());
+    EXPECT_FALSE(two->losses.empty());
 }
 
 TEST(Series, what_is_wrong_is_refused) {
