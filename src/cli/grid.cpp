@@ -126,6 +126,8 @@ std::string summary(const GridMade& made) {
     }
     for (const auto& l : made.left_out) text += "  " + geomend::quoted(l.name) + " left out: " + l.why + "\n";
     if (made.made.joined_cells > 0) text += "  " + counted(made.made.joined_cells, "thin cell", "thin cells") + " joined with neighbours\n";
+    for (std::size_t r = 0; r < made.regions.size(); ++r)
+        text += "  region " + std::to_string(r + 1) + ": " + geomend::quoted(made.regions[r]) + "\n";
     if (made.nnc) text += "  " + counted(*made.nnc, "non-neighbour connection", "non-neighbour connections") + "\n";
     if (!made.beside.empty()) text += "  faults and regions are in " + made.beside + "\n";
     if (!made.deck.empty()) text += "  deck: " + made.deck + "\n";

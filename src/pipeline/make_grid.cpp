@@ -14,6 +14,7 @@
 #include "formats/registry.h"
 #include "grid/connections.h"
 #include "grid/map_axes.h"
+#include "gridding/brep_regions.h"
 #include "gridding/map_volumes.h"
 #include "pipeline/command_options.h"
 #include "pipeline/flow_deck.h"
@@ -192,8 +193,8 @@ Result<void> write_beside(CornerPointGrid grid, const GridRequest& request, Grid
 }
 
 Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest& request, GridMade& report, Beside& beside) {
-    if (std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<CellMesh>(o); }))
-        topology::build_breps(dataset);
+    const bool has_cells = std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<CellMesh>(o); });
+    if (has_cells || !dataset.models.empty()) topology::build_breps(dataset);
     auto found = gridding::structure_of(dataset, request.structure);
     if (!found) return std::move(found).why();
     auto zones = zones_of(request, *found);
@@ -224,6 +225,10 @@ Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest
     report.dims = made->grid.dims;
     report.left_out = std::move(found->left_out);
     report.notes = std::move(found->notes);
+    if (dataset.breps.size() == 1 && !dataset.breps[0]->regions.empty()) {
+        made->grid.info.attributes.push_back(gridding::brep_regions(made->grid, *dataset.breps[0]));
+        for (const auto& region : dataset.breps[0]->regions) report.regions.push_back(region.name);
+    }
     made->grid.info.crs = system_of(dataset, *found);
     if (request.count_connections) report.nnc = grid::connections(made->grid).others.size();
     if (option_value(request.files.load.options, "deck") == "yes") {
@@ -320,6 +325,7 @@ std::string grid_json(const GridMade& made) {
              {"left_out", std::move(out)},
              {"notes", made.notes},
              {"loss", losses_json(made.written.losses)}};
+    if (!made.regions.empty()) all["regions"] = made.regions;
     if (made.nnc) all["nnc"] = *made.nnc;
     if (!made.beside.empty()) all["include"] = made.beside;
     if (!made.deck.empty()) all["deck"] = made.deck;

@@ -35,7 +35,8 @@ struct GridMade {
     std::array<std::uint32_t, 3> dims{0, 0, 0};
     double rotation = 0;
     std::optional<std::uint64_t> nnc;
-    std::vector<double> map_volumes;  ///< per zone what the maps hold below and above the active columns; empty where not all are maps
+    std::vector<double> map_volumes;   ///< per zone what the maps hold below and above the active columns; empty where not all are maps
+    std::vector<std::string> regions;  ///< of a sealed model, by their numbers in REGION, from 1
     std::vector<gridding::LeftOut> left_out;
     std::vector<std::string> notes;
     std::string beside;  ///< an include with faults and regions that the format has no place for; empty: none is needed

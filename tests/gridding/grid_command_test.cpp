@@ -58,6 +58,7 @@ TEST(Grid, ASealedModelIsGriddedInItsBox) {
     double sum = 0;
     for (const json& zone : made["zones"]) sum += zone["volume"].get<double>();
     EXPECT_NEAR(sum, 8e8, 1);
+    EXPECT_EQ(made["regions"].size(), 6u);
     EXPECT_EQ(made["faults"][0]["ends_on"].size(), 0u);
     EXPECT_NEAR(made["faults"][0]["max_throw"].get<double>(), 100, 15);  // the horizons wave, and the fault dips
     EXPECT_EQ(run_geomend({"validate", out}).status, 0);
