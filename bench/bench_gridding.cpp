@@ -50,7 +50,8 @@ CornerPointGrid made_grid(std::uint32_t columns, std::uint32_t layers) {
     options.zones.resize(2);
     for (auto& zone : options.zones) zone.count = layers / 2;
     const gridding::Frame frame{{0, 0}, 0, {columns, columns}, {width / columns, width / columns}};
-    auto made = gridding::build_grid(rolling(width), gridding::net_of(frame, 0, 1), options);
+    static const gridding::Structure structure = rolling(width);
+    auto made = gridding::build_grid(structure, gridding::net_of(frame, 0, 1), options);
     if (!made) std::abort();
     return std::move(made->grid);
 }

@@ -79,7 +79,7 @@ std::uint32_t nearest_pillar(const Level& level, const std::vector<std::uint32_t
 
 /// The shortest path between two pillars within a corridor; empty where there is none.
 std::vector<std::uint32_t> shortest_path(const Level& level, const Corridor& near, const Path& trace, std::uint32_t from, std::uint32_t to,
-                                         ChainEdges& edges) {
+                                         ChainEdges& edges, const std::array<std::int32_t, 2>& mains) {
     struct State {
         double cost = 1e300;
         std::uint32_t before = no_index;
@@ -103,7 +103,8 @@ std::vector<std::uint32_t> shortest_path(const Level& level, const Corridor& nea
             const Point &a = level.at[p], &b = level.at[q];
             const double d = nearest_on(trace, {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}).distance / level.cell;
             double more = distance(a, b) * (1 + d * d);
-            if (edge_between(level.net, edges, p, q) != ChainEdges::no_fault) more += distance(a, b) * cost_of_sharing;
+            const std::int32_t taken = edge_between(level.net, edges, p, q);
+            if (taken != ChainEdges::no_fault && taken != mains[0] && taken != mains[1]) more += distance(a, b) * cost_of_sharing;
             State& next = states[number->second];
             if (cost + more >= next.cost) return;
             next.cost = cost + more;
@@ -201,7 +202,9 @@ public:
             chain.why_not = "it is shorter than a cell";
             return;
         }
-        chain.pillars = shortest_path(level_, near, trace, from, to, made_.edges);
+        const std::array<std::int32_t, 2> mains{main_of(ends[0]), main_of(ends[1])};
+        chain.pillars = shortest_path(level_, near, trace, from, to, made_.edges, mains);
+        end_at_first_contact(chain.pillars, mains);
         if (chain.pillars.empty()) chain.why_not = "no way along it leads through the grid";
         take_edges(f);
         measure(level_, chain);
@@ -224,6 +227,17 @@ private:
         }
         return nearest_pillar(level_, near.pillars, end.where,
                               [&](std::uint32_t q) { return q != not_this && (!end.on_outline || level_.net.is_outermost(q)); });
+    }
+
+    static std::int32_t main_of(const End& end) { return end.on == no_index ? ChainEdges::no_fault : static_cast<std::int32_t>(end.on); }
+
+    /// A branch that comes to its main fault at a small angle ends where it reaches that one's chain: what would go on along it is cut off.
+    void end_at_first_contact(std::vector<std::uint32_t>& path, const std::array<std::int32_t, 2>& mains) {
+        const auto lies_on = [&](std::uint32_t a, std::uint32_t b, std::int32_t main) {
+            return main != ChainEdges::no_fault && edge_between(level_.net, made_.edges, a, b) == main;
+        };
+        while (path.size() > 2 && lies_on(path[0], path[1], mains[0])) path.erase(path.begin());
+        while (path.size() > 2 && lies_on(path[path.size() - 2], path.back(), mains[1])) path.pop_back();
     }
 
     void take_edges(std::uint32_t f) {

@@ -59,6 +59,10 @@ public:
             std::erase_if(pieces_, [&](const Piece& piece) { return !fits(piece.number, near); });
             if (pieces_.size() < enough_pieces && reach < most) continue;
             if (pieces_.empty()) return std::nullopt;
+            // Half as far again, so that they spread the way that the plane is followed, too.
+            pieces_.clear();
+            reader_.near(p, std::min(1.5 * reach, most), pieces_);
+            std::erase_if(pieces_, [&](const Piece& piece) { return !fits(piece.number, near); });
             return plane_at(p);
         }
     }
@@ -156,7 +160,9 @@ public:
             const auto near = setting_.near.of(n);
             if (near.empty()) continue;
             read(n, several, hits, [&](const Point& p) { seen_.hits(p, near, hits); });
-            if (std::isnan(made_.depths[n])) extend(n, near);
+            if (!std::isnan(made_.depths[n])) continue;
+            extend(n, near);
+            if (!setting_.split.is_split(setting_.split.pillar_of[n])) read_where_faults_fade(n, near, hits);
         }
         for (std::uint32_t n = 0; n < count; ++n) {
             if (several[n] != 0) made_.repeated.push_back(n);
@@ -202,6 +208,22 @@ private:
         const auto met = seen_.met_by(setting_.net.lines.data() + 6 * pillar, setting_.net.at(pillar, depth), near, depth);
         if (!met) return;
         made_.depths[node] = *met;
+        made_.sources[node] = DepthSource::read;
+    }
+
+    /// A pillar on no chain and outside of torn parts meets the horizon as it is where that makes next to no difference (less than a
+    /// hundredth of a cell): near the tip of a fault, on whose wrong side it lies, or where samples within a torn part have some weight.
+    void read_where_faults_fade(std::size_t node, std::span<const NearFault> near, std::vector<Hit>& hits) {
+        if (made_.sources[node] != DepthSource::extended) return;
+        const Point p = setting_.net.at(setting_.split.pillar_of[node], made_.depths[node]);
+        const auto torn = [&](const NearFault& f) { return setting_.sides[f.fault].is_torn(horizon_, p); };
+        if (!setting_.net.is_upright(setting_.split.pillar_of[node]) || std::ranges::any_of(near, torn)) return;
+        hits.clear();
+        reader_.hits(p, hits);
+        if (hits.empty()) return;
+        const double depth = nearest_hit(hits, made_.depths[node]);
+        if (std::abs(depth - made_.depths[node]) > 1e-2 * setting_.cell) return;
+        made_.depths[node] = depth;
         made_.sources[node] = DepthSource::read;
     }
 

@@ -24,14 +24,17 @@ public:
         uz_ += weight * u * depth;
         vz_ += weight * v * depth;
     }
-    /// Depth at the place it is seen from; the weighted mean where the places lie in a line. \pre something was added
+    /// Depth at the place it is seen from; the weighted mean where the places lie in a line. The plane is not followed farther than twelve
+    /// times the spread of the places: what little is known would decide too much. \pre something was added
     double depth() const {
         const double mu = u_ / w_, mv = v_ / w_, mz = z_ / w_;
         const double a = uu_ / w_ - mu * mu, b = uv_ / w_ - mu * mv, c = vv_ / w_ - mv * mv;
         const double d = a * c - b * b;
         if (!(d > 1e-6 * (a + c) * (a + c))) return mz;
         const double p = uz_ / w_ - mu * mz, q = vz_ / w_ - mv * mz;
-        return mz - mu * (p * c - q * b) / d - mv * (q * a - p * b) / d;
+        const double square = mu * mu + mv * mv, spread = square > 0 ? (a * mu * mu + 2 * b * mu * mv + c * mv * mv) / square : 0;
+        const double share = square > 144 * spread ? 12 * std::sqrt(spread / square) : 1;
+        return mz - share * (mu * (p * c - q * b) / d + mv * (q * a - p * b) / d);
     }
 
 private:

@@ -83,18 +83,19 @@ TEST(KnownAnswers, D_ATraceFromCornerToCorner) {
 }
 
 TEST(KnownAnswers, E_PlanesAreMetOnBothSidesOfAFault) {
-    // A fault in a direction of its own tears the plane apart by 30; around it, the map is ramped.
+    // A fault in a direction of its own tears the plane apart by 30; around it, the map is ramped. The ring lies more than a step of the
+    // map outside of the ramp.
     const Point a{130, 0}, b{870, 1000};
     const auto left_of = [&](double x, double y) { return ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / distance(a, b); };
     const auto plane = [](double x, double y) { return 2000 + 0.1 * x - 0.04 * y; };
     const auto torn = [&](double base) {
         return [&, base](double x, double y) { return plane(x, y) + base - 15 * std::min(1.0, std::max(-1.0, left_of(x, y) / 40)); };
     };
-    const double nx = (b[1] - a[1]) / distance(a, b) * 41, ny = -(b[0] - a[0]) / distance(a, b) * 41;
-    const Path ring{{a[0] + nx - 30, a[1] + ny - 40.5},
-                    {b[0] + nx + 30, b[1] + ny + 40.5},
-                    {b[0] - nx + 30, b[1] - ny + 40.5},
-                    {a[0] - nx - 30, a[1] - ny - 40.5}};
+    const double nx = (b[1] - a[1]) / distance(a, b) * 55, ny = -(b[0] - a[0]) / distance(a, b) * 55;
+    const Path ring{{a[0] + nx - 30, a[1] + ny - 54.5},
+                    {b[0] + nx + 30, b[1] + ny + 54.5},
+                    {b[0] - nx + 30, b[1] - ny + 54.5},
+                    {a[0] - nx - 30, a[1] - ny - 54.5}};
     Fault fault{"F", {a, b}, {}, {ring, ring}, {}};
     const Structure structure{{map("top", 101, 101, 10, torn(0)), map("base", 101, 101, 10, torn(25))}, {fault}};
     const Net pillars = net(16, 14, 60, 70, 0, {10, 5});

@@ -136,6 +136,19 @@ TEST(Chains, ABranchEndsOnItsMainFaultAndChainsShareNoEdge) {
               static_cast<std::ptrdiff_t>(branch.pillars.size()) - 1);
 }
 
+TEST(Chains, ABranchAtASmallAngleEndsWhereItReachesItsMainFault) {
+    // For its last 300 the branch runs less than a cell beside the main fault.
+    const auto chains = make_chains(net(30, 20, 50, 50), {{{0, 505}, {1500, 505}}, {{300, 900}, {700, 540}, {1000, 508}}}, 0);
+    const auto& main = chains.chains[0].pillars;
+    const auto& branch = chains.chains[1];
+    ASSERT_GT(branch.pillars.size(), 5u);
+    EXPECT_EQ(branch.shared_edges, 0u);
+    EXPECT_LT(branch.max_deviation, 0.75 * 50);
+    const auto on_main = [&](std::uint32_t p) { return std::ranges::find(main, p) != main.end(); };
+    EXPECT_EQ(std::ranges::count_if(branch.pillars, on_main), 1);
+    EXPECT_TRUE(on_main(branch.pillars.back()));
+}
+
 TEST(Chains, WhatIsNotInTheGridSaysWhy) {
     const auto chains = make_chains(net(5, 5, 100, 100), {{{900, 0}, {900, 500}}, {}, {{210, 205}, {220, 215}}}, 0);
     EXPECT_EQ(chains.chains[0].why_not, "it lies outside of the grid");
