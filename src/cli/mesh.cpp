@@ -17,8 +17,8 @@ namespace {
 
 struct MeshOptions : CommonOptions {
     std::vector<std::string> inputs;
-    std::string output, split = "none";
-    double size = 0, ratio = 1.4, seconds = 120, megabytes = 0;
+    std::string output, split = "none", method = "keep";
+    double size = 0, ratio = 1.4, seconds = 120, megabytes = 0, max_distance = 0;
     bool lossy = false;
 };
 
@@ -62,6 +62,10 @@ ExitStatus run(const MeshOptions& o) {
     if (!options) return report(options.why());
     if (o.json && o.output == "-")
         return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
+    if (o.method == "isotropic" && !(o.size > 0))
+        return report(failure(FailureKind::usage, "F018", {}, "--method isotropic needs --size, the length that edges should have"));
+    if (o.method == "keep" && o.max_distance > 0)
+        return report(failure(FailureKind::usage, "F018", {}, "--max-distance is for --method isotropic: surfaces are kept as they are"));
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     auto checks = check_options(o, {}, &monitor);
@@ -80,6 +84,12 @@ ExitStatus run(const MeshOptions& o) {
     request.fill.limits.seconds = o.seconds;
     request.fill.limits.memory_bytes = o.megabytes > 0 && o.megabytes < 1e12 ? static_cast<std::uint64_t>(o.megabytes * 1e6) : 0;
     request.fill.monitor = &monitor;
+    if (o.method == "isotropic") {
+        request.remesh.emplace();
+        request.remesh->size = o.size;
+        request.remesh->max_distance = o.max_distance;
+        request.remesh->monitor = &monitor;
+    }
     const auto made = mesh(request);
     if (!made) return report(made.why());
     end_progress();
@@ -111,6 +121,16 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
                      "Edges of cells inside of regions, as far as surfaces allow (default: the median edge of the triangles around each)")
         ->type_name("L")
         ->check(is_positive_length());
+    command
+        ->add_option("--method", o->method,
+                     "What becomes of surfaces: keep (default) leaves them as they are; isotropic gives them new triangles of --size first")
+        ->type_name("METHOD")
+        ->check(CLI::IsMember({"keep", "isotropic"}));
+    command
+        ->add_option("--max-distance", o->max_distance,
+                     "Largest distance between new and old surfaces with --method isotropic (default: a tenth of the size)")
+        ->type_name("L")
+        ->check(is_length());
     command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
         ->type_name("R")
         ->check(is_length());

@@ -14,6 +14,8 @@ namespace complexity {
 struct Complexity;
 }
 Json complexity_json(const complexity::Complexity& complexity);
+struct RemeshReport;
+Json remesh_json_value(const RemeshReport& report);
 Json losses_json(std::span<const Loss> losses);
 
 }  // namespace geomend

@@ -87,11 +87,23 @@ void list_face_sets(const BrepData& brep, MeshReport& report) {
     }
 }
 
-Result<void> fill(Dataset& dataset, const MeshRequest& request, MeshReport& report) {
+/// New triangles for the surfaces that bound regions.
+Result<void> remesh_before(Dataset& dataset, const Format& target, const MeshRequest& request, MeshReport& report) {
+    RemeshRequest first;
+    first.files = request.files;
+    first.checks = request.checks;
+    first.remesh = *request.remesh;
+    return remesh(dataset, target, first, report.remeshed.emplace());
+}
+
+Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& request, MeshReport& report) {
     auto errors = errors_of(dataset, request);
     if (!errors) return std::move(errors).why();
     report.errors = std::move(*errors);
     if (!report.errors.empty()) return cannot_fill(request.files.inputs.front(), "the model has errors");
+    if (request.remesh) {
+        if (auto remeshed = remesh_before(dataset, target, request, report); !remeshed) return remeshed;
+    }
     auto model = model_to_fill(dataset, request);
     if (!model) return std::move(model).why();
     auto filled = volumes::fill_regions(*model, request.fill);
@@ -113,8 +125,8 @@ Result<void> fill(Dataset& dataset, const MeshRequest& request, MeshReport& repo
 Result<MeshReport> mesh(const MeshRequest& request) {
     MeshReport report;
     bool judged = false;
-    auto converted = convert(request.files, [&](Dataset& dataset, const Format&) {
-        auto done = fill(dataset, request, report);
+    auto converted = convert(request.files, [&](Dataset& dataset, const Format& target) {
+        auto done = fill(dataset, target, request, report);
         judged = !report.errors.empty() || (!done && std::ranges::any_of(report.regions, [](const auto& r) { return !r.filled(); }));
         return done;
     });
@@ -171,6 +183,7 @@ std::string mesh_json(const MeshReport& report) {
         all["loss"] = losses_json(report.written.losses);
     }
     all["split"] = {{"surfaces", report.split.surfaces}, {"vertices", report.split.vertices}, {"pairs", report.split.pairs}};
+    if (report.remeshed) all["remesh"] = remesh_json_value(*report.remeshed);
     Json errors = Json::array();
     for (const Finding& f : report.errors) errors.push_back(finding_json(f));
     all["errors"] = std::move(errors);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipeline/convert.h"
 #include "pipeline/mesh_split.h"
+#include "pipeline/remesh.h"
 #include "validators/registry.h"
 #include "volume/fill.h"
 
@@ -17,6 +19,7 @@ struct MeshRequest {
     validators::CheckOptions checks;  ///< by which the model is judged before it is filled
     volumes::FillOptions fill;
     std::string split = "none";  ///< along which surfaces, see split_mesh()
+    std::optional<remeshing::RemeshOptions> remesh;  ///< new triangles before regions are filled
 };
 
 /// A block of cells in the file: those of one region and type.
@@ -37,7 +40,8 @@ struct MeshFaceSet {
 /// What came of it.
 struct MeshReport {
     ConvertReport written;
-    std::vector<Finding> errors;  ///< of the model, for which it was not filled
+    std::vector<Finding> errors;           ///< of the model, for which it was not filled
+    std::optional<RemeshReport> remeshed;  ///< where that was asked for
     std::vector<volumes::FilledRegion> regions;
     std::vector<MeshFaceSet> face_sets;
     SplitReport split;

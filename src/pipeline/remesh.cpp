@@ -141,7 +141,7 @@ Result<RemeshReport> remesh(const RemeshRequest& request) {
     return report;
 }
 
-std::string remesh_json(const RemeshReport& report) {
+Json remesh_json_value(const RemeshReport& report) {
     const auto quality = [](const remeshing::TriangleQuality& q) {
         return Json{{"triangles", q.triangles},
                     {"least_angle", q.triangles > 0 ? q.least_angle : 0},
@@ -188,7 +188,9 @@ std::string remesh_json(const RemeshReport& report) {
              {"errors", std::move(errors)}};
     if (!report.why_not.empty()) all["why_not"] = report.why_not;
     if (report.is_written) all["loss"] = losses_json(report.written.losses);
-    return json_text(all);
+    return all;
 }
+
+std::string remesh_json(const RemeshReport& report) { return json_text(remesh_json_value(report)); }
 
 }  // namespace geomend

@@ -163,6 +163,8 @@ bool is_longest(const EdgeMesh& mesh, std::uint32_t h) {
     return true;
 }
 
+}  // namespace
+
 bool split_at_middle(WorkSurface& work, std::uint32_t h) {
     const EdgeMesh& mesh = work.mesh;
     const std::uint32_t g = mesh.twins[h], from = mesh.from(h);
@@ -178,8 +180,6 @@ bool split_at_middle(WorkSurface& work, std::uint32_t h) {
     add_on_edge(work, h, folds ? middle : p, at, VertexKind::inner);
     return true;
 }
-
-}  // namespace
 
 std::size_t split_long_edges(WorkSurface& work) {
     std::size_t count = 0;

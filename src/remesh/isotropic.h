@@ -22,6 +22,8 @@ void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules);
 
 /// The parts of it. Each returns the number of changes.
 std::size_t split_long_edges(WorkSurface& work);
+/// \return whether it was split: not where the surface is not near its middle. \pre an inner edge
+bool split_at_middle(WorkSurface& work, std::uint32_t h);
 std::size_t collapse_short_edges(WorkSurface& work);
 std::size_t remove_old_vertices(WorkSurface& work);
 std::size_t flip_edges(WorkSurface& work);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace geomend::remeshing {
@@ -29,7 +30,7 @@ std::uint32_t fewest_segments(const BrepData& brep, const BrepData::Line& line,
 
 }  // namespace
 
-LinePlan::LinePlan(const BrepData& brep)
+LinePlan::LinePlan(const BrepData& brep, std::size_t lines)
     : brep_(brep), line_of_(brep.vertices.size(), no_index), index_of_(brep.vertices.size(), 0), stays_(shared_vertices(brep)) {
     std::map<std::pair<CornerId, CornerId>, unsigned> ends;
     for (const auto& line : brep.lines) ++ends[std::minmax(line.corners[0], line.corners[1])];
@@ -50,10 +51,40 @@ LinePlan::LinePlan(const BrepData& brep)
         }
     }
     for (const auto& corner : brep.corners) {
-        line_of_[corner.vertex.value] = no_index;
-        stays_[corner.vertex.value] = 1;
+        const std::uint32_t v = corner.vertex.value;
+        if (line_of_[v] != no_index) lines_[line_of_[v]].forced[index_of_[v]] = 1;  // it may lie inside of a line
+        line_of_[v] = no_index;
+        stays_[v] = 1;
     }
+    keep_joined_edges(lines);
     std::ranges::sort(edges_, {}, [](const Edge& e) { return std::tuple(e.low, e.high, e.line, e.segment); });
+}
+
+/// Lines of one edge in a surface that has the same nodes on both sides of it: only that its ends are corners states that it is a line,
+/// and any new vertex on it would be a corner, too.
+void LinePlan::keep_joined_edges(std::size_t lines) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> line_at;
+    for (std::uint32_t l = 0; l < lines; ++l) {
+        const auto& vertices = brep_.lines[l].vertices;
+        if (vertices.size() == 2)
+            line_at.emplace(std::pair(std::min(vertices[0].value, vertices[1].value), std::max(vertices[0].value, vertices[1].value)), l);
+    }
+    for (const auto& surface : brep_.surfaces) {
+        const bool has_internal = std::ranges::any_of(surface.lines, &BrepData::SurfaceLine::internal);
+        if (!has_internal || line_at.empty()) continue;
+        std::set<std::pair<std::uint32_t, std::uint32_t>> open;
+        for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
+            const auto polygon = surface.polygons[p];
+            for (std::size_t k = 0; k < polygon.size(); ++k) {
+                const std::uint32_t a = polygon[k], b = polygon[(k + 1) % polygon.size()];
+                if (surface.neighbours[surface.polygons.first_corner(p) + k] != no_index) continue;
+                const auto line = line_at.find(std::minmax(surface.nodes[a].value, surface.nodes[b].value));
+                if (line == line_at.end()) continue;
+                if (open.contains({b, a})) lines_[line->second].kept = true;
+                open.emplace(a, b);
+            }
+        }
+    }
 }
 
 std::optional<LinePlan::Use> LinePlan::find(std::uint32_t from, std::uint32_t to) const {

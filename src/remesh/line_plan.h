@@ -15,7 +15,10 @@ namespace geomend::remeshing {
 /// where it stays at that one, else a number above all of these that no other vertex has had.
 class LinePlan {
 public:
-    explicit LinePlan(const BrepData& brep);
+    /// \param lines how many of the lines are the model's own; the others are creases
+    LinePlan(const BrepData& brep, std::size_t lines);
+
+    std::size_t size() const { return lines_.size(); }
 
     struct Use {
         std::uint32_t line, segment;
@@ -62,6 +65,8 @@ private:
     struct Edge {
         std::uint32_t low, high, line, segment;
     };
+    void keep_joined_edges(std::size_t lines);
+
     const BrepData& brep_;
     std::vector<Plan> lines_;
     std::vector<Edge> edges_;  // ascending

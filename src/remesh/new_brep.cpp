@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
+#include <utility>
 
+#include "base/disjoint_sets.h"
 #include "model/attribute_operations.h"
 
 namespace geomend::remeshing {
@@ -24,8 +27,36 @@ void carry_values(const BrepData::Surface& old, const NewSurface& made, std::spa
     }
 }
 
-/// Vertices of a line on which both sides of the surface had one node have one again.
-void put_surface(const NewSurface& made, std::span<const std::uint32_t> number, BrepData::Surface& surface) {
+using Ends = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Edges of the lines that are creases, by the names of their ends, the lower one first.
+std::set<Ends> crease_edges(const BrepData& brep, const LinePlan& lines) {
+    std::set<Ends> edges;
+    for (auto l = static_cast<std::uint32_t>(brep.lines.size()); l < lines.size(); ++l) {
+        const auto samples = lines.samples(l);
+        for (std::size_t k = 1; k < samples.size(); ++k) edges.insert(std::minmax(samples[k - 1].name, samples[k].name));
+    }
+    return edges;
+}
+
+/// Triangles are neighbours again across what was cut only to be remeshed, and have vertices in common there.
+void close_creases(const NewSurface& made, const std::set<Ends>& creases, std::vector<std::uint32_t>& neighbours, DisjointSets& nodes) {
+    std::map<Ends, std::uint32_t> open;
+    for (std::uint32_t h = 0; h < made.corners.size(); ++h) {
+        const std::uint32_t a = made.names[made.corners[h]], b = made.names[made.corners[next_of(h)]];
+        if (neighbours[h] == no_index && a != no_index && b != no_index && creases.contains(std::minmax(a, b))) open.emplace(Ends(a, b), h);
+    }
+    for (const auto& [ends, h] : open) {
+        const auto back = open.find({ends.second, ends.first});
+        if (back == open.end()) continue;
+        neighbours[h] = back->second / 3;
+        nodes.join(made.corners[h], made.corners[next_of(back->second)]);
+        nodes.join(made.corners[next_of(h)], made.corners[back->second]);
+    }
+}
+
+void put_surface(const NewSurface& made, std::span<const std::uint32_t> number, const std::set<Ends>& creases,
+                 const std::set<std::uint32_t>& corners, BrepData::Surface& surface) {
     const BrepData::Surface old = std::move(surface);
     surface = {};
     surface.name = old.name;
@@ -37,19 +68,24 @@ void put_surface(const NewSurface& made, std::span<const std::uint32_t> number, 
     surface.source_object = old.source_object;
     surface.source_part = old.source_part;
     surface.annotations = old.annotations;
-    std::map<std::array<std::uint32_t, 3>, std::uint32_t> node_at;
-    std::vector<std::uint32_t> node_of, vertex_of_node;
-    for (std::uint32_t v = 0; v < made.names.size(); ++v) {
-        auto node = static_cast<std::uint32_t>(surface.nodes.size());
-        if (made.names[v] != no_index)
-            node = node_at.emplace(std::array{made.names[v], made.nodes[v][0], made.nodes[v][1]}, node).first->second;
-        node_of.push_back(node);
-        if (node < surface.nodes.size()) continue;
-        surface.nodes.push_back(VertexId(number[v]));
-        vertex_of_node.push_back(v);
-    }
-    for (const std::uint32_t v : made.corners) surface.polygons.corners.push_back(node_of[v]);
     surface.neighbours = made.neighbours;
+    DisjointSets nodes(made.names.size());
+    close_creases(made, creases, surface.neighbours, nodes);
+    // Corners have one node where they had one. Other vertices of lines have a node on each side: it is a cut then.
+    std::map<Ends, std::uint32_t> first_at;
+    for (std::uint32_t v = 0; v < made.names.size(); ++v) {
+        if (corners.contains(made.names[v])) nodes.join(v, first_at.emplace(Ends(made.names[v], made.nodes[v][0]), v).first->second);
+    }
+    std::vector<std::uint32_t> node_of(made.names.size(), no_index), vertex_of_node;
+    for (std::uint32_t v = 0; v < made.names.size(); ++v) {
+        std::uint32_t& node = node_of[nodes.root(v)];
+        if (node == no_index) {
+            node = static_cast<std::uint32_t>(surface.nodes.size());
+            surface.nodes.push_back(VertexId(number[v]));
+            vertex_of_node.push_back(v);
+        }
+    }
+    for (const std::uint32_t v : made.corners) surface.polygons.corners.push_back(node_of[nodes.root(v)]);
     carry_values(old, made, vertex_of_node, surface);
 }
 
@@ -116,10 +152,15 @@ BrepData new_brep(const BrepData& brep, const LinePlan& lines, std::span<const N
         made.lines[l].vertices.clear();
         for (const auto& named : lines.samples(l)) made.lines[l].vertices.push_back(VertexId(vertices.number[named.name]));
     }
+    const auto creases = crease_edges(brep, lines);
+    std::set<std::uint32_t> corners;
+    for (const auto& corner : brep.corners) corners.insert(corner.vertex.value);
     for (std::uint32_t s = 0; s < made.surfaces.size(); ++s) {
         if (surfaces[s].kept) {
             for (std::uint32_t n = 0; n < made.surfaces[s].nodes.size(); ++n) made.surfaces[s].nodes[n] = VertexId(vertices.of[s][n]);
-        } else put_surface(surfaces[s], vertices.of[s], made.surfaces[s]);
+        } else {
+            put_surface(surfaces[s], vertices.of[s], creases, corners, made.surfaces[s]);
+        }
     }
     made.vertices = std::move(vertices.places);
     return made;

@@ -2,6 +2,8 @@
 #include "remesh/reference_surface.h"
 
 #include <cmath>
+#include <unordered_set>
+#include <vector>
 
 #include "base/vectors.h"
 
@@ -87,6 +89,29 @@ SurfacePoint closest_point(const EdgeMesh& mesh, const Vec3& point, std::uint32_
         }
         if (next == no_index) break;
         at = next;
+    }
+    SurfacePoint found = point_at(mesh, at, best.weights);
+    found.distance = std::sqrt(best.square);
+    return found;
+}
+
+SurfacePoint closest_point_around(const EdgeMesh& mesh, const Vec3& point, std::uint32_t from_triangle) {
+    const double reach = foot_on(mesh.triangle(from_triangle), point).square;
+    std::vector<std::uint32_t> queue{from_triangle};
+    std::unordered_set<std::uint32_t> seen{from_triangle};
+    Foot best;
+    std::uint32_t at = from_triangle;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+        const Foot foot = foot_on(mesh.triangle(queue[i]), point);
+        if (foot.square < best.square) {
+            best = foot;
+            at = queue[i];
+        }
+        if (foot.square > reach) continue;
+        for (std::uint32_t h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h) {
+            const std::uint32_t back = mesh.twins[h];
+            if (back != no_index && seen.insert(back / 3).second) queue.push_back(back / 3);
+        }
     }
     SurfacePoint found = point_at(mesh, at, best.weights);
     found.distance = std::sqrt(best.square);

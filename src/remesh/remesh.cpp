@@ -6,12 +6,14 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "base/parallel.h"
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "geometry/intersections.h"
+#include "remesh/creases.h"
 #include "remesh/new_brep.h"
 #include "remesh/size_field.h"
 
@@ -22,22 +24,27 @@ namespace {
 constexpr unsigned most_tries = 4;     ///< of a surface that comes out too far from what it was
 constexpr unsigned most_searches = 3;  ///< for crossings that smaller sizes may end
 
+double allowed_distance(const RemeshOptions& options) { return options.max_distance > 0 ? options.max_distance : options.size / 10; }
+
 /// The rounds in which a model is remeshed.
 class Rounds {
 public:
-    Rounds(const BrepData& brep, const RemeshOptions& options)
-        : brep_(brep),
+    /// \param cut the model, its surfaces cut at their creases
+    Rounds(const BrepData& whole, const BrepData& cut, const RemeshOptions& options)
+        : whole_(whole),
+          brep_(cut),
           options_(options),
-          lines_(brep),
-          allowed_(options.max_distance > 0 ? options.max_distance : options.size / 10),
-          sizes_(entity_sizes(brep, options.size, options.size_of)),
-          surfaces_(brep.surfaces.size()),
-          expected_(brep.surfaces.size(), 0),
-          tries_(brep.surfaces.size(), 0),
-          why_(brep.surfaces.size()),
-          is_kept_(brep.surfaces.size(), 0),
-          line_is_due_(brep.lines.size(), 1),
-          surface_is_due_(brep.surfaces.size(), 1) {}
+          lines_(cut, whole.lines.size()),
+          allowed_(allowed_distance(options)),
+          sizes_(entity_sizes(cut, options.size, options.size_of)),
+          surfaces_(cut.surfaces.size()),
+          expected_(cut.surfaces.size(), 0),
+          tries_(cut.surfaces.size(), 0),
+          why_(cut.surfaces.size()),
+          bridges_(cut.surfaces.size()),
+          is_kept_(cut.surfaces.size(), 0),
+          line_is_due_(cut.lines.size(), 1),
+          surface_is_due_(cut.surfaces.size(), 1) {}
 
     Result<Remeshed> run();
 
@@ -50,6 +57,7 @@ private:
     void remesh_surfaces();
     bool take_stock();
     bool mend_crossings();
+    bool find_bridges();
     bool crossed_before(std::uint32_t a, std::uint32_t b);
     void lower(std::uint32_t vertex, double factor, std::vector<double>& lowered) const;
     void lower_around(std::uint32_t surface, std::uint32_t triangle, std::vector<double>& lowered) const;
@@ -58,7 +66,7 @@ private:
     bool nothing_due() const;
     Remeshed result() const;
 
-    const BrepData& brep_;
+    const BrepData &whole_, &brep_;
     const RemeshOptions& options_;
     LinePlan lines_;
     double allowed_;
@@ -67,6 +75,7 @@ private:
     std::vector<double> expected_;  // triangles of each
     std::vector<unsigned> tries_;
     std::vector<std::string> why_;
+    std::vector<std::vector<std::array<std::uint32_t, 2>>> bridges_;  // per surface edges between named vertices that must be split
     std::vector<std::uint8_t> is_kept_, line_is_due_, surface_is_due_;
     std::optional<std::set<std::pair<std::uint32_t, std::uint32_t>>> crossed_;  // surfaces that crossed as they were, once that was asked
     unsigned searches_ = 0, rounds_ = 0;
@@ -109,6 +118,7 @@ Result<void> Rounds::check_number() {
 void Rounds::plan_lines() {
     grade(brep_, options_.growth, sizes_);
     for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) lines_.sample(l, sizes_, allowed_);
+    limit_by_width(brep_, lines_, options_.size / 8, sizes_);
     for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) lines_.limit(l, options_.size / 16, sizes_);
     grade(brep_, options_.growth, sizes_);
 }
@@ -136,8 +146,8 @@ void Rounds::remesh_surfaces() {
     parallel_for_each_index(due.size(), [&](std::size_t i) {
         const std::uint32_t s = due[i];
         if (stopped()) return;
-        surfaces_[s] =
-            is_kept_[s] != 0 ? surface_as_it_was(brep_, s) : remeshed_surface(brep_, s, lines_, sizes_, {allowed_, options_.monitor});
+        surfaces_[s] = is_kept_[s] != 0 ? surface_as_it_was(brep_, s)
+                                        : remeshed_surface(brep_, s, lines_, sizes_, {allowed_, bridges_[s], options_.monitor});
     });
 }
 
@@ -217,6 +227,40 @@ bool Rounds::take_stock() {
     return nothing_due();
 }
 
+/// Edges inside of surfaces that run between the same two vertices of lines as another edge: they would be one edge of several surfaces
+/// that is no line. They are split. \return whether there are none
+bool Rounds::find_bridges() {
+    struct Edge {
+        std::uint32_t low, high, surface;
+        bool inner;
+    };
+    std::vector<Edge> edges;
+    for (std::uint32_t s = 0; s < surfaces_.size(); ++s) {
+        const NewSurface& made = surfaces_[s];
+        for (std::uint32_t h = 0; h < made.corners.size() && made.corners.size() == made.neighbours.size(); ++h) {
+            const std::uint32_t a = made.names[made.corners[h]], b = made.names[made.corners[next_of(h)]];
+            if (a == no_index || b == no_index || made.neighbours[h] == no_index || h / 3 > made.neighbours[h]) continue;
+            edges.push_back({std::min(a, b), std::max(a, b), s, true});
+        }
+    }
+    for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) {
+        const auto samples = lines_.samples(l);
+        for (std::size_t k = 1; k < samples.size(); ++k)
+            edges.push_back(
+                {std::min(samples[k - 1].name, samples[k].name), std::max(samples[k - 1].name, samples[k].name), no_index, false});
+    }
+    std::ranges::sort(edges, {}, [](const Edge& e) { return std::tuple(e.low, e.high, e.surface); });
+    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+        for (j = i; j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high;) ++j;
+        for (std::size_t k = i; j - i > 1 && k < j; ++k) {
+            if (!edges[k].inner || is_kept_[edges[k].surface] != 0) continue;
+            bridges_[edges[k].surface].push_back({edges[k].low, edges[k].high});
+            surface_is_due_[edges[k].surface] = 1;
+        }
+    }
+    return nothing_due();
+}
+
 /// Whether two surfaces, or one and itself, crossed as they were.
 bool Rounds::crossed_before(std::uint32_t a, std::uint32_t b) {
     if (!crossed_) {
@@ -275,11 +319,11 @@ bool Rounds::mend_crossings() {
 
 Remeshed Rounds::result() const {
     Remeshed made;
-    made.brep = new_brep(brep_, lines_, surfaces_, made.losses);
+    made.brep = new_brep(whole_, lines_, surfaces_, made.losses);
     made.max_distance = allowed_;
     made.rounds = rounds_;
-    for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) {
-        made.line_edges_before += brep_.lines[l].vertices.size() - 1;
+    for (std::uint32_t l = 0; l < whole_.lines.size(); ++l) {
+        made.line_edges_before += whole_.lines[l].vertices.size() - 1;
         made.line_edges_after += lines_.samples(l).size() - 1;
     }
     const auto quality = [](const BrepData& brep, const BrepData::Surface& surface) {
@@ -293,13 +337,13 @@ Remeshed Rounds::result() const {
         return sum;
     };
     for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) {
-        const auto& surface = brep_.surfaces[s];
+        const auto& surface = whole_.surfaces[s];
         RemeshedSurface& told = made.surfaces.emplace_back();
         told.name = surface.name;
-        if (surface.interface_id.valid()) told.interface = brep_.interfaces[surface.interface_id.value].name;
+        if (surface.interface_id.valid()) told.interface = whole_.interfaces[surface.interface_id.value].name;
         told.kept = is_kept_[s] != 0;
         told.why = why_[s];
-        told.before = quality(brep_, surface);
+        told.before = quality(whole_, surface);
         told.after = quality(made.brep, made.brep.surfaces[s]);
         told.to_old = surfaces_[s].to_old;
         told.from_old = surfaces_[s].from_old;
@@ -318,7 +362,7 @@ Result<Remeshed> Rounds::run() {
         sample_lines();
         remesh_surfaces();
         if (stopped()) return cancelled();
-        if (take_stock() && mend_crossings()) break;
+        if (take_stock() && find_bridges() && mend_crossings()) break;
     }
     if (stopped()) return cancelled();
     return result();
@@ -326,6 +370,12 @@ Result<Remeshed> Rounds::run() {
 
 }  // namespace
 
-Result<Remeshed> remesh_model(const BrepData& brep, const RemeshOptions& options) { return Rounds(brep, options).run(); }
+Result<Remeshed> remesh_model(const BrepData& brep, const RemeshOptions& options) {
+    CreaseRules creases;
+    creases.height = allowed_distance(options) / 2;
+    creases.length = options.size / 2;
+    const BrepData cut = cut_at_creases(brep, creases);
+    return Rounds(brep, cut, options).run();
+}
 
 }  // namespace geomend::remeshing

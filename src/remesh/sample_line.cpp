@@ -6,12 +6,11 @@
 #include <numeric>
 
 #include "base/vectors.h"
+#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
 namespace {
-
-double length_of(const Vec3& d) { return std::sqrt(dot(d, d)); }
 
 /// Per point the length of the way to it.
 std::vector<double> ways(std::span<const Vec3> points) {

@@ -7,6 +7,8 @@
 #include <queue>
 
 #include "base/vectors.h"
+#include "geometry/segment_tree.h"
+#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -46,7 +48,65 @@ VertexEdges vertex_edges(const BrepData& brep) {
     return edges;
 }
 
+/// An edge of a sampled line.
+struct LineEdge {
+    std::uint32_t line = 0, first = 0, last = 0;  ///< points of the line around it
+    double longest = 0;                           ///< size there
+};
+
+/// Whether two points of lines are close only because both lines come from one corner.
+bool meet_at_corner(const BrepData& brep, const BrepData::Line& a, const BrepData::Line& b, const SegmentDistance& gap) {
+    for (const CornerId c : a.corners) {
+        if (c != b.corners[0] && c != b.corners[1]) continue;
+        const Vec3& corner = brep.vertices[brep.corners[c.value].vertex.value];
+        if (length_of(minus(gap.on_first, corner)) + length_of(minus(gap.on_second, corner)) <= 3 * gap.distance) return true;
+    }
+    return false;
+}
+
+void limit_by_width(const BrepData& brep, const BrepData::Surface& surface, const LinePlan& lines, double least,
+                    std::vector<double>& sizes) {
+    std::vector<Segment> segments;
+    std::vector<LineEdge> edges;
+    double farthest = 0;
+    std::vector<std::uint32_t> own;
+    for (const auto& use : surface.lines) own.push_back(use.line.value);
+    std::ranges::sort(own);
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    for (const std::uint32_t l : own) {
+        const auto samples = lines.samples(l);
+        for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+            const auto &from = samples[k], &to = samples[k + 1];
+            LineEdge edge{l, from.sample.segment, to.sample.share > 0 ? to.sample.segment + 1 : to.sample.segment, 0};
+            for (std::uint32_t i = edge.first; i <= edge.last; ++i)
+                edge.longest = std::max(edge.longest, sizes[brep.lines[l].vertices[i].value]);
+            segments.push_back({lines.place(from.name), lines.place(to.name)});
+            edges.push_back(edge);
+            farthest = std::max(farthest, edge.longest);
+        }
+    }
+    SegmentTree(segments, farthest).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+        const LineEdge &a = edges[i], &b = edges[j];
+        if (a.line == b.line) return true;
+        const SegmentDistance gap = closest_points(segments[i], segments[j]);
+        const double size = 1.2 * gap.distance;
+        if (!(gap.distance > 1e-9 * farthest) || size >= std::max(a.longest, b.longest)) return true;
+        if (meet_at_corner(brep, brep.lines[a.line], brep.lines[b.line], gap)) return true;
+        for (const LineEdge* e : {&a, &b}) {
+            for (std::uint32_t p = e->first; p <= e->last; ++p) {
+                double& s = sizes[brep.lines[e->line].vertices[p].value];
+                s = std::min(s, std::max(size, least));
+            }
+        }
+        return true;
+    });
+}
+
 }  // namespace
+
+void limit_by_width(const BrepData& brep, const LinePlan& lines, double least, std::vector<double>& sizes) {
+    for (const auto& surface : brep.surfaces) limit_by_width(brep, surface, lines, least, sizes);
+}
 
 std::vector<double> entity_sizes(const BrepData& brep, double size, std::span<const std::pair<std::string, double>> of) {
     std::vector<double> sizes(brep.vertices.size(), HUGE_VAL);

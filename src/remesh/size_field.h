@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/brep.h"
+#include "remesh/line_plan.h"
 
 namespace geomend::remeshing {
 
@@ -16,5 +17,9 @@ std::vector<double> entity_sizes(const BrepData& brep, double size, std::span<co
 /// Lowers sizes until they grow along no edge of a surface by more than a share of its length. Cost: n log n in the vertices that
 /// change.
 void grade(const BrepData& brep, double growth, std::vector<double>& sizes);
+
+/// Lowers sizes where two lines of a surface run close to one another, so that triangles between them can be near equilateral.
+/// Lines that leave a corner at more than some 40 degrees are not close there. \param least no size becomes less
+void limit_by_width(const BrepData& brep, const LinePlan& lines, double least, std::vector<double>& sizes);
 
 }  // namespace geomend::remeshing

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "base/vectors.h"
 #include "remesh/isotropic.h"
@@ -125,6 +126,12 @@ std::vector<std::uint32_t> near_triangles(const Reference& reference, const Edge
     return near;
 }
 
+/// The closest point on a mesh; where that seems too far it is looked for all around.
+SurfacePoint measured_point(const EdgeMesh& mesh, const Vec3& point, std::uint32_t start, double allowed) {
+    const SurfacePoint found = closest_point(mesh, point, start);
+    return found.distance > allowed ? closest_point_around(mesh, point, start) : found;
+}
+
 void measure_distances(const Reference& reference, const EdgeMesh& mesh, std::span<const std::uint32_t> triangle_of, double allowed,
                        NewSurface& made) {
     DistanceCheck check(reference, allowed, made);
@@ -132,21 +139,34 @@ void measure_distances(const Reference& reference, const EdgeMesh& mesh, std::sp
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
         const auto p = mesh.triangle(t);
         const std::uint32_t start = triangle_of[mesh.corners[3 * std::size_t{t}]];
-        const SurfacePoint middle = closest_point(reference.mesh, times(1.0 / 3, plus(p[0], plus(p[1], p[2]))), start);
+        const SurfacePoint middle = measured_point(reference.mesh, times(1.0 / 3, plus(p[0], plus(p[1], p[2]))), start, allowed);
         made.source_triangles.push_back(middle.triangle);
         check.from_new(middle);
         for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
             if (mesh.twins[h] != no_index && mesh.twins[h] < h) continue;
             const Vec3 half = times(0.5, plus(p[h % 3], p[next_of(h) % 3]));
-            check.from_new(closest_point(reference.mesh, half, triangle_of[mesh.from(h)]));
+            check.from_new(measured_point(reference.mesh, half, triangle_of[mesh.from(h)], allowed));
         }
     }
     const auto near = near_triangles(reference, mesh, triangle_of);
     for (std::uint32_t v = 0; v < reference.mesh.places.size(); ++v) {
         const std::uint32_t start = near[reference.mesh.leaving[v] / 3];
         if (start == no_index) continue;  // a part of which nothing is left: told by the caller
-        check.from_old(v, closest_point(mesh, reference.mesh.places[v], start).distance);
+        check.from_old(v, measured_point(mesh, reference.mesh.places[v], start, allowed).distance);
     }
+}
+
+/// Splits inner edges between pairs of named vertices.
+void split_bridges(WorkSurface& work, std::span<const std::array<std::uint32_t, 2>> bridges) {
+    if (bridges.empty()) return;
+    const std::set<std::array<std::uint32_t, 2>> barred(bridges.begin(), bridges.end());
+    for (std::uint32_t h = 0; h < work.mesh.corners.size(); ++h) {
+        if (work.mesh.corners[h] == no_index || work.mesh.twins[h] == no_index) continue;
+        const std::uint32_t a = work.names[work.mesh.from(h)], b = work.names[work.mesh.to(h)];
+        if (a == no_index || b == no_index || !barred.contains({std::min(a, b), std::max(a, b)})) continue;
+        split_at_middle(work, h);
+    }
+    move_vertices(work);
 }
 
 /// The mesh without holes in its arrays: triangles and vertices keep their order.
@@ -207,6 +227,7 @@ NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePla
     IsotropicRules how;
     how.monitor = rules.monitor;
     remesh_isotropic(work, how);
+    split_bridges(work, rules.bridges);
 
     std::vector<std::uint32_t> kept;
     EdgeMesh mesh = packed(work.mesh, kept);

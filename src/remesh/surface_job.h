@@ -36,6 +36,7 @@ struct NewSurface {
 
 struct SurfaceRules {
     double max_distance = 0;
+    std::span<const std::array<std::uint32_t, 2>> bridges{};  ///< names of vertices between which no inner edge may run
     const Monitor* monitor = nullptr;
 };
 

@@ -60,6 +60,47 @@ TEST(Remesh, SizesOfOneInterfaceAreSmallerThere) {
     EXPECT_LT(triangles(graded, "west"), 2 * triangles(even, "west"));
 }
 
+TEST(Remesh, EdgesOfABoxThatIsOneSurfaceStaySharp) {
+    const auto in = test::real_data("gocad/split_cube.ml");
+    if (!in) GTEST_SKIP() << "the real files are not there";
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.ml";
+    const json report = remesh(in->string(), out, {"--size", "0.1"});
+    ASSERT_TRUE(report.is_object() && report["written"] == true);
+    EXPECT_LT(report["models"][0]["distance"]["hausdorff"].get<double>(), 1e-12);
+    for (const json& s : report["models"][0]["surfaces"]) EXPECT_FALSE(s.contains("kept")) << s;
+    for (const json& region : test::info(out)["brep"]["region_volumes"])
+        EXPECT_NEAR(region["volume"].get<double>(), region["name"] == "Top" ? 0.3 : 0.7, 1e-12);
+}
+
+TEST(Remesh, CornersThatOnlyATouchMakesStayTheSame) {
+    const auto in = test::real_data("gocad/CloudSpin_fixed.ml");
+    if (!in) GTEST_SKIP() << "the real files are not there";
+    const TemporaryFolder folder;
+    const json report = remesh(in->string(), folder / "out.ml", {"--size", "400"});
+    ASSERT_TRUE(report.is_object() && report["written"] == true);
+    EXPECT_EQ(report["models"][0]["entities"], report["models"][0]["entities_after"]);
+}
+
+TEST(Remesh, TheResultDoesNotDependOnTheNumberOfThreads) {
+    const TemporaryFolder folder;
+    const std::string one = folder / "one.ml", two = folder / "two.ml";
+    remesh(sample("layered_box.ml"), one, {"--size", "50", "--threads", "1"});
+    remesh(sample("layered_box.ml"), two, {"--size", "50", "--threads", "4"});
+    EXPECT_EQ(test::read_file(one), test::read_file(two));
+}
+
+TEST(Remesh, MeshGivesSurfacesNewTrianglesFirstWhereItIsAskedTo) {
+    const TemporaryFolder folder;
+    const auto run =
+        run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu", "--size", "60", "--method", "isotropic", "--json"});
+    const json report = json::parse(run.out, nullptr, false);
+    ASSERT_TRUE(report.is_object() && report["written"] == true) << run.err;
+    EXPECT_GT(report["remesh"]["models"][0]["after"]["mean_quality"].get<double>(), 0.9);
+    EXPECT_EQ(run_geomend({"validate", folder / "out.vtu"}).status, 0);
+    EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--method", "isotropic"}).status, 2);
+}
+
 TEST(Remesh, WrongOptionsAreRefused) {
     for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--size", "0"},
                                                   {"--size", "-1"},

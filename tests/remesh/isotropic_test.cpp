@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "remesh/isotropic.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "made_surfaces.h"
+#include "remesh/sample_line.h"
+#include "remesh/triangle_quality.h"
+
+// What remeshing must not do to a surface, whatever its shape and size.
+
+namespace geomend::remeshing {
+namespace {
+
+using test::numbers_of;
+
+/// The places of the vertices on borders.
+std::set<Vec3> border_places(const EdgeMesh& mesh) {
+    std::set<Vec3> places;
+    for (std::uint32_t v = 0; v < mesh.places.size(); ++v) {
+        if (mesh.has_vertex(v) && mesh.on_border(v)) places.insert(mesh.places[v]);
+    }
+    return places;
+}
+
+/// All vertices of borders stay.
+WorkSurface with_fixed_borders(const EdgeMesh& reference, std::span<const double> sizes) {
+    WorkSurface work = work_surface(reference, sizes);
+    for (VertexKind& kind : work.kinds) kind = kind == VertexKind::old ? VertexKind::fixed : kind;
+    return work;
+}
+
+TriangleQuality quality_of(const EdgeMesh& mesh) {
+    TriangleQuality sum;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (mesh.has_triangle(t)) sum.add(mesh.triangle(t));
+    }
+    return sum;
+}
+
+RC_GTEST_PROP(Isotropic, TopologyAndBordersStayAndVerticesLieOnTheSurface, ()) {
+    const double wave = *rc::gen::inRange(0, 300) / 100.0, length = *rc::gen::inRange(2, 12), size = *rc::gen::inRange(20, 600) / 100.0;
+    const EdgeMesh reference = test::sheet(14, 11, [&](double x, double y) { return wave * std::sin(x / length) * std::cos(y / length); });
+    const std::vector<double> sizes(reference.places.size(), size);
+    WorkSurface work = with_fixed_borders(reference, sizes);
+    const auto before = numbers_of(reference);
+    const auto border = border_places(reference);
+    remesh_isotropic(work, {});
+    RC_ASSERT(is_consistent(work.mesh));
+    const auto after = numbers_of(work.mesh);
+    RC_ASSERT(after.euler == before.euler);
+    RC_ASSERT(after.border_edges == before.border_edges);
+    RC_ASSERT(border_places(work.mesh) == border);
+    for (std::uint32_t v = 0; v < work.mesh.places.size(); ++v) {
+        if (work.mesh.has_vertex(v) && work.kinds[v] == VertexKind::inner)
+            RC_ASSERT(closest_point(reference, work.mesh.places[v], work.triangles[v]).distance < 0.3 * size);
+    }
+}
+
+TEST(Isotropic, AFlatSheetBecomesNearlyEquilateral) {
+    const EdgeMesh reference = test::sheet(40, 30);
+    for (const double size : {0.5, 1.0}) {
+        const std::vector<double> sizes(reference.places.size(), size);
+        WorkSurface work = with_fixed_borders(reference, sizes);
+        remesh_isotropic(work, {});
+        const TriangleQuality quality = quality_of(work.mesh);
+        EXPECT_GT(quality.mean_quality(), 0.9) << size;
+        EXPECT_GT(quality.share_above_30(), 0.97) << size;
+    }
+}
+
+TEST(Isotropic, AClosedSurfaceWithoutLinesStaysClosed) {
+    const EdgeMesh reference = test::closed_cube(6);
+    for (const double size : {0.4, 2.0, 100.0}) {
+        const std::vector<double> sizes(reference.places.size(), size);
+        WorkSurface work = work_surface(reference, sizes);
+        remesh_isotropic(work, {});
+        EXPECT_TRUE(is_consistent(work.mesh));
+        EXPECT_EQ(numbers_of(work.mesh).euler, 2) << size;
+        EXPECT_EQ(numbers_of(work.mesh).border_edges, 0u) << size;
+    }
+}
+
+TEST(Isotropic, EveryOldVertexOfAStraightBorderGivesWay) {
+    const EdgeMesh reference = test::sheet(20, 20);
+    const std::vector<double> sizes(reference.places.size(), 5);
+    WorkSurface work = work_surface(reference, sizes);
+    for (std::uint32_t v = 0; v < reference.places.size(); ++v) {
+        const auto& p = reference.places[v];
+        const auto stays = [](double x) { return std::fmod(x, 5.0) == 0; };
+        if (reference.on_border(v) && stays(p[0]) && stays(p[1])) work.kinds[v] = VertexKind::fixed;
+    }
+    remesh_isotropic(work, {});
+    EXPECT_EQ(numbers_of(work.mesh).border_edges, 16u);
+    for (std::uint32_t v = 0; v < work.mesh.places.size(); ++v) EXPECT_FALSE(work.mesh.has_vertex(v) && work.kinds[v] == VertexKind::old);
+}
+
+TEST(SampleLine, AStraightLineIsPartedEvenly) {
+    std::vector<Vec3> points;
+    for (int i = 0; i <= 100; ++i) points.push_back({double(i), 0, 0});
+    const std::vector<double> sizes(points.size(), 30);
+    LineRules rules;
+    rules.max_distance = 1;
+    const auto samples = sample_line(points, sizes, rules);
+    ASSERT_EQ(samples.size(), 4u);
+    EXPECT_NEAR(place_of(points, samples[1])[0], 100.0 / 3, 1e-9);
+    EXPECT_EQ(place_of(points, samples.back()), points.back());
+}
+
+TEST(SampleLine, SharpBendsStay) {
+    std::vector<Vec3> points;
+    for (int i = 0; i <= 37; ++i) points.push_back({double(i), 0, 0});
+    for (int i = 1; i <= 41; ++i) points.push_back({37, double(i), 0});
+    const std::vector<double> sizes(points.size(), 10);
+    LineRules rules;
+    rules.max_distance = 1;
+    bool found = false;
+    for (const LineSample& s : sample_line(points, sizes, rules)) found = found || place_of(points, s) == Vec3{37, 0, 0};
+    EXPECT_TRUE(found);
+}
+
+RC_GTEST_PROP(SampleLine, NoPointIsFartherThanAllowed, ()) {
+    const auto heights = *rc::gen::container<std::vector<int>>(30, rc::gen::inRange(-50, 50));
+    const double size = *rc::gen::inRange(1, 40), allowed = *rc::gen::inRange(1, 100) / 10.0;
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < heights.size(); ++i) points.push_back({double(i), heights[i] / 10.0, 0});
+    const std::vector<double> sizes(points.size(), size);
+    LineRules rules;
+    rules.max_distance = allowed;
+    const auto samples = sample_line(points, sizes, rules);
+    RC_ASSERT(samples.front() == LineSample{});
+    RC_ASSERT(place_of(points, samples.back()) == points.back());
+    for (const Vec3& p : points) {
+        double least = 1e300;
+        for (std::size_t k = 1; k < samples.size(); ++k) {
+            const Vec3 a = place_of(points, samples[k - 1]), b = place_of(points, samples[k]);
+            const double dx = b[0] - a[0], dy = b[1] - a[1], whole = dx * dx + dy * dy;
+            const double t = std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / whole, 0.0, 1.0);
+            least = std::min(least, std::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy));
+        }
+        RC_ASSERT(least <= allowed * (1 + 1e-9));
+    }
+}
+
+}  // namespace
+}  // namespace geomend::remeshing
