@@ -19,8 +19,11 @@ std::string full_figure(double value) {
     return text;
 }
 
-/// The same word for one and for many: a type or a role.
-std::string counted(std::uint64_t n, const std::string& what) { return geomend::counted(n, what, what); }
+/// A plural, or a type or role, which is the same word for one and for many.
+std::string counted(std::uint64_t n, const std::string& what) {
+    if (n != 1 || !what.ends_with('s')) return geomend::counted(n, what, what);
+    return "1 " + (what == "vertices" ? std::string("vertex") : what.substr(0, what.size() - 1));
+}
 
 std::string joined(const std::vector<std::string>& parts, const char* between) {
     std::string text;
@@ -84,7 +87,7 @@ std::string object_text(const ObjectSummary& o, bool verbose) {
     }
     if (!names.empty()) text += "    attributes " + joined(names, ", ") + '\n';
     names.clear();
-    for (const auto& s : o.sets) names.push_back(s.name + " (" + counted(s.members, s.location) + "s)");
+    for (const auto& s : o.sets) names.push_back(s.name + " (" + counted(s.members, s.location + 's') + ')');
     if (!names.empty()) text += "    sets " + joined(names, ", ") + '\n';
     return text;
 }
