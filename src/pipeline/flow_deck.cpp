@@ -98,7 +98,7 @@ std::string flow_deck(const CornerPointGrid& grid, const std::string& title, con
            "PROPS\n\nPVTW\n 200 1.02 4.5E-5 0.5 0 /\n\nPVDO\n 1 1.2 1\n 200 1.15 1.1\n 2000 1.1 1.5 /\n\nROCK\n 200 5E-5 /\n\n"
            "DENSITY\n 850 1020 1 /\n\nSWOF\n 0.2 0 1 0\n 0.5 0.2 0.3 0\n 0.8 1 0 0 /\n\n" +
            regions(grid, layers) + "SOLUTION\n\nEQUIL\n " + number_text(facts.top) + ' ' + number_text(pressure(facts, facts.top)) + ' ' +
-           number_text(contact) + " 0 /\n\nSUMMARY\n\nFPR\nFOPR\nFWIR\n\n" + schedule(grid, facts);
+           number_text(contact) + " 0 " + number_text(facts.top - 1000) + " 0 /\n\nSUMMARY\n\nFPR\nFOPR\nFWIR\n\n" + schedule(grid, facts);
 }
 
 }  // namespace geomend

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <string>
 
 #include "support/program.h"
 #include "support/real_data.h"
@@ -104,6 +106,15 @@ TEST(Grid, ADeckHasTheZonesAndRunsInFlowWhereThatIsInstalled) {
     ASSERT_TRUE(info.is_object());
     EXPECT_EQ(info["objects"][0]["counts"]["active_cells"], made["active_cells"]);
     EXPECT_EQ(run_geomend({"validate", deck}).status, 0);
+    // Where depths are negative, too, there is no gas above the datum: its contact lies above the grid.
+    std::ifstream text(deck);
+    std::string word;
+    while (text >> word && word != "EQUIL") {
+    }
+    double datum = 0, pressure = 0, water = 0, capillary = 0, gas = 0;
+    text >> datum >> pressure >> water >> capillary >> gas;
+    EXPECT_LT(gas, datum);
+    EXPECT_LT(datum, water);
     if (std::system("command -v flow > /dev/null 2>&1") != 0) GTEST_SKIP() << "flow is not installed";
     const std::string run = "cd " + folder.path().string() + " && flow small.DATA --output-dir=out > log 2>&1";
     ASSERT_EQ(std::system(run.c_str()), 0);
