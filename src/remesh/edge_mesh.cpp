@@ -71,10 +71,27 @@ std::uint32_t split_triangle(EdgeMesh& mesh, std::uint32_t h, std::uint32_t v) {
     return 3 * t;
 }
 
+/// The half-edges that leave a vertex, one after the other.
+struct Fan {
+    const EdgeMesh& mesh;
+    std::uint32_t first, at;
+    Fan(const EdgeMesh& m, std::uint32_t v) : mesh(m), first(m.leaving[v]), at(first) {}
+
+    bool leads_to(std::uint32_t v) const { return mesh.to(at) == v || mesh.tip(at) == v; }
+    /// \return false at the end
+    bool next() {
+        at = mesh.twins[previous_of(at)];
+        return at != no_index && at != first;
+    }
+};
+
+/// Whether there is an edge between two vertices. Cost: as many steps as the one with fewer edges has.
 bool are_neighbours(const EdgeMesh& mesh, std::uint32_t a, std::uint32_t b) {
-    bool found = false;
-    visit_neighbours(mesh, a, [&](std::uint32_t v) { found = found || v == b; });
-    return found;
+    Fan of_a(mesh, a), of_b(mesh, b);
+    for (;;) {
+        if (of_a.leads_to(b) || of_b.leads_to(a)) return true;
+        if (!of_a.next() || !of_b.next()) return false;
+    }
 }
 
 unsigned valence(const EdgeMesh& mesh, std::uint32_t v) {
@@ -84,13 +101,12 @@ unsigned valence(const EdgeMesh& mesh, std::uint32_t v) {
 }
 
 /// The triangles of a half-edge's side of a collapse: they go, and what lies across their other edges becomes neighbours.
-/// \return a half-edge that stays and leaves the tip
-std::uint32_t fold_side(EdgeMesh& mesh, std::uint32_t h) {
-    const std::uint32_t a = mesh.twins[next_of(h)], b = mesh.twins[previous_of(h)];
+void fold_side(EdgeMesh& mesh, std::uint32_t h) {
+    const std::uint32_t a = mesh.twins[next_of(h)], b = mesh.twins[previous_of(h)], tip = mesh.tip(h);
+    if (mesh.leaving[tip] == previous_of(h)) mesh.leaving[tip] = a;
     if (a != no_index) mesh.twins[a] = b;
     if (b != no_index) mesh.twins[b] = a;
     remove_triangle(mesh, h);
-    return a != no_index ? a : next_of(b);
 }
 
 }  // namespace
@@ -173,10 +189,10 @@ void flip_edge(EdgeMesh& mesh, std::uint32_t h) {
     if (db != no_index) mesh.twins[db] = gn;
     mesh.twins[gp] = bc;
     if (bc != no_index) mesh.twins[bc] = gp;
-    set_leaving(mesh, hp);
-    set_leaving(mesh, gp);
-    set_leaving(mesh, g);
-    set_leaving(mesh, h);
+    if (mesh.leaving[a] == h || mesh.leaving[a] == gn) mesh.leaving[a] = hp;
+    if (mesh.leaving[b] == g || mesh.leaving[b] == hn) mesh.leaving[b] = gp;
+    if (mesh.leaving[c] == hp) mesh.leaving[c] = hn;
+    if (mesh.leaving[d] == gp) mesh.leaving[d] = gn;
 }
 
 bool can_collapse(const EdgeMesh& mesh, std::uint32_t h, std::uint32_t gone) {
@@ -212,10 +228,10 @@ void collapse_edge(EdgeMesh& mesh, std::uint32_t h, std::uint32_t gone) {
         const std::uint32_t onward = mesh.twins[next_of(h)];
         leaves = onward != no_index ? next_of(onward) : mesh.twins[previous_of(h)];
     }
-    const std::uint32_t at_tip = fold_side(mesh, h);
-    if (back != no_index) set_leaving(mesh, fold_side(mesh, back));
-    set_leaving(mesh, at_tip);
-    set_leaving(mesh, leaves);
+    const bool first_goes = goes(mesh.leaving[stays]) || back == no_index;
+    fold_side(mesh, h);
+    if (back != no_index) fold_side(mesh, back);
+    if (first_goes) set_leaving(mesh, leaves);
     mesh.leaving[gone] = no_index;
     mesh.free_vertices.push_back(gone);
 }

@@ -184,7 +184,7 @@ bool split_at_middle(WorkSurface& work, std::uint32_t h) {
 std::size_t split_long_edges(WorkSurface& work) {
     std::size_t count = 0;
     for (std::uint32_t h = 0; h < work.mesh.corners.size(); ++h) {
-        while (work.mesh.corners[h] != no_index && work.mesh.twins[h] != no_index) {
+        while (work.mesh.corners[h] != no_index && work.mesh.twins[h] != no_index && work.mesh.triangle_count() < work.most_triangles) {
             const double most = too_long * wanted(work, h);
             if (!(square_length(work.mesh, h) > most * most) || !is_longest(work.mesh, h) || !split_at_middle(work, h)) break;
             ++count;
@@ -246,11 +246,13 @@ std::size_t improve_small_angles(WorkSurface&) { return 0; }
 
 void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules) {
     const auto stopped = [&] { return rules.monitor != nullptr && rules.monitor->stopped(); };
+    remove_old_vertices(work);
+    for (int again = 0; again < 20 && flip_edges(work) > 0; ++again) {
+    }  // fans from one corner to all of a line go
     collapse_short_edges(work);
     for (unsigned round = 0; round < rules.rounds && !stopped(); ++round) {
         remove_old_vertices(work);
-        for (int again = 0; again < 12 && split_long_edges(work) > 0; ++again) {
-        }
+        for (int again = 0; again < 12 && split_long_edges(work) > 0; ++again) flip_edges(work);
         collapse_short_edges(work);
         remove_old_vertices(work);
         flip_edges(work);

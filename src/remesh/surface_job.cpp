@@ -2,6 +2,7 @@
 #include "remesh/surface_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -156,6 +157,19 @@ void measure_distances(const Reference& reference, const EdgeMesh& mesh, std::sp
     }
 }
 
+/// Far more triangles than the area and the sizes, or the borders, call for.
+std::uint32_t most_triangles(const Reference& reference, const WorkSurface& work) {
+    double count = 1000 + 8.0 * work.mesh.triangle_count();
+    for (std::uint32_t t = 0; t < reference.mesh.triangle_count(); ++t) {
+        const auto at = reference.mesh.triangle(t);
+        const Vec3 n = cross(minus(at[1], at[0]), minus(at[2], at[0]));
+        double size = HUGE_VAL;
+        for (std::size_t k = 0; k < 3; ++k) size = std::min(size, reference.sizes[reference.mesh.corners[3 * std::size_t{t} + k]]);
+        count += 10 * std::sqrt(dot(n, n)) / (size * size);
+    }
+    return static_cast<std::uint32_t>(std::min(count, 1e9));
+}
+
 /// Splits inner edges between pairs of named vertices.
 void split_bridges(WorkSurface& work, std::span<const std::array<std::uint32_t, 2>> bridges) {
     if (bridges.empty()) return;
@@ -224,9 +238,12 @@ NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePla
     NewSurface made;
     std::vector<std::array<std::uint32_t, 2>> nodes;
     if (std::string why = fit_lines(*reference, lines, work, nodes, made.stuck); !why.empty()) return keep(std::move(why));
+    work.most_triangles = most_triangles(*reference, work);
     IsotropicRules how;
     how.monitor = rules.monitor;
     remesh_isotropic(work, how);
+    if (work.mesh.triangle_count() >= work.most_triangles)
+        return keep("its triangles are too narrow for the size: it would have very many");
     split_bridges(work, rules.bridges);
 
     std::vector<std::uint32_t> kept;

@@ -25,7 +25,8 @@ struct WorkSurface {
     std::vector<double> sizes;             ///< per vertex: edges there should be so long
     std::vector<std::uint32_t> triangles;  ///< per vertex one of the reference at which it lies
     std::vector<VertexKind> kinds;
-    std::vector<std::uint32_t> names;  ///< per vertex the caller's number of a fixed one
+    std::vector<std::uint32_t> names;           ///< per vertex the caller's number of a fixed one
+    std::uint32_t most_triangles = UINT32_MAX;  ///< no edge is split where there are as many
 };
 
 /// The reference as it is, all vertices inner ones but those on borders, which are old.
