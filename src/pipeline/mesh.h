@@ -18,7 +18,7 @@ struct MeshRequest {
     ConvertRequest files;
     validators::CheckOptions checks;  ///< by which the model is judged before it is filled
     volumes::FillOptions fill;
-    std::string split = "none";  ///< along which surfaces, see split_mesh()
+    std::string split = "none";                      ///< along which surfaces, see split_mesh()
     std::optional<remeshing::RemeshOptions> remesh;  ///< new triangles before regions are filled
 };
 
