@@ -242,8 +242,6 @@ std::size_t move_vertices(WorkSurface& work) {
     return count;
 }
 
-std::size_t improve_small_angles(WorkSurface&) { return 0; }
-
 void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules) {
     const auto stopped = [&] { return rules.monitor != nullptr && rules.monitor->stopped(); };
     remove_old_vertices(work);
@@ -257,10 +255,6 @@ void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules) {
         remove_old_vertices(work);
         flip_edges(work);
         move_vertices(work);
-        flip_edges(work);
-    }
-    for (unsigned round = 0; round < rules.finishing && !stopped(); ++round) {
-        if (improve_small_angles(work) == 0) break;
         flip_edges(work);
     }
 }

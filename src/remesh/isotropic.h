@@ -7,8 +7,7 @@
 namespace geomend::remeshing {
 
 struct IsotropicRules {
-    unsigned rounds = 6;     ///< of splitting, collapsing, turning and moving
-    unsigned finishing = 4;  ///< rounds for triangles with small angles
+    unsigned rounds = 6;  ///< of splitting, collapsing, turning and moving
     const Monitor* monitor = nullptr;
 };
 
@@ -28,6 +27,5 @@ std::size_t collapse_short_edges(WorkSurface& work);
 std::size_t remove_old_vertices(WorkSurface& work);
 std::size_t flip_edges(WorkSurface& work);
 std::size_t move_vertices(WorkSurface& work);
-std::size_t improve_small_angles(WorkSurface& work);
 
 }  // namespace geomend::remeshing
