@@ -323,7 +323,9 @@ Result<void> OutputSet::commit(const Monitor* monitor) {
     }
     for (const auto& file : files_) {
         if (file->target_.is_file()) continue;
-        if (const int error = send_to_stream(file->fd_, file->target_, monitor); error != 0) return give_up(file->name_, error);
+        const int error = send_to_stream(file->fd_, file->target_, monitor);
+        const bool has_read_enough = error == EPIPE && file->name_ == "-";  // as `| head` does: no failure
+        if (error != 0 && !has_read_enough) return give_up(file->name_, error);
     }
     for (const Renamed& r : done) {
         if (!r.backup.empty()) ::unlink(r.backup.c_str());

@@ -24,6 +24,21 @@ TEST(CommandLine, NamesTheNearestCommandAndOption) {
     EXPECT_TRUE(says(run, "no such option '--tolerence'; the nearest is '--tolerance'")) << run.err;
 }
 
+TEST(CommandLine, AReaderThatHasEnoughEndsAConversionQuietly) {
+    const TemporaryFolder folder;
+    std::string text = "GOCAD TSurf 1\nHEADER {\nname:t\n}\nTFACE\n";
+    for (int i = 0; i < 30000; ++i)
+        text += "VRTX " + std::to_string(i + 1) + " " + std::to_string(i) + " " + std::to_string(i % 7) + " 0\n";
+    for (int i = 0; i + 2 < 30000; i += 3)
+        text += "TRGL " + std::to_string(i + 1) + " " + std::to_string(i + 2) + " " + std::to_string(i + 3) + "\n";
+    write_file(folder / "t.ts", text + "END\n");
+    const std::string log = (folder / "log").string();
+    const std::string line = "bash -o pipefail -c '\"" GEOMEND_PROGRAM "\" convert \"" + (folder / "t.ts").string() +
+                             "\" -o - --to ts 2>\"" + log + "\" | true'";
+    EXPECT_EQ(std::system(line.c_str()), 0);
+    EXPECT_EQ(read_file(log), "");
+}
+
 TEST(CommandLine, WithoutACommandPrintsTheHelp) {
     const ProgramRun run = run_geomend({});
     EXPECT_EQ(run.status, 2);
