@@ -121,7 +121,9 @@ void add_remesh(CLI::App& program, ExitStatus& status) {
     command->add_option("--growth", o->growth, "Sizes grow by no more than this share of the way (default 0.3)")
         ->type_name("SHARE")
         ->check(is_length());
-    command->add_option("--max-distance", o->max_distance, "Largest distance between new and old surfaces (default: a tenth of the size)")
+    command
+        ->add_option("--max-distance", o->max_distance,
+                     "Largest distance between new and old surfaces (default: a tenth of the size, 1/200 of the model at most)")
         ->type_name("L")
         ->check(is_length());
     command->add_option("--max-triangles", o->most_triangles, "Most triangles that a size may make (default 20000000)")->type_name("N");

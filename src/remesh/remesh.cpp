@@ -24,7 +24,19 @@ namespace {
 constexpr unsigned most_tries = 4;     ///< of a surface that comes out too far from what it was
 constexpr unsigned most_searches = 3;  ///< for crossings that smaller sizes may end
 
-double allowed_distance(const RemeshOptions& options) { return options.max_distance > 0 ? options.max_distance : options.size / 10; }
+/// By default a tenth of the size, but no more than half a hundredth of the model, which a large size must not melt down.
+double allowed_distance(const BrepData& brep, const RemeshOptions& options) {
+    if (options.max_distance > 0) return options.max_distance;
+    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (const Vec3& p : brep.vertices) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+    const Vec3 d = minus(high, low);
+    return std::min(options.size / 10, std::sqrt(dot(d, d)) / 200);
+}
 
 /// The rounds in which a model is remeshed.
 class Rounds {
@@ -35,7 +47,7 @@ public:
           brep_(cut),
           options_(options),
           lines_(cut, whole.lines.size()),
-          allowed_(allowed_distance(options)),
+          allowed_(allowed_distance(whole, options)),
           sizes_(entity_sizes(cut, options.size, options.size_of)),
           surfaces_(cut.surfaces.size()),
           expected_(cut.surfaces.size(), 0),
@@ -372,7 +384,7 @@ Result<Remeshed> Rounds::run() {
 
 Result<Remeshed> remesh_model(const BrepData& brep, const RemeshOptions& options) {
     CreaseRules creases;
-    creases.height = allowed_distance(options) / 2;
+    creases.height = allowed_distance(brep, options) / 2;
     creases.length = options.size / 2;
     const BrepData cut = cut_at_creases(brep, creases);
     return Rounds(brep, cut, options).run();

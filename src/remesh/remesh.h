@@ -18,7 +18,7 @@ struct RemeshOptions {
     double size = 0;                                      ///< of edges, above 0
     std::vector<std::pair<std::string, double>> size_of;  ///< of interfaces or surfaces by name
     double growth = 0.3;                                  ///< sizes grow by no more than this share of the way
-    double max_distance = 0;                              ///< between new and old surfaces; 0: a tenth of the size
+    double max_distance = 0;  ///< between new and old surfaces; 0: a tenth of the size, 1/200 of the model at most
     std::uint64_t most_triangles = 20'000'000;
     const Monitor* monitor = nullptr;
 };

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "support/program.h"
 #include "support/real_data.h"
@@ -35,6 +36,18 @@ TEST(Remesh, ASampleKeepsItsCornersLinesSurfacesAndRegions) {
     EXPECT_GT(after["triangles"].get<std::uint64_t>(), before["triangles"].get<std::uint64_t>());
     EXPECT_EQ(run_geomend({"validate", out}).status, 0);
     EXPECT_GT(report["models"][0]["after"]["mean_quality"].get<double>(), 0.9);
+}
+
+TEST(Remesh, ASizeLargerThanTheModelDoesNotMeltItDown) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.ml";
+    const json report = remesh(sample("layered_box.ml"), out, {"--size", "1e6"});
+    ASSERT_TRUE(report.is_object() && report["written"] == true);
+    std::map<std::string, double> before;
+    for (const json& r : test::info(sample("layered_box.ml"))["brep"]["region_volumes"]) before[r["name"]] = r["volume"];
+    for (const json& r : test::info(out)["brep"]["region_volumes"])
+        EXPECT_NEAR(r["volume"].get<double>(), before.at(r["name"]), 0.05 * before.at(r["name"])) << r["name"];
+    EXPECT_EQ(run_geomend({"validate", out}).status, 0);
 }
 
 TEST(Remesh, ASizeThatMakesTooManyTrianglesIsRefusedAtOnce) {
