@@ -8,6 +8,7 @@
 #include "exchange/model_from_brep.h"
 #include "pipeline/command_options.h"
 #include "pipeline/json_parts.h"
+#include "pipeline/record_places.h"
 #include "pipeline/validate.h"
 #include "topology/brep_from_dataset.h"
 #include "topology/lengths.h"
@@ -40,6 +41,7 @@ Result<std::vector<Finding>> errors_of(const Dataset& dataset, const MeshRequest
     auto judged = validate(request.files.inputs.front(), dataset, request.checks);
     if (!judged) return std::move(judged).why();
     std::erase_if(judged->findings, [](const Finding& f) { return f.severity != Severity::error; });
+    if (request.files.inputs.size() == 1) give_lines(request.files.inputs.front(), dataset, judged->names, judged->findings);
     return std::move(judged->findings);
 }
 

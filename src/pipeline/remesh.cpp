@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/nearest_word.h"
 #include "base/wording.h"
 #include "exchange/model_from_brep.h"
 #include "pipeline/json_parts.h"
@@ -68,6 +69,21 @@ void mark_parts(const BrepData& brep, std::vector<std::uint8_t>& is_part) {
     }
 }
 
+/// Sizes are of surfaces or interfaces that are there.
+Result<void> check_names(std::span<const topology::JudgedModel> models, const remeshing::RemeshOptions& options) {
+    std::vector<std::string_view> known;
+    for (const auto& model : models) {
+        for (const auto& surface : model.brep->surfaces) known.push_back(surface.name);
+        for (const auto& interface : model.brep->interfaces) known.push_back(interface.name);
+    }
+    for (const auto& [name, size] : options.size_of) {
+        if (std::ranges::find(known, name) != known.end()) continue;
+        return failure(FailureKind::usage, "F018", {},
+                       "--size-of: no surface or interface is called '" + name + "'" + nearest_hint(name, known));
+    }
+    return {};
+}
+
 /// What speaks against a result.
 Result<void> judge(const Dataset& dataset, const RemeshRequest& request, const repair::ErrorCounts& before, RemeshReport& report) {
     auto models = models_of(dataset, request.checks);
@@ -102,6 +118,7 @@ Result<void> remesh(Dataset& dataset, const Format& target, const RemeshRequest&
         none.error.measures.emplace_back("no_surfaces", 1);
         return none;
     }
+    if (auto named = check_names(*models, request.remesh); !named) return named;
     std::vector<std::uint8_t> is_part(dataset.objects.size(), 0);
     std::vector<Dataset> made;
     for (const topology::JudgedModel& model : *models) {

@@ -50,6 +50,13 @@ TEST(Remesh, ASizeLargerThanTheModelDoesNotMeltItDown) {
     EXPECT_EQ(run_geomend({"validate", out}).status, 0);
 }
 
+TEST(Remesh, ASizeOfASurfaceThatIsNotThereIsNamedWithTheNearest) {
+    const TemporaryFolder folder;
+    const auto run = run_geomend({"remesh", sample("layered_box.ml"), "-o", folder / "out.ml", "--size", "60", "--size-of", "fautl=3"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find("'fault'"), std::string::npos) << run.err;
+}
+
 TEST(Remesh, ASizeThatMakesTooManyTrianglesIsRefusedAtOnce) {
     const TemporaryFolder folder;
     const auto run = run_geomend({"remesh", sample("layered_box.ml"), "-o", folder / "out.ml", "--size", "1e-6"});
