@@ -39,6 +39,13 @@ void write_attribute_values(OutputFile& file, const Attribute& a, std::size_t th
         a.values);
 }
 
+std::vector<CellFaceRef> shared_faces(const CellNetwork& network) {
+    std::vector<CellFaceRef> shared;
+    for (const auto& c : network.connections) shared.insert(shared.end(), {{c.from, c.from_face}, {c.to, c.to_face}});
+    std::ranges::sort(shared);
+    return shared;
+}
+
 std::vector<VolumeMeshData::Block> blocks_of(const VolumeMesh& mesh, CellType type) {
     std::vector<VolumeMeshData::Block> blocks;
     std::ranges::copy_if(mesh->blocks, std::back_inserter(blocks),

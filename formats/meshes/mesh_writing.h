@@ -24,6 +24,9 @@ bool is_text(const Attribute& a);
 /// Writes the values of an attribute of numbers at one thing as they are, each after a blank.
 void write_attribute_values(OutputFile& file, const Attribute& a, std::size_t thing);
 
+/// Faces that two cells share, as each of them has it, ascending: only what one cell alone has is the border of a model.
+std::vector<CellFaceRef> shared_faces(const CellNetwork& network);
+
 /// Writes the nodes of a cell in the order of the target, counted from 1, each after a separator.
 /// \param order per node of the target its number in our order
 template <class Order>

@@ -38,9 +38,7 @@ struct Patch {
 
 /// Faces of one cell alone by the first set that has them; the rest is the patch "border".
 std::vector<Patch> patches_of(const VolumeMesh& mesh) {
-    std::vector<CellFaceRef> inner;
-    for (const auto& c : mesh->network.connections) inner.insert(inner.end(), {{c.from, c.from_face}, {c.to, c.to_face}});
-    std::ranges::sort(inner);
+    const std::vector<CellFaceRef> inner = shared_faces(mesh->network);
     std::vector<CellFaceRef> border;
     for (std::uint32_t c = 0; c < mesh->cell_count(); ++c) {
         for (std::uint32_t f = 0; f < mesh.face_count(c); ++f) {

@@ -40,14 +40,6 @@ BorderFace measured(const VolumeMesh& mesh, const CellFaceRef& face) {
     return {face.cell, middle, std::sqrt(dot(area, area))};
 }
 
-/// Faces that two cells share, ascending: only what one cell alone has is the border of a model.
-std::vector<CellFaceRef> shared_faces(const CellNetwork& network) {
-    std::vector<CellFaceRef> shared;
-    for (const auto& c : network.connections) shared.insert(shared.end(), {{c.from, c.from_face}, {c.to, c.to_face}});
-    std::ranges::sort(shared);
-    return shared;
-}
-
 }  // namespace
 
 Result<std::vector<Loss>> write_pflotran(const VolumeMesh& mesh, OutputSet& out, const WriteOptions&) {

@@ -25,6 +25,18 @@ struct CommonOptions {
     std::vector<std::string> options;  ///< KEY=VALUE
 };
 
+/// What commands that read inputs as one model and write one output have in common of their request (ConvertRequest).
+/// \param monitor may be null; outlives the request
+template <class Arguments, class Files>
+void take_files(const Arguments& o, FormatOptions options, const Monitor* monitor, Files& files) {
+    files.inputs = o.inputs;
+    files.output = o.output;
+    files.to = o.to;
+    files.lossy = o.lossy;
+    files.accept_unterminated = o.accept_unterminated;
+    files.load = {o.from, std::move(options), monitor};
+}
+
 /// Adds them to a command; `writes` adds --to.
 void add_common_options(CLI::App& command, CommonOptions& options, bool writes);
 

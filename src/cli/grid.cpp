@@ -49,12 +49,7 @@ Result<GridRequest> request_of(const GridCommand& o) {
     auto options = format_options(o.options);
     if (!options) return std::move(options).why();
     GridRequest request;
-    request.files.inputs = o.inputs;
-    request.files.output = o.output;
-    request.files.to = o.to;
-    request.files.lossy = o.lossy;
-    request.files.accept_unterminated = o.accept_unterminated;
-    request.files.load = {o.from, std::move(*options)};
+    take_files(o, std::move(*options), nullptr, request.files);
     request.structure.horizons = o.horizons;
     request.structure.fault_polygons = o.fault_polygons;
     request.structure.erodes = o.erosion;

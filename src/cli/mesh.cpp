@@ -71,12 +71,7 @@ ExitStatus run(const MeshOptions& o) {
     auto checks = check_options(o, {}, &monitor);
     if (!checks) return report(checks.why());
     MeshRequest request;
-    request.files.inputs = o.inputs;
-    request.files.output = o.output;
-    request.files.to = o.to;
-    request.files.lossy = o.lossy;
-    request.files.accept_unterminated = o.accept_unterminated;
-    request.files.load = {o.from, std::move(*options), &monitor};
+    take_files(o, std::move(*options), &monitor, request.files);
     request.checks = std::move(*checks);
     request.split = o.split;
     request.fill.size = o.size;

@@ -76,12 +76,7 @@ ExitStatus run(const RemeshArguments& o) {
     auto checks = check_options(o, {}, &monitor);
     if (!checks) return report(checks.why());
     RemeshRequest request;
-    request.files.inputs = o.inputs;
-    request.files.output = o.output;
-    request.files.to = o.to;
-    request.files.lossy = o.lossy;
-    request.files.accept_unterminated = o.accept_unterminated;
-    request.files.load = {o.from, std::move(*options), &monitor};
+    take_files(o, std::move(*options), &monitor, request.files);
     request.checks = std::move(*checks);
     request.keep_invalid = o.keep_invalid;
     request.remesh.size = o.size;

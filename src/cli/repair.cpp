@@ -123,12 +123,7 @@ Result<RepairRequest> request_of(const RepairOptions& o, const Monitor& monitor)
     auto checks = check_options(o, o, &monitor);
     if (!checks) return std::move(checks).why();
     request.checks = std::move(*checks);
-    request.files.inputs = o.inputs;
-    request.files.output = o.output;
-    request.files.to = o.to;
-    request.files.lossy = o.lossy;
-    request.files.accept_unterminated = o.accept_unterminated;
-    request.files.load = {o.from, std::move(*options), &monitor};
+    take_files(o, std::move(*options), &monitor, request.files);
     auto recipe = recipe_of(o);
     if (!recipe) return std::move(recipe).why();
     if (request.checks.tolerance < 0 && recipe->tolerance) request.checks.tolerance = *recipe->tolerance;

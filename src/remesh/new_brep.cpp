@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "exchange/empty_regions.h"
 #include "model/attribute_operations.h"
 
 namespace geomend::remeshing {
@@ -89,28 +90,6 @@ void put_surface(const NewSurface& made, std::span<const std::uint32_t> number, 
     carry_values(old, made, vertex_of_node, surface);
 }
 
-void empty_regions(BrepData& brep, std::vector<Loss>& losses) {
-    const char* why = "the surfaces around them are new";
-    for (auto& region : brep.regions) {
-        if (!region.cell_types.empty()) losses.push_back({LossClass::substance, region.name, "cells", why, region.cell_types.size()});
-        for (const Attribute& a : region.attributes) {
-            if (a.location != AttributeLocation::object)
-                losses.push_back({LossClass::substance, region.name, "values of '" + a.name + "'", why, 1});
-        }
-        region.nodes.clear();
-        region.cell_types.clear();
-        region.cell_offsets = {0};
-        region.cell_nodes.clear();
-        region.cell_faces.clear();
-        region.face_offsets.clear();
-        region.face_nodes.clear();
-        std::erase_if(region.attributes, [](const Attribute& a) { return a.location != AttributeLocation::object; });
-    }
-    for (const Attribute& a : brep.vertex_attributes)
-        losses.push_back({LossClass::substance, brep.name, "values of '" + a.name + "' at points of cells", why, 1});
-    brep.vertex_attributes.clear();
-}
-
 }  // namespace
 
 NewVertices new_vertices(const BrepData& brep, const LinePlan& lines, std::span<const NewSurface> surfaces) {
@@ -146,7 +125,7 @@ NewVertices new_vertices(const BrepData& brep, const LinePlan& lines, std::span<
 BrepData new_brep(const BrepData& brep, const LinePlan& lines, std::span<const NewSurface> surfaces, std::vector<Loss>& losses) {
     NewVertices vertices = new_vertices(brep, lines, surfaces);
     BrepData made = brep;
-    empty_regions(made, losses);
+    exchange::empty_regions(made, LossClass::substance, "the surfaces around them are new", losses);
     for (auto& corner : made.corners) corner.vertex = VertexId(vertices.number[corner.vertex.value]);
     for (std::uint32_t l = 0; l < made.lines.size(); ++l) {
         made.lines[l].vertices.clear();

@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "exchange/empty_regions.h"
 #include "volume/region_cells.h"
 #include "volume/region_facets.h"
 
@@ -113,30 +114,6 @@ void put_in(BrepData& brep, const RegionFacets& facets, RegionCells cells) {
     region.volume_known = true;
 }
 
-/// Cells that regions held give way, and what they had goes with them.
-void empty_regions(BrepData& brep, std::vector<Loss>& losses) {
-    for (BrepData::Region& region : brep.regions) {
-        const char* why = "new cells take their place";
-        if (!region.cell_types.empty()) losses.push_back({LossClass::identity, region.name, "cells", why, region.cell_types.size()});
-        for (const Attribute& a : region.attributes) {
-            if (a.location != AttributeLocation::object)
-                losses.push_back({LossClass::substance, region.name, "values of '" + a.name + "'", why, 1});
-        }
-        region.nodes.clear();
-        region.cell_types.clear();
-        region.cell_offsets = {0};
-        region.cell_nodes.clear();
-        region.cell_faces.clear();
-        region.face_offsets.clear();
-        region.face_nodes.clear();
-        std::erase_if(region.attributes, [](const Attribute& a) { return a.location != AttributeLocation::object; });
-    }
-    for (const Attribute& a : brep.vertex_attributes)
-        losses.push_back(
-            {LossClass::substance, brep.name, "values of '" + a.name + "' at points of cells", "new cells take their place", 1});
-    brep.vertex_attributes.clear();
-}
-
 /// Vertices that only cells used are gone with them; the others keep their order.
 void drop_unused_vertices(BrepData& brep) {
     std::vector<std::uint32_t> number(brep.vertices.size(), no_index);
@@ -174,7 +151,7 @@ Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOption
         const RegionFacets& region = (*facets)[order[i]];
         results[order[i]] = fill_one(region, options, filled.regions[region.region]);
     });
-    empty_regions(filled.brep, filled.losses);
+    exchange::empty_regions(filled.brep, LossClass::identity, "new cells take their place", filled.losses);
     for (std::size_t i = 0; i < results.size(); ++i) {
         if (results[i].stopped) return *results[i].stopped;
         put_in(filled.brep, (*facets)[i], std::move(results[i].cells));
