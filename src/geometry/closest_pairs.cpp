@@ -30,6 +30,57 @@ struct Place {
     Closest closest;                                         ///< its first is a
 };
 
+/// A triangle, the box around it, and its plane with what counts as too far from it.
+struct Body {
+    std::array<Vec3, 3> corners;
+    Vec3 low, high, normal;
+    double limit = 0, rounding = 0;  ///< of heights along the normal; the second for each unit of reach
+};
+
+Body body_of(const std::array<Vec3, 3>& corners, double near) {
+    Body body{corners, corners[0], corners[0], {}, 0, 0};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        body.low[axis] = std::min({corners[0][axis], corners[1][axis], corners[2][axis]});
+        body.high[axis] = std::max({corners[0][axis], corners[1][axis], corners[2][axis]});
+    }
+    const Vec3 u = minus(corners[1], corners[0]), v = minus(corners[2], corners[0]);
+    body.normal = cross(u, v);
+    body.limit = near * std::sqrt(dot(body.normal, body.normal)) * (1 + 1e-12);
+    body.rounding = 1e-14 * (dot(u, u) + dot(v, v));
+    return body;
+}
+
+/// Which vertices and edges (edge k from corner k on) of a triangle may be as near another as asked: neither by their boxes nor by
+/// the plane of the other one farther from it.
+struct Features {
+    std::uint8_t vertices = 0, edges = 0;
+    bool any() const { return (vertices | edges) != 0; }
+};
+
+Features features_near(const Body& own, const Body& other, double near) {
+    const std::array<Vec3, 3> ways{minus(own.corners[0], other.corners[0]), minus(own.corners[1], other.corners[0]),
+                                   minus(own.corners[2], other.corners[0])};
+    double reach = 0;
+    for (const Vec3& way : ways) reach = std::max(reach, std::abs(way[0]) + std::abs(way[1]) + std::abs(way[2]));
+    const double beyond = other.limit + other.rounding * reach, wide = near * (1 + 1e-6);
+    // Of each corner, the sides of the other's box and plane on which it is too far away.
+    std::array<unsigned, 3> sides{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double height = dot(other.normal, ways[k]);
+        sides[k] = unsigned{height > beyond} | unsigned{height < -beyond} << 1;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = own.corners[k][axis];
+            sides[k] |= unsigned{x - other.high[axis] > wide} << (2 + 2 * axis) | unsigned{other.low[axis] - x > wide} << (3 + 2 * axis);
+        }
+    }
+    Features found;
+    for (std::size_t k = 0; k < 3; ++k) {
+        found.vertices |= static_cast<std::uint8_t>(unsigned{sides[k] == 0} << k);
+        found.edges |= static_cast<std::uint8_t>(unsigned{(sides[k] & sides[(k + 1) % 3]) == 0} << k);
+    }
+    return found;
+}
+
 /// Finds places from the vertices and edges of some triangles.
 class PlaceSearch {
 public:
@@ -44,55 +95,50 @@ public:
             near_ = near_of_[soup_.group(t)];
             take_near(t, all.at(i));
             look_from(t, others_);
-            for (const std::uint32_t other : others_) look_from(other, std::span(&t, 1));
+            for (const auto& [other, features] : seen_from_) {
+                const Target back{t, features};
+                look_from(other, std::span(&back, 1));
+            }
         }
     }
 
 private:
+    /// A triangle to look at, and the features of the one that looks from which it may be near.
+    struct Target {
+        std::uint32_t triangle = 0;
+        Features features;
+    };
+
     const SurfaceDistance& soup_;
     const std::span<const double> near_of_;
     double near_ = 0;  ///< of the triangle at hand
     std::vector<Place>& places_;
-    std::vector<std::uint32_t> others_;  ///< near the one at hand
+    std::vector<Target> others_;     ///< near the one at hand
+    std::vector<Target> seen_from_;  ///< triangles from which the one at hand may be near, and their features
     std::vector<Vec3> ways_;
 
     /// From the vertices and edges of a triangle to others, none of which shares a vertex with it: those come closer to it wherever
     /// one starts.
-    void look_from(std::uint32_t t, std::span<const std::uint32_t> others) {
+    void look_from(std::uint32_t t, std::span<const Target> others) {
         if (others.empty()) return;
         for (std::size_t k = 0; k < 3; ++k) {
-            look_about(t, soup_.triangle(t)[k], others);
+            look_about(t, k, others);
             look_along(t, k, others);
         }
     }
 
-    /// Leaves out those that lie beyond the plane of a triangle, farther from it than near_ by more than rounding.
+    /// Each two edges are met once, from the lower group.
     void take_near(std::uint32_t t, std::span<const std::uint32_t> others) {
         others_.clear();
-        const std::array<Vec3, 3> own = soup_.corners(t);
-        const Vec3 u = minus(own[1], own[0]), v = minus(own[2], own[0]), normal = cross(u, v);
-        const double limit = near_ * std::sqrt(dot(normal, normal)) * (1 + 1e-12), rounding = 1e-14 * (dot(u, u) + dot(v, v));
+        seen_from_.clear();
+        const Body own = body_of(soup_.corners(t), near_);
         for (const std::uint32_t other : others) {
-            double lowest = HUGE_VAL, highest = -HUGE_VAL, reach = 0;
-            for (const std::uint32_t vertex : soup_.triangle(other)) {
-                const Vec3 way = minus(soup_.position(vertex), own[0]);
-                const double height = dot(normal, way);
-                lowest = std::min(lowest, height);
-                highest = std::max(highest, height);
-                reach = std::max(reach, std::abs(way[0]) + std::abs(way[1]) + std::abs(way[2]));
-            }
-            const double beyond = limit + rounding * reach;
-            if (lowest <= beyond && highest >= -beyond) others_.push_back(other);
+            const Body body = body_of(soup_.corners(other), near_);
+            Features from_own = features_near(own, body, near_), from_other = features_near(body, own, near_);
+            (soup_.group(t) < soup_.group(other) ? from_other : from_own).edges = 0;
+            if (from_own.any()) others_.push_back({other, from_own});
+            if (from_other.any()) seen_from_.push_back({other, from_other});
         }
-    }
-
-    Box box_of(std::uint32_t t) const { return soup_.tree().levels().front()[t / 4].box(t % 4); }
-    bool overlaps(std::uint32_t t, const Box& box) const {
-        const Box own = box_of(t);
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (own.low[k] > box.high[k] || own.high[k] < box.low[k]) return false;
-        }
-        return true;
     }
 
     /// The first triangle of its group that has this edge, or vertex where p = q.
@@ -140,12 +186,13 @@ private:
 
     // ---- a vertex, and whatever of another group is closest to it there
 
-    void look_about(std::uint32_t t, std::uint32_t vertex, std::span<const std::uint32_t> others) {
+    void look_about(std::uint32_t t, std::size_t k, std::span<const Target> others) {
+        const std::uint32_t vertex = soup_.triangle(t)[k];
         const Vec3& point = soup_.position(vertex);
         const std::uint32_t own = soup_.group(t);
         Turn turn = Turn::unknown;
-        for (const std::uint32_t other : others) {
-            if (soup_.tree().is_farther(point, other, near_)) continue;
+        for (const auto& [other, features] : others) {
+            if ((features.vertices >> k & 1) == 0) continue;
             if (!is_first_at(t, vertex, vertex, turn)) return;
             if (has_all_ahead(other, point)) continue;
             Closest closest = closest_points(point, soup_.corners(other));
@@ -154,14 +201,9 @@ private:
             if (!soup_.none_ahead_at_part(closest.on_second, other, closest.second_part, times(-1, closest.apart))) continue;
             // The point is met once: from the first triangle that has it.
             if (soup_.around_part(other, closest.second_part, soup_.group(other)).front() != other) continue;
-            closest.first_part = bit_of(vertex, t);
+            closest.first_part = 1u << k;
             add({own, soup_.group(other), t, other, closest});
         }
-    }
-
-    unsigned bit_of(std::uint32_t vertex, std::uint32_t t) const {
-        const Triangle& corners = soup_.triangle(t);
-        return corners[0] == vertex ? 1 : corners[1] == vertex ? 2 : 4;
     }
 
     void add(const Place& place) {
@@ -179,17 +221,11 @@ private:
 
     // ---- the insides of two edges; each two are met once, from the lower group
 
-    void look_along(std::uint32_t t, std::size_t k, std::span<const std::uint32_t> others) {
-        const std::uint32_t p = soup_.triangle(t)[k], q = soup_.triangle(t)[(k + 1) % 3], own = soup_.group(t);
-        Vec3 low{}, high{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(soup_.position(p)[axis], soup_.position(q)[axis]);
-            high[axis] = std::max(soup_.position(p)[axis], soup_.position(q)[axis]);
-        }
-        const Box box = soup_.tree().box(low, high, near_);
+    void look_along(std::uint32_t t, std::size_t k, std::span<const Target> others) {
+        const std::uint32_t p = soup_.triangle(t)[k], q = soup_.triangle(t)[(k + 1) % 3];
         Turn turn = Turn::unknown;
-        for (const std::uint32_t other : others) {
-            if (soup_.group(other) < own || !overlaps(other, box)) continue;
+        for (const auto& [other, features] : others) {
+            if ((features.edges >> k & 1) == 0) continue;
             if (!is_first_at(t, p, q, turn)) return;
             if (has_all_ahead(other, soup_.position(p))) continue;
             for (std::size_t m = 0; m < 3; ++m) try_edges(t, k, other, m);
