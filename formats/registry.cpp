@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text_cursor.h"
+#include "formats/byte_order_mark.h"
 #include "formats/eclipse/eclipse.h"
 #include "formats/gmsh/gmsh.h"
 #include "formats/gocad/gocad.h"
@@ -67,7 +68,8 @@ const Format* format_by_name(std::string_view name) {
     return nullptr;
 }
 
-const Format* claiming_format(std::string_view head, std::string_view base_name) {
+const Format* claiming_format(std::string_view bytes, std::string_view base_name) {
+    const std::string_view head = without_byte_order_mark(bytes);
     const std::string extension = extension_of(base_name);
     const Format* best = nullptr;
     int best_score = 0;

@@ -10,11 +10,15 @@
 #include "base/input.h"
 #include "base/number_text.h"
 #include "base/text_cursor.h"
+#include "formats/byte_order_mark.h"
 #include "model/dataset.h"
 
 // What readers of plain text files have in common.
 
 namespace geomend {
+
+/// The text of a file, behind a byte order mark.
+inline std::string_view text_of(const Input& input) { return without_byte_order_mark(input.bytes()); }
 
 /// File name without folder, ".gz" and extension: for formats that name no objects.
 inline std::string name_of(const Input& input) {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/text_cursor.h"
+#include "formats/byte_order_mark.h"
 
 namespace geomend::gmsh {
 
@@ -134,8 +135,8 @@ Result<MshLayout> lay_out(const Input& input) {
     MshLayout layout;
     const std::string_view bytes = input.bytes();
     if (bytes.empty()) return unreadable("F002", {input.name()}, "the file is empty");
-    const char* begin = bytes.data();
-    const char* end = begin + bytes.size();
+    const char* begin = without_byte_order_mark(bytes).data();
+    const char* end = bytes.data() + bytes.size();
     bool has_format = false;
     const char* mark = next_mark(begin, end, begin);
     if (mark == end) return unreadable("F003", place(input, begin), "this is not an MSH file: no section ($MeshFormat, $NOD) was found");

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/text_cursor.h"
+#include "formats/byte_order_mark.h"
 
 namespace geomend::gocad {
 
@@ -34,12 +35,6 @@ std::string_view first_word(const char* begin, const char* end) {
     const char* p = begin;
     while (p != end && !is_blank(*p)) ++p;
     return {begin, static_cast<std::size_t>(p - begin)};
-}
-
-// Editors on Windows put a byte order mark before UTF-8 text.
-std::string_view without_mark(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    return text;
 }
 
 class FrameFinder {
@@ -221,10 +216,12 @@ private:
 
 }  // namespace
 
-Result<FrameList> find_frames(std::string_view text, const std::string& file) { return FrameFinder(without_mark(text), file).run(); }
+Result<FrameList> find_frames(std::string_view text, const std::string& file) {
+    return FrameFinder(without_byte_order_mark(text), file).run();
+}
 
 bool begins_with_gocad(std::string_view head) {
-    TextCursor cursor(without_mark(head));
+    TextCursor cursor(without_byte_order_mark(head));
     while (cursor.next_line()) {
         const std::string_view word = cursor.token();
         if (word.empty() || word.front() == '#') continue;

@@ -7,14 +7,12 @@
 
 #include "base/input.h"
 #include "base/result.h"
+#include "formats/byte_order_mark.h"
 
 // The text of decks: blanks and commas part items, "--" begins a comment, "/" ends a record, N*value repeats and N*
 // defaults. Rules: section 1 of the reference of the format (Eclipse's free format as OPM reads it).
 
 namespace geomend::grdecl {
-
-/// What some programs put before the text of a file in UTF-8.
-inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// Blank, tab, comma, line ends, VT, FF and SOH part items.
 bool is_separator(char c);

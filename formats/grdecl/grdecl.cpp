@@ -17,7 +17,7 @@ constexpr std::string_view deck_extensions[] = {".data"};
 
 /// The first keyword of a text: alone on its line. Nothing where the text begins in another way.
 std::string first_keyword(std::string_view head) {
-    std::size_t line = head.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    std::size_t line = 0;
     while (line < head.size()) {
         const std::size_t end = std::min(head.find('\n', line), head.size());
         std::string_view text = trimmed(head.substr(line, end - line));

@@ -169,7 +169,7 @@ int sniff_cps3_grid(std::string_view head, std::string_view) {
 Result<Dataset> read_cps3_grid(const Input& input, const ReadOptions& options) {
     const auto sign = z_option(options.options);
     if (!sign) return sign.why();
-    TextCursor cursor(input.bytes());
+    TextCursor cursor(text_of(input));
     Cps3Header header;
     if (auto failed = read_header(input, cursor, header)) return std::move(*failed);
     std::vector<Finding> findings;

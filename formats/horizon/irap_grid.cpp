@@ -34,7 +34,7 @@ int sniff_irap_grid(std::string_view head, std::string_view) {
 Result<Dataset> read_irap_grid(const Input& input, const ReadOptions& options) {
     const auto sign = z_option(options.options);
     if (!sign) return sign.why();
-    NumberStream numbers(input, TextCursor(input.bytes()));
+    NumberStream numbers(input, TextCursor(text_of(input)));
     IrapHeader header{};
     for (std::size_t i = 0; i < header.size(); ++i) {
         if (!numbers.next("number " + std::to_string(i + 1) + " of the 19 of an IRAP header", header[i])) return numbers.why();

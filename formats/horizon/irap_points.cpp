@@ -108,7 +108,7 @@ Result<Dataset> read_irap_points(const Input& input, const ReadOptions& options)
     rows.quoted = true;
     rows.separators = true;
     rows.sign = sign->value_or(ZPositive::elevation);
-    TextCursor cursor(input.bytes());
+    TextCursor cursor(text_of(input));
     if (auto failed = read_columns(input, cursor, rows)) return std::move(*failed);
     PointSet set;
     set.info.name = name_of(input);

@@ -134,7 +134,7 @@ Result<Dataset> read_irap_polygons(const Input& input, const ReadOptions& option
     const auto sign = z_option(options.options);
     if (!sign) return sign.why();
     LineCollector lines;
-    TextCursor cursor(input.bytes());
+    TextCursor cursor(text_of(input));
     while (cursor.next_line()) {
         if (poll(options.monitor, cursor.line())) return stopped(input);
         if (cursor.at_line_end() || is_comment(cursor.peek_rest())) continue;
@@ -184,7 +184,7 @@ Result<Dataset> read_cps3_lines(const Input& input, const ReadOptions& options) 
     if (!sign) return sign.why();
     LineCollector lines;
     bool in_header = true;
-    TextCursor cursor(input.bytes());
+    TextCursor cursor(text_of(input));
     while (cursor.next_line()) {
         if (poll(options.monitor, cursor.line())) return stopped(input);
         const std::string_view line = trimmed(cursor.line_text());

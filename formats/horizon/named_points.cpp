@@ -287,7 +287,7 @@ int sniff_named_points(std::string_view head, std::string_view) {
 Result<Dataset> read_named_points(const Input& input, const ReadOptions& options) {
     const auto sign = z_option(options.options);
     if (!sign) return sign.why();
-    TextCursor cursor(input.bytes());
+    TextCursor cursor(text_of(input));
     while (cursor.next_line()) {
         const std::string_view line = trimmed(cursor.line_text());
         if (is_remark(line)) continue;
@@ -317,14 +317,14 @@ Result<Dataset> read_ijxyz(const Input& input, const ReadOptions& options) {
     TableHead head;
     head.names = {"I", "J", "X", "Y", "Z"};
     head.meanings = {Meaning::inline_number, Meaning::crossline_number, Meaning::x, Meaning::y, Meaning::z};
-    TextCursor cursor(input.bytes());
+    TextCursor cursor(text_of(input));
     while (cursor.next_line()) {
         const std::string_view line = trimmed(cursor.line_text());
         if (is_remark(line)) continue;
         head.separator = separator_of(line);
         break;
     }
-    return TableReader(input, options, std::move(head), *sign).run(TextCursor(input.bytes()));
+    return TableReader(input, options, std::move(head), *sign).run(TextCursor(text_of(input)));
 }
 
 }  // namespace geomend::horizon

@@ -147,7 +147,7 @@ Result<Dataset> read_petrel_points(const Input& input, const ReadOptions& option
     rows.sign = sign->value_or(ZPositive::elevation);
     PointSet set;
     set.info.name = name_of(input);
-    TextCursor cursor(input.bytes());
+    TextCursor cursor(text_of(input));
     if (auto failed = read_header(input, cursor, rows, set.info)) return std::move(*failed);
     set.info.crs.z_positive = rows.sign;
     set.info.crs.z_positive_stated = sign->has_value();

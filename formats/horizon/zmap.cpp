@@ -236,7 +236,7 @@ int sniff_zmap(std::string_view head, std::string_view) {
 Result<Dataset> read_zmap(const Input& input, const ReadOptions& options) {
     const auto sign = z_option(options.options);
     if (!sign) return sign.why();
-    TextCursor cursor(input.bytes());
+    TextCursor cursor(text_of(input));
     const auto header = read_zmap_header(input, cursor);
     if (!header) return header.why();
     const auto left = static_cast<std::uint64_t>(cursor.text_end() - cursor.next_line_begin());

@@ -40,7 +40,7 @@ bool is_passed_over(std::string_view line) { return line.empty() || line.starts_
 class ZmapLineReader {
 public:
     ZmapLineReader(const Input& input, const ReadOptions& options, std::optional<ZPositive> sign)
-        : input_(input), options_(options), sign_(sign), cursor_(input.bytes()) {}
+        : input_(input), options_(options), sign_(sign), cursor_(text_of(input)) {}
 
     Result<Dataset> run() {
         if (auto failed = read_head()) return std::move(*failed);

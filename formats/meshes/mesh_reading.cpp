@@ -11,11 +11,6 @@
 
 namespace geomend::meshes {
 
-std::string_view without_byte_order_mark(std::string_view text) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    return text;
-}
-
 std::string_view Words::take() {
     while (true) {
         if (!cursor_.at_line_end()) {

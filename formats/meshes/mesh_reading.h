@@ -11,13 +11,11 @@
 
 #include "base/input.h"
 #include "base/text_cursor.h"
+#include "formats/byte_order_mark.h"
 #include "formats/format.h"
 #include "model/dataset.h"
 
 namespace geomend::meshes {
-
-/// A text behind the mark that editors on Windows put before it.
-std::string_view without_byte_order_mark(std::string_view text);
 
 /// The words of a text, whatever lines they stand on; what follows a '#' on a line is a comment.
 class Words {

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cstring>
 
+#include "formats/byte_order_mark.h"
+
 namespace geomend::roff {
 
 namespace {
@@ -215,8 +217,9 @@ Result<Document> find_tags(const Input& input, const Monitor* monitor) {
     Document document{input, false, false, {}};
     const std::string_view bytes = input.bytes();
     if (bytes.empty()) return unreadable("F002", {input.name()}, "the file is empty");
-    const std::size_t begin = bytes.find_first_not_of(" \r\n\t");
-    document.text = begin != std::string_view::npos && bytes.substr(begin).starts_with("roff-asc");
+    const std::string_view text = without_byte_order_mark(bytes);
+    const std::size_t begin = text.find_first_not_of(" \r\n\t");
+    document.text = begin != std::string_view::npos && text.substr(begin).starts_with("roff-asc");
     if (!document.text && !bytes.starts_with(std::string_view("roff-bin\0", 9)))
         return unreadable("F003", {input.name()}, "expected 'roff-asc' or 'roff-bin' at the start of the file");
     if (auto done = Finder(document, monitor).run(); !done) return done.why();

@@ -23,7 +23,7 @@ struct Part {
 
 class Reader {
 public:
-    Reader(const Input& input, const ReadOptions& options) : input_(input), options_(options), cursor_(input.bytes()) {}
+    Reader(const Input& input, const ReadOptions& options) : input_(input), options_(options), cursor_(text_of(input)) {}
 
     Result<Dataset> run() {
         constexpr std::uint64_t often = 16384;

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 4> first_words{"OFF", "COFF", "NOFF", "CN
 
 class Reader {
 public:
-    Reader(const Input& input, const ReadOptions& options) : input_(input), options_(options), cursor_(input.bytes()) {}
+    Reader(const Input& input, const ReadOptions& options) : input_(input), options_(options), cursor_(text_of(input)) {}
 
     Result<Dataset> run() {
         if (!next_line()) return end_of_file("OFF");

@@ -402,7 +402,7 @@ int sniff_ply(std::string_view head, std::string_view) {
 }
 
 Result<Dataset> read_ply(const Input& input, const ReadOptions& options) {
-    TextCursor cursor(input.bytes());
+    TextCursor cursor(text_of(input));
     auto header = read_ply_header(input, cursor);
     if (!header) return std::move(header).why();
     const PlyEncoding encoding = header->encoding;

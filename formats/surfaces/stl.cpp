@@ -57,7 +57,7 @@ struct Solid {
 
 class TextReader {
 public:
-    TextReader(const Input& input, const ReadOptions& options) : input_(input), options_(options), cursor_(input.bytes()) {}
+    TextReader(const Input& input, const ReadOptions& options) : input_(input), options_(options), cursor_(text_of(input)) {}
 
     Result<Dataset> run() {
         while (next()) {
@@ -283,7 +283,7 @@ int sniff_stl(std::string_view head, std::string_view) {
 Result<Dataset> read_stl(const Input& input, const ReadOptions& options) {
     auto data = [&]() -> Result<Dataset> {
         if (is_binary(input.bytes())) return read_binary(input, options);
-        TextCursor cursor(input.bytes());
+        TextCursor cursor(text_of(input));
         if (cursor.next_line() && same_word(cursor.token(), "solid")) return TextReader(input, options).run();
         return unreadable(
             "F008", {input.name()},

@@ -12,6 +12,7 @@
 #include "base/number_text.h"
 #include "base/text_cursor.h"
 #include "base/wording.h"
+#include "formats/byte_order_mark.h"
 
 namespace geomend::vtk {
 
@@ -158,7 +159,11 @@ bool begins_legacy_keyword(std::string_view word) {
 }
 
 LegacyScanner::LegacyScanner(const Input& input, const Monitor* monitor)
-    : input_(&input), monitor_(monitor), begin_(input.bytes().data()), at_(begin_), end_(begin_ + input.bytes().size()) {}
+    : input_(&input),
+      monitor_(monitor),
+      begin_(input.bytes().data()),
+      at_(without_byte_order_mark(input.bytes()).data()),
+      end_(begin_ + input.bytes().size()) {}
 
 void LegacyScanner::skip_space() {
     while (at_ != end_ && is_space(*at_)) ++at_;

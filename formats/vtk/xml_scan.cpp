@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/text_cursor.h"
+#include "formats/byte_order_mark.h"
 
 namespace geomend::vtk {
 
@@ -57,7 +58,7 @@ private:
 
     Result<void> check_encoding() {
         std::string_view& bytes = doc_.bytes;
-        if (bytes.starts_with("\xEF\xBB\xBF")) at_ = 3;
+        if (bytes.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
         if (bytes.size() >= 2 && (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || bytes[0] == 0 || bytes[1] == 0))
             return unreadable("F013", doc_.where(0), "expected XML in UTF-8, found another encoding");
         return {};

@@ -35,7 +35,7 @@ struct Log {
 
 class RmsReader {
 public:
-    RmsReader(const Input& input, const ReadOptions& options) : input_(input), options_(options), cursor_(input.bytes()) {}
+    RmsReader(const Input& input, const ReadOptions& options) : input_(input), options_(options), cursor_(text_of(input)) {}
 
     Result<Dataset> run() {
         data_.format = "well";

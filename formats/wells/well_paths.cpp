@@ -142,7 +142,7 @@ std::optional<std::string_view> name_line(std::string_view line) {
 class Reader {
 public:
     Reader(const Input& input, const ReadOptions& options, std::optional<ZPositive> sign)
-        : input_(input), options_(options), sign_(sign), cursor_(input.bytes()) {
+        : input_(input), options_(options), sign_(sign), cursor_(text_of(input)) {
         table_.columns = {Column::x, Column::y, Column::depth, Column::measured_depth};  // of ResInsight, which names none
         table_.names = {"X", "Y", "TVDMSL", "MD"};
     }

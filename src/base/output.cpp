@@ -191,7 +191,8 @@ OutputSet::~OutputSet() {
 
 void OutputSet::make_folder(const fs::path& folder) {
     std::error_code error;
-    if (folder.empty() || fs::exists(folder, error)) return;
+    // The folder that the user named is his to make.
+    if (folder.empty() || folder == main_path_.parent_path() || fs::exists(folder, error)) return;
     make_folder(folder.parent_path());
     if (fs::create_directory(folder, error)) made_folders_.push_back(folder);
 }

@@ -159,6 +159,17 @@ TEST(OutputSet, TellsAMissingFolder) {
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
+TEST(OutputSet, AMissingFolderIsNotMadeForCompanionsEither) {
+    const TemporaryFolder folder;
+    OutputSet set(folder / "none/main.vtm");
+    set.companion("parts/part.vtp") << "part";
+    set.main_file() << "main";
+    const auto done = set.commit();
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.why().error.code, "F020");
+    EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
 // A limit on the file size stands for a full disk: both fail in write().
 TEST(OutputSet, LeavesTheOldFileWhenTheDiskIsFull) {
     const TemporaryFolder folder;
