@@ -170,6 +170,17 @@ ExitStatus print_beside(const std::string& text, const std::string& output) {
     return status;
 }
 
+ExitStatus print_about(const std::string& text, const std::string& output, bool is_written) {
+    if (output != "-") return print_beside(text, is_written ? output : std::string());
+    std::fputs(text.c_str(), stderr);
+    return ExitStatus::done;
+}
+
+std::optional<Failure> json_in_the_way(bool json, const std::string& output) {
+    if (!json || output != "-") return std::nullopt;
+    return failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output");
+}
+
 ExitStatus print(const std::string& text) {
     end_progress();
     const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;

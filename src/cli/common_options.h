@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,5 +70,9 @@ void report(const std::vector<Loss>& losses, bool verbose);
 ExitStatus print(const std::string& text);
 /// The same of a command that has written `output`, which is named where its report cannot be printed; empty: nothing was written.
 ExitStatus print_beside(const std::string& text, const std::string& output);
+/// What a command says of its output, which may itself go to standard output: the text goes to standard error then.
+ExitStatus print_about(const std::string& text, const std::string& output, bool is_written);
+/// Refuses --json (F018) where the output goes to standard output.
+std::optional<Failure> json_in_the_way(bool json, const std::string& output);
 
 }  // namespace geomend::cli

@@ -38,9 +38,7 @@ Json result_json(const ConvertOptions& o, const Result<ConvertReport>& result) {
 ExitStatus run(const ConvertOptions& o) {
     auto options = format_options(o.options);
     if (!options) return report(options.why());
-    if (o.json && o.output == "-") {
-        return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
-    }
+    if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     ConvertRequest request;

@@ -131,8 +131,7 @@ std::string summary(const GridMade& made) {
 }
 
 ExitStatus run(const GridCommand& o) {
-    if (o.json && o.output == "-")
-        return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
+    if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
     auto request = request_of(o);
     if (!request) return report(request.why());
     const ThreadBudget budget(o.threads);
@@ -143,16 +142,12 @@ ExitStatus run(const GridCommand& o) {
     const auto made = make_grid(std::move(*request));
     if (!made) return report(made.why());
     end_progress();
-    if (o.json) return print(grid_json(*made));
+    if (o.json) return print_about(grid_json(*made), o.output, true);
     if (o.quiet) return ExitStatus::done;
     report(made->written.findings, o.verbose);
     report(made->written.losses, o.verbose);
     const std::string text = summary(*made);
-    if (o.output == "-") {
-        std::fputs(text.c_str(), stderr);
-        return ExitStatus::done;
-    }
-    return print(text);
+    return print_about(text, o.output, true);
 }
 
 }  // namespace

@@ -60,8 +60,7 @@ ExitStatus status_of(const MeshReport& report) {
 ExitStatus run(const MeshOptions& o) {
     auto options = format_options(o.options);
     if (!options) return report(options.why());
-    if (o.json && o.output == "-")
-        return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
+    if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
     if (o.method == "isotropic" && !(o.size > 0))
         return report(failure(FailureKind::usage, "F018", {}, "--method isotropic needs --size, the length that edges should have"));
     if (o.method == "keep" && o.max_distance > 0)
@@ -89,13 +88,12 @@ ExitStatus run(const MeshOptions& o) {
     if (!made) return report(made.why());
     end_progress();
     ExitStatus status = status_of(*made);
-    if (o.json) return worse(status, print_beside(mesh_json(*made), made->is_written ? o.output : std::string()));
+    if (o.json) return worse(status, print_about(mesh_json(*made), o.output, made->is_written));
     report(made->errors, false);
     if (!o.quiet) {
         report(made->written.losses, o.verbose);
         const std::string text = region_lines(*made, o.verbose);
-        if (o.output == "-") std::fputs(text.c_str(), stderr);
-        else status = worse(status, print_beside(text, made->is_written ? o.output : std::string()));
+        status = worse(status, print_about(text, o.output, made->is_written));
     }
     if (!made->errors.empty()) std::fputs("geomend: the model has errors: nothing was written; geomend repair may mend them\n", stderr);
     else if (status == ExitStatus::limit)

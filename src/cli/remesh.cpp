@@ -68,8 +68,7 @@ ExitStatus run(const RemeshArguments& o) {
     if (!options) return report(options.why());
     auto sizes = sizes_of(o.size_of);
     if (!sizes) return report(sizes.why());
-    if (o.json && o.output == "-")
-        return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
+    if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
     if (!(o.size > 0)) return report(failure(FailureKind::usage, "F018", {}, "--size 0: expected a length above 0"));
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
@@ -89,14 +88,13 @@ ExitStatus run(const RemeshArguments& o) {
     if (!made) return report(made.why());
     end_progress();
     ExitStatus status = made->why_not.empty() ? ExitStatus::done : ExitStatus::invalid_result;
-    if (o.json) return worse(status, print(remesh_json(*made)));
+    if (o.json) return worse(status, print_about(remesh_json(*made), o.output, made->is_written));
     if (!made->why_not.empty()) report(made->errors, false);
     if (!o.quiet) {
         report(made->written.losses, o.verbose);
         std::string text;
         for (const auto& model : made->models) text += model_lines(model, o.verbose);
-        if (o.output == "-") std::fputs(text.c_str(), stderr);
-        else status = worse(status, print(text));
+        status = worse(status, print_about(text, o.output, made->is_written));
     }
     if (!made->why_not.empty())
         std::fprintf(stderr, "geomend: %s%s\n", made->why_not.c_str(), made->is_written ? "" : ": nothing was written");

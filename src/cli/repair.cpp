@@ -195,8 +195,7 @@ void look_on(RepairRequest& request, const CheckArguments& a, DebrisFolder& debr
 
 ExitStatus run(const RepairOptions& o) {
     if (auto places = check_places(o); !places) return report(places.why());
-    if (o.json && o.output == "-")
-        return report(failure(FailureKind::usage, "F018", {}, "--json and the output cannot both go to standard output"));
+    if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     DebrisFolder debris(o.debris, o.max_findings, &monitor);
@@ -221,12 +220,11 @@ ExitStatus run(const RepairOptions& o) {
         output.main_file() << repair::recipe_text(repaired->recipe);
         if (auto written = output.commit(&monitor); !written) status = worse(status, report(written.why()));
     }
-    if (o.json) return worse(status, print(repair_json(all)));
+    if (o.json) return worse(status, print_about(repair_json(all), o.output, repaired->written));
     if (!o.quiet) {
         // The model itself may go to standard output.
         const std::string text = report_text(all, wants_color(o.output == "-" ? STDERR_FILENO : STDOUT_FILENO));
-        if (o.output == "-") std::fputs(text.c_str(), stderr);
-        else status = worse(status, print(text));
+        status = worse(status, print_about(text, o.output, repaired->written));
     }
     if (o.dry_run) std::fputs("geomend: a dry run: nothing was written\n", stderr);
     else if (!repaired->edited)

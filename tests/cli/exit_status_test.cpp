@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 #include "support/program.h"
 
@@ -52,6 +53,23 @@ TEST(ExitStatus, IsFourWhereTheOutputCannotBeWritten) {
     const ProgramRun run = run_geomend({"convert", (folder / "good.ts").string(), "-o", (folder / "no/such/folder.vtp").string()});
     EXPECT_EQ(run.status, 4) << run.err;
     EXPECT_EQ(run_geomend({"convert", (folder / "good.ts").string(), "--to", "vtp", "-o", folder.path().string()}).status, 4);
+}
+
+// What is said to be written is there, and whole.
+TEST(ExitStatus, IsFourWhereOnlyTheReportOfAnOutputCannotBePrinted) {
+    const std::string box = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.ml";
+    const std::vector<std::vector<std::string>> commands{
+        {"convert"}, {"repair"}, {"mesh"}, {"remesh", "--size", "50"}, {"grid", "--cells", "4x4"}};
+    for (const auto& command : commands) {
+        const TemporaryFolder folder;
+        const std::string output = (folder / (command[0] == "grid" ? "a.grdecl" : "a.vtm")).string();
+        std::string line = GEOMEND_PROGRAM;
+        for (const std::string& word : command) line += " " + word;
+        line += " '" + box + "' -o '" + output + "' --json > /dev/full 2> '" + (folder / "said").string() + "'";
+        EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 4) << line;
+        EXPECT_NE(read_file(folder / "said").find(output + " is written all the same"), std::string::npos) << read_file(folder / "said");
+        EXPECT_EQ(run_geomend({"info", output}).status, 0) << line;
+    }
 }
 
 TEST(ExitStatus, IsFourWhereSubstanceWouldBeLostAndNothingIsWritten) {
