@@ -113,6 +113,7 @@ void check_radial_angles(const GridScope& scope, std::vector<Finding>& findings)
     if (most <= 360 * (1 + 1e-6)) return;
     Finding f = grid_finding(scope, "C31", "the cells around the axis cover " + number_text(most) + " degrees together: more than 360");
     f.measures = {{"degrees", most}};
+    f.points.push_back({0, 0, grid.pillars[2]});  // the axis, where the first pillar begins
     findings.push_back(std::move(f));
 }
 

@@ -200,6 +200,7 @@ OptionalFailure make_block_geometry(GridText& text, const Input& input, std::uin
     if (const double most = along_y.empty() ? 0 : std::ranges::max(along_y); text.spider && most > 360 * (1 + 1e-6)) {
         findings.push_back(
             finding("C31", {input.name()}, "the cells around the axis take " + number_text(most) + " degrees together: more than 360"));
+        findings.back().points.push_back({0, 0, text.pillars[2]});  // the axis, where the first pillar begins
     }
     if (text.spider) straighten(text.pillars);
     text.grid.cylindrical = text.radial && !text.spider;

@@ -31,6 +31,16 @@ void mention(Finding& finding, const BrepData& brep, const std::vector<SurfaceId
     finding.element_kind = "surface";
 }
 
+/// Gives a finding lines of the model as its place.
+void place_on_lines(Finding& finding, const BrepData& brep, const std::vector<LineId>& lines) {
+    for (const LineId l : lines) {
+        if (finding.polylines.size() == most_elements) return;
+        std::vector<Vec3>& polyline = finding.polylines.emplace_back();
+        for (const VertexId v : brep.lines[l.value].vertices) polyline.push_back(brep.vertices[v.value]);
+    }
+    if (!finding.polylines.empty()) finding.points.push_back(finding.polylines.front().front());
+}
+
 void judge_stated(Assembly& a, const StatedRegion& stated, const SolvedSides::Region& solved) {
     if (stated.sides.empty()) {
         a.findings.push_back(region_finding(a.brep, "F121", stated.name, "region '" + stated.name + "' has no boundary"));
@@ -41,6 +51,7 @@ void judge_stated(Assembly& a, const StatedRegion& stated, const SolvedSides::Re
         auto finding = region_finding(a.brep, "F113", stated.name,
                                       "the boundary of region '" + stated.name + "' does not close, so that its volume is not known");
         finding.measures = {{"open_sides", static_cast<double>(solved.enclosed.singles)}};
+        place_on_lines(finding, a.brep, solved.enclosed.open_lines);
         a.findings.push_back(std::move(finding));
     }
 }

@@ -34,13 +34,21 @@ double inward_volume(std::span<const BrepData::Side> single, std::span<const dou
     return sum.value();
 }
 
-bool closes(std::span<const BrepData::Side> single, const LineGraph& graph) {
+/// The lines along which sides end without another one that goes on, ascending.
+std::vector<LineId> open_lines(std::span<const BrepData::Side> single, const LineGraph& graph) {
     std::unordered_map<std::uint32_t, std::int64_t> net;
     for (const auto& side : single) {
         for (const auto& [line, sum] : graph.nets[side.surface.value]) net[line] += side.front ? -sum : sum;
     }
-    return std::all_of(net.begin(), net.end(), [](const auto& entry) { return entry.second == 0; });
+    std::vector<LineId> open;
+    for (const auto& [line, sum] : net) {
+        if (sum != 0) open.emplace_back(line);
+    }
+    std::sort(open.begin(), open.end());
+    return open;
 }
+
+bool closes(std::span<const BrepData::Side> single, const LineGraph& graph) { return open_lines(single, graph).empty(); }
 
 /// Sides of one region that hang together across lines, turned so that they fit each other.
 class ShellSolver {
@@ -151,7 +159,9 @@ std::vector<BrepData::Side> with_solution(const std::vector<BrepData::Side>& sta
 
 Enclosed enclosed(std::span<const BrepData::Side> sides, std::span<const double> cones, const LineGraph& graph) {
     const auto single = single_sides(sides);
-    return {inward_volume(single, cones), !single.empty() && closes(single, graph), single.size()};
+    std::vector<LineId> open = open_lines(single, graph);
+    const bool closed = !single.empty() && open.empty();
+    return {inward_volume(single, cones), closed, single.size(), std::move(open)};
 }
 
 SolvedSides solve_sides(const std::vector<std::vector<BrepData::Side>>& stated, std::uint32_t universe, std::span<const double> cones,

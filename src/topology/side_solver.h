@@ -14,7 +14,8 @@ namespace geomend::topology {
 struct Enclosed {
     double volume = 0;
     bool closed = false;
-    std::size_t singles = 0;  ///< sides whose opposite is not there, too
+    std::size_t singles = 0;         ///< sides whose opposite is not there, too
+    std::vector<LineId> open_lines;  ///< along which they end without another one that goes on, ascending
 };
 Enclosed enclosed(std::span<const BrepData::Side> sides, std::span<const double> cones, const LineGraph& graph);
 
