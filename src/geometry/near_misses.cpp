@@ -337,12 +337,30 @@ private:
         return found;
     }
 
-    /// Both ends of a border edge are on the group: the gap at its middle, 0 where the group has this edge, too.
+    /// Both ends of a border edge are on the group: the largest gap between them, 0 where the group has this edge, too. It grows
+    /// steadily from either end to where an edge of the group runs across.
     Candidate gap_over_chord(std::uint32_t from, std::uint32_t to, std::uint32_t group) const {
         if (!soup_.around_edge(from, to, group).empty()) return {group, 0, {}};
-        Candidate gap = gap_at(plus(soup_.position(from), times(0.5, minus(soup_.position(to), soup_.position(from)))), group);
-        if (gap.closest.distance >= near_) gap.closest.distance = 0;
-        return gap;
+        const Vec3 along = minus(soup_.position(to), soup_.position(from));
+        const auto gap_after = [&](double share) { return gap_at(plus(soup_.position(from), times(share, along)), group); };
+        constexpr int samples = 16, halvings = 24;
+        double width = 1.0 / samples, at = width;
+        Candidate widest = gap_after(at);
+        const auto take = [&](double share) {
+            const Candidate gap = gap_after(share);
+            if (gap.closest.distance <= widest.closest.distance) return;
+            widest = gap;
+            at = share;
+        };
+        for (int i = 2; i < samples; ++i) take(i * width);
+        for (int i = 0; i < halvings; ++i) {
+            width *= 0.5;
+            const double middle = at;
+            take(middle - width);
+            take(middle + width);
+        }
+        if (widest.closest.distance >= near_) widest.closest.distance = 0;
+        return widest;
     }
 
     void keep(const std::vector<Step>& path) {

@@ -143,7 +143,9 @@ Result<StepOutcome> add_box(SurfaceModel& model, const SurfaceStepOptions& optio
             "the box has no extent along " + std::string(1, "xyz"[k]) + ": from " + rounded(box[0][k]) + " to " + rounded(box[1][k]));
     }
     if (auto fits = meets_surfaces(model, box); !fits) return std::move(fits).why();
+    const auto patches = static_cast<std::uint32_t>(model.model.patches.size());
     add_sides(model, box);
+    measure_lengths(model, patches);
     outcome.changed = 6;
     outcome.what.message = "six sides were added: x " + rounded(box[0][0]) + " .. " + rounded(box[1][0]) + ", y " + rounded(box[0][1]) +
                            " .. " + rounded(box[1][1]) + ", z " + rounded(box[0][2]) + " .. " + rounded(box[1][2]);

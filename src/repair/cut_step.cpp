@@ -67,7 +67,7 @@ Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions&
 }  // namespace
 
 Result<StepOutcome> weld_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
-    constexpr double nearly_all = 0.9;  // vertices keep the tolerance from each other, so that edges bend and do not fold
+    constexpr double nearly_all = 0.99;  // vertices keep the tolerance from each other, so that edges bend and do not fold
     return arrange_model(model, options, nearly_all);
 }
 

@@ -60,6 +60,18 @@ bool is_sealed(const BrepData& brep) {
     return std::ranges::none_of(brep.surfaces, [](const auto& s) { return s.regions[0] == s.regions[1]; });
 }
 
+/// The same steps and, after the cut, what brings together what still lies within the tolerance; none where that is not what is left.
+std::optional<SurfacePlan> welded_at_the_end(const SurfacePlan& plan, const ErrorCounts& left) {
+    const SurfaceStepRow& row = *surface_step("weld");
+    const bool helps = std::ranges::any_of(row.mends, [&](std::string_view code) { return left.contains(std::string(code)); });
+    const auto tails = std::ranges::find(plan.steps, "tails");
+    if (!helps || tails == plan.steps.end()) return std::nullopt;
+    SurfacePlan longer = plan;
+    longer.steps.insert(longer.steps.begin() + (tails - plan.steps.begin()) + 1, "weld");
+    longer.why += std::string(longer.why.empty() ? "" : "; ") + "welded after the cut, since borders lie within the tolerance there";
+    return longer;
+}
+
 std::string reason(double tolerance) {
     return "borders agree within " + rounded(tolerance) + ": that is the tolerance by which it is mended";
 }
@@ -134,6 +146,11 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         if (!is_better(*repaired)) continue;
         best = PlannedRepair{std::move(*repaired), plan, {}};
         if (left_by(best->repair).nothing()) break;
+    }
+    if (const auto longer = welded_at_the_end(best->plan, best->repair.errors)) {
+        auto repaired = attempt(*longer);
+        if (!repaired) return std::move(repaired).why();
+        if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}};
     }
     if (!search || (left_by(best->repair).errors == 0 && best->repair.closed)) return std::move(*best);
     auto wider = wider_tolerances(dataset, options);

@@ -45,7 +45,12 @@ std::uint64_t near_misses_in(std::span<const Finding> findings) {
     return static_cast<std::uint64_t>(std::ranges::count(findings, "B23", &Finding::code));
 }
 
-Result<Judged> judge(const SurfaceResult& result, const validators::CheckOptions& checks) {
+/// Judges by the lengths that the model is mended by, but by no larger tolerance than it will have by rule.
+Result<Judged> judge(const SurfaceResult& result, const topology::Lengths& mended_by, validators::CheckOptions checks) {
+    const auto by_rule = topology::local_lengths(result.dataset, {}).largest;
+    checks.tolerance = std::min(mended_by.tolerance, by_rule.tolerance);
+    checks.near = checks.near >= 0 ? mended_by.near : std::min(mended_by.near, by_rule.near);
+    checks.closing_tolerance = false;
     auto checked = validators::check_models(result.dataset, checks);
     if (!checked) return std::move(checked).why();
     return Judged{errors_of(checked->findings), near_misses_in(checked->findings)};
@@ -142,7 +147,7 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
     if (why.empty()) {
         auto result = result_of(next);
         if (!result) return std::move(result).why();
-        auto judged = judge(*result, options.checks);
+        auto judged = judge(*result, next.lengths, options.checks);
         if (!judged) return std::move(judged).why();
         if (!options.keep_worse) why = why_worse(state.errors, judged->errors);
         if (!options.keep_worse && why.empty() && !changes_regions) {
@@ -215,15 +220,6 @@ bool should_close(const State& state, std::span<const Finding> before) {
            });
 }
 
-/// The lengths by which a model is judged between steps: those that it is mended by, but no larger tolerance than by rule.
-SurfaceDriverOptions with_judges_lengths(const Dataset& dataset, const topology::Lengths& mended_by, SurfaceDriverOptions options) {
-    const auto by_rule = topology::local_lengths(dataset, {}).largest;
-    options.checks.tolerance = std::min(mended_by.tolerance, by_rule.tolerance);
-    options.checks.near = options.checks.near >= 0 ? mended_by.near : std::min(mended_by.near, by_rule.near);
-    options.checks.closing_tolerance = false;
-    return options;
-}
-
 }  // namespace
 
 ErrorCounts errors_of(std::span<const Finding> findings) {
@@ -257,13 +253,12 @@ std::vector<std::string> plan_for(std::span<const Finding> findings, bool close_
 }
 
 Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Finding> before, std::span<const std::string> names,
-                                      const SurfaceDriverOptions& given) {
-    auto model = surface_model_of(dataset, {given.checks.tolerance, given.checks.near});
+                                      const SurfaceDriverOptions& options) {
+    auto model = surface_model_of(dataset, {options.checks.tolerance, options.checks.near});
     if (!model) return std::move(model).why();
-    if (auto known = patch_wishes(*model, given.steps.contacts); !known) return std::move(known).why();
+    if (auto known = patch_wishes(*model, options.steps.contacts); !known) return std::move(known).why();
     auto result = result_of(*model);
     if (!result) return std::move(result).why();
-    const SurfaceDriverOptions options = with_judges_lengths(dataset, model->lengths, given);
     auto read = std::make_shared<const Brep>(result->brep);
     State state{std::move(*model), std::move(*result), errors_of(before), near_misses_in(before), std::move(read)};
     const bool closing = should_close(state, before) || options.steps.box || options.steps.automatic_box;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -157,6 +158,7 @@ void take_regions(const BrepData& brep, std::uint32_t first_patch, SurfaceModel&
 
 Result<SurfaceModel> surface_model_of(const Dataset& dataset, const topology::LengthRules& rules) {
     SurfaceModel model;
+    model.rules = rules;
     model.lengths = topology::local_lengths(dataset, rules).largest;
     const auto sources = topology::model_sources(dataset);
     auto complexes = topology::complexes_of(dataset, sources);
@@ -175,6 +177,33 @@ Result<SurfaceModel> surface_model_of(const Dataset& dataset, const topology::Le
     std::ranges::sort(model.objects);
     model.objects.erase(std::unique(model.objects.begin(), model.objects.end()), model.objects.end());
     return model;
+}
+
+void measure_lengths(SurfaceModel& model, std::uint32_t patches) {
+    const TriangleSoup& soup = model.model.soup;
+    std::vector<Surface> surfaces(model.model.patches.size());
+    std::vector<std::uint32_t> last_patch(soup.vertices.size(), no_index), point(soup.vertices.size());
+    std::vector<std::uint32_t> order(soup.triangles.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t t) { return soup.patches[t]; });
+    for (const std::uint32_t t : order) {
+        Surface& surface = surfaces[soup.patches[t]];
+        for (const std::uint32_t v : soup.triangles[t]) {
+            if (last_patch[v] != soup.patches[t]) {
+                last_patch[v] = soup.patches[t];
+                point[v] = static_cast<std::uint32_t>(surface.points.size());
+                surface.points.push_back(soup.vertices[v]);
+            }
+            surface.polygons.corners.push_back(point[v]);
+        }
+    }
+    Dataset whole;
+    for (Surface& surface : surfaces) whole.objects.emplace_back(std::move(surface));
+    const auto lengths = topology::local_lengths(whole, model.rules);
+    for (std::uint32_t p = 0; p < patches; ++p) {
+        const topology::Lengths& own = lengths.of(p);
+        if (own.diameter > model.lengths.diameter) model.lengths = own;
+    }
 }
 
 void take_soup(SurfaceModel& model, TriangleSoup soup, const Origin& origin) {

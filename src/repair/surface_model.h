@@ -56,6 +56,7 @@ struct SurfaceModel {
     std::vector<RemovedTriangle> removed;           ///< what steps left out, in their order
     std::vector<std::array<Vec3, 2>> erased_edges;  ///< of what was read: edges of traces of which a vertex was erased
 
+    topology::LengthRules rules;         ///< what was given of lengths
     topology::Lengths lengths;           ///< by which it is mended, from the input or as given
     std::vector<std::uint32_t> objects;  ///< of the Dataset that are in it, ascending
     std::vector<Loss> losses;            ///< what was read but cannot be mended here: cells of regions
@@ -69,5 +70,9 @@ Result<SurfaceModel> surface_model_of(const Dataset& dataset, const topology::Le
 /// Puts what a step made in place of the soup: the origins of the two are joined, and corners go to where their vertices are.
 /// \pre `origin` is of `soup` in model.model.soup
 void take_soup(SurfaceModel& model, TriangleSoup soup, const Origin& origin);
+
+/// After a step that added something around a model: the lengths by which what was there will be judged with that, so that it is
+/// mended by them. \param patches so many were there before. Cost: near-linear.
+void measure_lengths(SurfaceModel& model, std::uint32_t patches);
 
 }  // namespace geomend::repair

@@ -188,6 +188,19 @@ TEST(NearMisses, AHoleInAContactIsFound) {
     }
 }
 
+// From the first to the last point of a folded horizon a border goes straight, and is farthest from it where both limbs are as far.
+TEST(NearMisses, AHoleUnderOneEdgeIsAsWideAsItIsAtItsWidest) {
+    Soup s;
+    s.vertices = {{0, 0, 0}, {3, 0, 0}, {4, 0, -1}, {0, 2, 0}, {3, 2, 0}, {4, 2, -1}, {0, 0, -9}, {4, 0, -9}};
+    s.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {0, 2, 7}, {0, 7, 6}};
+    s.groups = {0, 0, 0, 0, 1, 1};
+    const Found f = search(s, 1);
+    const double widest = 0.25 * 3 / (0.75 + std::numbers::sqrt2 / 4);
+    const auto hole = std::ranges::find_if(f.misses, [&](const NearMiss& m) { return f.borders.edges[m.border_edge] == Edge{0, 2}; });
+    ASSERT_NE(hole, f.misses.end());
+    EXPECT_NEAR(hole->distance, widest, 1e-6);
+}
+
 TEST(NearMisses, AContactThatComesApartTowardsTheEndOfTheBorderIsFound) {
     // A wall at y = 13 closes the model: the fault is joined to it, and the horizon is, too.
     Soup s;

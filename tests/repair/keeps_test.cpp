@@ -149,6 +149,21 @@ TEST(Close, ABorderHalfOfWhichSticksThroughIsClosedWhereItStopsShort) {
     }
 }
 
+// Faults far from each other are judged by the tolerance of the box when it is close around them, and so they must be mended by it:
+// vertices of F lie beside the line where H cuts it.
+TEST(Box, WhatIsCutInItIsMendedByTheToleranceOfTheWhole) {
+    const TemporaryFolder folder;
+    Sheet far = fault;
+    far.name = "far";
+    far.corner[0] = 99;
+    for (const double beside : {0.0, 2e-6, 4e-6, 7e-6}) {
+        Sheet crossing = level("H", 5 + beside, 3);
+        crossing.role = "fault";
+        repaired(folder, tsurf_text(fault) + tsurf_text(crossing) + tsurf_text(far), {"--box", "-0.1,100.1,-0.1,10.1,-0.1,10.1"}, 0);
+        expect_volumes(folder / "out.ml", {100.2 * 10.2 * 10.2});
+    }
+}
+
 TEST(Tails, WhatPartsRegionsStaysHoweverLargeTheGapGivenIs) {
     const TemporaryFolder folder;
     // A fault across the box, sticking out of it, and a horizon on one side of it that sticks through.
