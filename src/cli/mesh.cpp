@@ -124,7 +124,7 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
                      "Largest distance between new and old surfaces with --method isotropic (default: a tenth of the size, 1/200 of the "
                      "model at most)")
         ->type_name("L")
-        ->check(is_length());
+        ->check(is_positive_length());
     command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
         ->type_name("R")
         ->check(is_length());

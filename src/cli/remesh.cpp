@@ -38,7 +38,9 @@ Result<std::vector<std::pair<std::string, double>>> sizes_of(const std::vector<s
 
 std::string quality_words(const remeshing::TriangleQuality& q) {
     return counted(q.triangles, "triangle", "triangles") + " (least angle " + rounded(q.least_angle) + " degrees, " +
-           rounded(100 * q.share_above_30()) + " % above 30, mean quality " + rounded(q.mean_quality()) + ")";
+           rounded(100 * q.share_above_30()) + " % above 30" +
+           (q.between_lines > 0 ? ", " + std::to_string(q.between_lines) + " below it between lines" : std::string()) + ", mean quality " +
+           rounded(q.mean_quality()) + ")";
 }
 
 std::string model_lines(const RemeshReport::Model& model, bool all_surfaces) {
@@ -69,7 +71,6 @@ ExitStatus run(const RemeshArguments& o) {
     auto sizes = sizes_of(o.size_of);
     if (!sizes) return report(sizes.why());
     if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
-    if (!(o.size > 0)) return report(failure(FailureKind::usage, "F018", {}, "--size 0: expected a length above 0"));
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     auto checks = check_options(o, {}, &monitor);
@@ -108,7 +109,10 @@ void add_remesh(CLI::App& program, ExitStatus& status) {
     auto o = std::make_shared<RemeshArguments>();
     command->add_option("IN", o->inputs, "Input files, taken as one model; - is standard input")->required();
     command->add_option("-o,--output", o->output, "Output file; - is standard output")->required()->type_name("OUT");
-    command->add_option("--size", o->size, "Length that edges of triangles should have")->required()->type_name("L")->check(is_length());
+    command->add_option("--size", o->size, "Length that edges of triangles should have")
+        ->required()
+        ->type_name("L")
+        ->check(is_positive_length());
     command->add_option("--size-of", o->size_of, "The same for one surface or interface, by its name; may be given several times")
         ->type_name("NAME=L");
     command->add_option("--growth", o->growth, "Sizes grow by no more than this share of the way (default 0.3)")
@@ -118,7 +122,7 @@ void add_remesh(CLI::App& program, ExitStatus& status) {
         ->add_option("--max-distance", o->max_distance,
                      "Largest distance between new and old surfaces (default: a tenth of the size, 1/200 of the model at most)")
         ->type_name("L")
-        ->check(is_length());
+        ->check(is_positive_length());
     command->add_option("--max-triangles", o->most_triangles, "Most triangles that a size may make (default 20000000)")->type_name("N");
     command->add_flag("--keep-invalid", o->keep_invalid, "Write also a result that has errors which the input had not");
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");

@@ -163,6 +163,7 @@ Json remesh_json_value(const RemeshReport& report) {
         return Json{{"triangles", q.triangles},
                     {"least_angle", q.triangles > 0 ? q.least_angle : 0},
                     {"above_30", q.share_above_30()},
+                    {"below_30_between_lines", q.between_lines},
                     {"mean_quality", q.mean_quality()}};
     };
     const auto counts = [](const EntityCounts& c) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/vectors.h"
+#include "remesh/polish.h"
 
 namespace geomend::remeshing {
 
@@ -145,12 +146,7 @@ Vec3 middle_place(const WorkSurface& work, std::uint32_t v) {
 bool try_move(WorkSurface& work, std::uint32_t v, const Vec3& to, bool improves) {
     const SurfacePoint at = closest_point(*work.reference, to, work.triangles[v]);
     if (!move_keeps_shape(work, v, at.place, improves)) return false;
-    work.mesh.places[v] = at.place;
-    work.triangles[v] = at.triangle;
-    double size = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        size += at.weights[k] * work.reference_sizes[work.reference->corners[3 * std::size_t{at.triangle} + k]];
-    work.sizes[v] = size;
+    put_at(work, v, at);
     return true;
 }
 
@@ -170,8 +166,10 @@ bool split_at_middle(WorkSurface& work, std::uint32_t h) {
     const std::uint32_t g = mesh.twins[h], from = mesh.from(h);
     const Vec3 &a = mesh.places[from], &b = mesh.places[mesh.to(h)], &c = mesh.places[mesh.tip(h)], &d = mesh.places[mesh.tip(g)];
     const Vec3 middle = plus(a, times(0.5, minus(b, a)));
-    const SurfacePoint at = closest_point(*work.reference, middle, work.triangles[from]);
-    if (at.distance > 0.3 * std::sqrt(square_length(mesh, h))) return false;  // the surface is not near: nothing would become shorter
+    const double length = std::sqrt(square_length(mesh, h));
+    SurfacePoint at = closest_point(*work.reference, middle, work.triangles[from]);
+    if (at.distance > 0.3 * length) at = closest_point_around(*work.reference, middle, work.triangles[from], length / 2);
+    if (at.distance > 0.3 * length) return false;  // the surface is not near: nothing would become shorter
     FoldGuard guard;
     guard.add(a, b, c);
     guard.add(b, a, d);
@@ -183,7 +181,7 @@ bool split_at_middle(WorkSurface& work, std::uint32_t h) {
 
 std::size_t split_long_edges(WorkSurface& work) {
     std::size_t count = 0;
-    for (std::uint32_t h = 0; h < work.mesh.corners.size(); ++h) {
+    for (std::uint32_t h = 0; h < work.mesh.corners.size() && !work.stopped_at(h); ++h) {
         while (work.mesh.corners[h] != no_index && work.mesh.twins[h] != no_index && work.mesh.triangle_count() < work.most_triangles) {
             const double most = too_long * wanted(work, h);
             if (!(square_length(work.mesh, h) > most * most) || !is_longest(work.mesh, h) || !split_at_middle(work, h)) break;
@@ -195,7 +193,7 @@ std::size_t split_long_edges(WorkSurface& work) {
 
 std::size_t collapse_short_edges(WorkSurface& work) {
     std::size_t count = 0;
-    for (std::uint32_t h = 0; h < work.mesh.corners.size(); ++h) {
+    for (std::uint32_t h = 0; h < work.mesh.corners.size() && !work.stopped_at(h); ++h) {
         if (!stands_for_edge(work.mesh, h) || work.mesh.twins[h] == no_index) continue;
         const double least = too_short * wanted(work, h);
         if (!(square_length(work.mesh, h) < least * least)) continue;
@@ -212,7 +210,7 @@ std::size_t remove_old_vertices(WorkSurface& work) {
     std::size_t count = 0, before = 0;
     do {
         before = count;
-        for (std::uint32_t v = 0; v < work.kinds.size(); ++v) {
+        for (std::uint32_t v = 0; v < work.kinds.size() && !work.stopped_at(v); ++v) {
             if (work.kinds[v] == VertexKind::old && work.mesh.has_vertex(v) && remove_old(work, v)) ++count;
         }
     } while (count > before);
@@ -223,7 +221,7 @@ std::size_t flip_edges(WorkSurface& work) {
     std::size_t count = 0;
     for (std::size_t round = 0; round < 4; ++round) {
         const std::size_t before = count;
-        for (std::uint32_t h = 0; h < work.mesh.corners.size(); ++h) {
+        for (std::uint32_t h = 0; h < work.mesh.corners.size() && !work.stopped_at(h); ++h) {
             if (!stands_for_edge(work.mesh, h) || work.mesh.twins[h] == no_index || !should_flip(work.mesh, h)) continue;
             flip_edge(work.mesh, h);
             ++count;
@@ -235,7 +233,7 @@ std::size_t flip_edges(WorkSurface& work) {
 
 std::size_t move_vertices(WorkSurface& work) {
     std::size_t count = 0;
-    for (std::uint32_t v = 0; v < work.kinds.size(); ++v) {
+    for (std::uint32_t v = 0; v < work.kinds.size() && !work.stopped_at(v); ++v) {
         if (work.kinds[v] != VertexKind::inner || !work.mesh.has_vertex(v)) continue;
         if (try_move(work, v, middle_place(work, v), false)) ++count;
     }
@@ -243,12 +241,11 @@ std::size_t move_vertices(WorkSurface& work) {
 }
 
 void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules) {
-    const auto stopped = [&] { return rules.monitor != nullptr && rules.monitor->stopped(); };
     remove_old_vertices(work);
     for (int again = 0; again < 20 && flip_edges(work) > 0; ++again) {
     }  // fans from one corner to all of a line go
     collapse_short_edges(work);
-    for (unsigned round = 0; round < rules.rounds && !stopped(); ++round) {
+    for (unsigned round = 0; round < rules.rounds && !work.stopped(); ++round) {
         remove_old_vertices(work);
         for (int again = 0; again < 12 && split_long_edges(work) > 0; ++again) flip_edges(work);
         collapse_short_edges(work);
@@ -257,6 +254,7 @@ void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules) {
         move_vertices(work);
         flip_edges(work);
     }
+    polish_triangles(work, rules.polished_below);
 }
 
 }  // namespace geomend::remeshing

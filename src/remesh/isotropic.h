@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
-#include "base/monitor.h"
 #include "remesh/work_surface.h"
 
 namespace geomend::remeshing {
 
 struct IsotropicRules {
-    unsigned rounds = 6;  ///< of splitting, collapsing, turning and moving
-    const Monitor* monitor = nullptr;
+    unsigned rounds = 6;         ///< of splitting, collapsing, turning and moving
+    double polished_below = 34;  ///< degrees: triangles with such an angle are worked on in the end
 };
 
 /// Brings the edges of a surface to the sizes at their ends and its triangles towards equilateral ones: long edges are split, short

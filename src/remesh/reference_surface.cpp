@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "remesh/reference_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_set>
 #include <vector>
@@ -39,11 +40,10 @@ Foot foot_on_edge(const std::array<Vec3, 3>& t, const Vec3& point, unsigned i, u
 }
 
 Foot foot_on(const std::array<Vec3, 3>& t, const Vec3& point) {
-    const Vec3 u = minus(t[1], t[0]), v = minus(t[2], t[0]), d = minus(point, t[0]);
-    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), du = dot(d, u), dv = dot(d, v);
-    const double area = uu * vv - uv * uv;
-    if (area > 1e-14 * uu * vv) {
-        const double b = (vv * du - uv * dv) / area, c = (uu * dv - uv * du) / area, a = 1 - b - c;
+    const Vec3 u = minus(t[1], t[0]), v = minus(t[2], t[0]), d = minus(point, t[0]), normal = cross(u, v);
+    const double square = dot(normal, normal);
+    if (square > 1e-20 * dot(u, u) * dot(v, v)) {  // by the normal: products of lengths would say nothing of a needle
+        const double b = dot(normal, cross(d, v)) / square, c = dot(normal, cross(u, d)) / square, a = 1 - b - c;
         if (a >= 0 && b >= 0 && c >= 0) {
             const Vec3 off = minus(d, plus(times(b, u), times(c, v)));
             return {{a, b, c}, dot(off, off), 7};
@@ -78,14 +78,21 @@ SurfacePoint closest_point(const EdgeMesh& mesh, const Vec3& point, std::uint32_
         best = foot;
         next = t;
     };
+    const auto try_around = [&](std::uint32_t v, std::uint32_t& next) {
+        visit_leaving(mesh, v, [&](std::uint32_t h) { try_triangle(h / 3, next); });
+    };
     while (best.part != 7) {
         std::uint32_t next = no_index;
         if (best.part == 1 || best.part == 2 || best.part == 4) {
-            const std::uint32_t v = mesh.corners[3 * std::size_t{at} + corner_of(best.part)];
-            visit_leaving(mesh, v, [&](std::uint32_t h) { try_triangle(h / 3, next); });
+            try_around(mesh.corners[3 * std::size_t{at} + corner_of(best.part)], next);
         } else {
-            const std::uint32_t back = mesh.twins[3 * at + edge_of(best.part)];
-            if (back != no_index) try_triangle(back / 3, next);
+            const std::uint32_t h = 3 * at + edge_of(best.part), back = mesh.twins[h];
+            if (back != no_index) {
+                try_triangle(back / 3, next);
+                // A needle across the edge comes no nearer by itself, but what lies behind it does.
+                if (next == no_index) try_around(mesh.from(h), next);
+                if (next == no_index) try_around(mesh.to(h), next);
+            }
         }
         if (next == no_index) break;
         at = next;
@@ -95,8 +102,9 @@ SurfacePoint closest_point(const EdgeMesh& mesh, const Vec3& point, std::uint32_
     return found;
 }
 
-SurfacePoint closest_point_around(const EdgeMesh& mesh, const Vec3& point, std::uint32_t from_triangle) {
-    const double reach = foot_on(mesh.triangle(from_triangle), point).square;
+SurfacePoint closest_point_around(const EdgeMesh& mesh, const Vec3& point, std::uint32_t from_triangle, double least_reach) {
+    // A needle's distance is that of its neighbour but for rounding.
+    const double reach = std::max(foot_on(mesh.triangle(from_triangle), point).square, least_reach * least_reach) * (1 + 1e-6);
     std::vector<std::uint32_t> queue{from_triangle};
     std::unordered_set<std::uint32_t> seen{from_triangle};
     Foot best;

@@ -24,9 +24,10 @@ SurfacePoint point_at(const EdgeMesh& mesh, std::uint32_t triangle, const Weight
 /// only: the distance is never too small. \pre the triangle is there. Cost: some 50 ns for each triangle on the way.
 SurfacePoint closest_point(const EdgeMesh& mesh, const Vec3& point, std::uint32_t from_triangle);
 
-/// The same among all triangles that hang together with the given one and come as near to the point as it does: not only the closest
-/// one around. Cost: some 0.2 microseconds for each of these.
-SurfacePoint closest_point_around(const EdgeMesh& mesh, const Vec3& point, std::uint32_t from_triangle);
+/// The same among all triangles that hang together with the given one and come as near to the point as it does, or as `least_reach`: not
+/// only the closest one around. With the distance to any point of the given triangle as reach, what lies on the other side of a slit
+/// that begins at that point is found, too. Cost: some 0.2 microseconds for each of these.
+SurfacePoint closest_point_around(const EdgeMesh& mesh, const Vec3& point, std::uint32_t from_triangle, double least_reach);
 
 /// A value at a point of a surface, between those at vertices.
 inline double value_at(const EdgeMesh& mesh, const std::vector<double>& values, const SurfacePoint& point) {

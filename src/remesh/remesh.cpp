@@ -21,7 +21,7 @@ namespace geomend::remeshing {
 
 namespace {
 
-constexpr unsigned most_tries = 4;     ///< of a surface that comes out too far from what it was
+constexpr unsigned most_tries = 8;     ///< of a surface that comes out too far from what it was
 constexpr unsigned most_searches = 3;  ///< for crossings that smaller sizes may end
 
 /// By default a tenth of the size, but no more than half a hundredth of the model, which a large size must not melt down.
@@ -230,7 +230,8 @@ bool Rounds::take_stock() {
             keep(s, "it did not stay within the distance");
             continue;
         }
-        for (const auto& [v, times] : made.too_far) lower(v, std::clamp(0.9 / std::sqrt(times), 0.5, 0.8), lowered);
+        const double most = tries_[s] > most_tries / 2 ? 0.6 : 0.8;
+        for (const auto& [v, times] : made.too_far) lower(v, std::clamp(0.9 / std::sqrt(times), 0.5, most), lowered);
         surface_is_due_[s] = 1;
         if (triangles_for(brep_.surfaces[s], lowered) > 16 * expected_[s] + 1000)
             keep(s, "it did not stay within the distance without very many triangles");
@@ -338,16 +339,27 @@ Remeshed Rounds::result() const {
         made.line_edges_before += whole_.lines[l].vertices.size() - 1;
         made.line_edges_after += lines_.samples(l).size() - 1;
     }
-    const auto quality = [](const BrepData& brep, const BrepData::Surface& surface) {
+    const auto on_lines = [](const BrepData& brep) {
+        std::vector<std::uint8_t> is(brep.vertices.size(), 0);
+        for (const auto& corner : brep.corners) is[corner.vertex.value] = 1;
+        for (const auto& line : brep.lines) {
+            for (const VertexId v : line.vertices) is[v.value] = 1;
+        }
+        return is;
+    };
+    const auto quality = [](const BrepData& brep, const std::vector<std::uint8_t>& on_line, const BrepData::Surface& surface) {
         TriangleQuality sum;
         for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
             const auto t = surface.polygons[p];
-            for (std::size_t k = 1; k + 1 < t.size(); ++k)
-                sum.add({brep.vertices[surface.nodes[t[0]].value], brep.vertices[surface.nodes[t[k]].value],
-                         brep.vertices[surface.nodes[t[k + 1]].value]});
+            for (std::size_t k = 1; k + 1 < t.size(); ++k) {
+                const std::array<std::uint32_t, 3> v{surface.nodes[t[0]].value, surface.nodes[t[k]].value, surface.nodes[t[k + 1]].value};
+                sum.add({brep.vertices[v[0]], brep.vertices[v[1]], brep.vertices[v[2]]},
+                        on_line[v[0]] != 0 && on_line[v[1]] != 0 && on_line[v[2]] != 0);
+            }
         }
         return sum;
     };
+    const auto old_on_lines = on_lines(whole_), new_on_lines = on_lines(made.brep);
     for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) {
         const auto& surface = whole_.surfaces[s];
         RemeshedSurface& told = made.surfaces.emplace_back();
@@ -355,8 +367,8 @@ Remeshed Rounds::result() const {
         if (surface.interface_id.valid()) told.interface = whole_.interfaces[surface.interface_id.value].name;
         told.kept = is_kept_[s] != 0;
         told.why = why_[s];
-        told.before = quality(whole_, surface);
-        told.after = quality(made.brep, made.brep.surfaces[s]);
+        told.before = quality(whole_, old_on_lines, surface);
+        told.after = quality(made.brep, new_on_lines, made.brep.surfaces[s]);
         told.to_old = surfaces_[s].to_old;
         told.from_old = surfaces_[s].from_old;
     }

@@ -90,12 +90,12 @@ void limit_by_width(const BrepData& brep, const BrepData::Surface& surface, cons
         if (a.line == b.line) return true;
         const SegmentDistance gap = closest_points(segments[i], segments[j]);
         const double size = 1.2 * gap.distance;
-        if (!(gap.distance > 1e-9 * farthest) || size >= std::max(a.longest, b.longest)) return true;
+        if (!(size >= least) || size >= std::max(a.longest, b.longest)) return true;
         if (meet_at_corner(brep, brep.lines[a.line], brep.lines[b.line], gap)) return true;
         for (const LineEdge* e : {&a, &b}) {
             for (std::uint32_t p = e->first; p <= e->last; ++p) {
                 double& s = sizes[brep.lines[e->line].vertices[p].value];
-                s = std::min(s, std::max(size, least));
+                s = std::min(s, size);
             }
         }
         return true;

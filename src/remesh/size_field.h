@@ -19,7 +19,8 @@ std::vector<double> entity_sizes(const BrepData& brep, double size, std::span<co
 void grade(const BrepData& brep, double growth, std::vector<double>& sizes);
 
 /// Lowers sizes where two lines of a surface run close to one another, so that triangles between them can be near equilateral.
-/// Lines that leave a corner at more than some 40 degrees are not close there. \param least no size becomes less
+/// Lines that leave a corner at more than some 40 degrees are not close there.
+/// \param least where sizes would be less, they stay: no edge of a fair length makes a good triangle there, and short ones many bad ones
 void limit_by_width(const BrepData& brep, const LinePlan& lines, double least, std::vector<double>& sizes);
 
 }  // namespace geomend::remeshing

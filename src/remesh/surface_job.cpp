@@ -7,7 +7,9 @@
 #include <set>
 
 #include "base/vectors.h"
+#include "remesh/crossings.h"
 #include "remesh/isotropic.h"
+#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -85,6 +87,13 @@ void take_sources(const Reference& reference, const WorkSurface& work, const std
     }
 }
 
+/// The closest point on a mesh; where that seems too far it is looked for all around, as far as to a point of the start triangle.
+SurfacePoint measured_point(const EdgeMesh& mesh, const Vec3& point, std::uint32_t start, const Vec3& in_start, double allowed) {
+    const SurfacePoint found = closest_point(mesh, point, start);
+    if (found.distance <= allowed) return found;
+    return closest_point_around(mesh, point, start, length_of(minus(point, in_start)));
+}
+
 /// Marks the vertices of a triangle of the reference where a point of the new surface is too far from it.
 class DistanceCheck {
 public:
@@ -100,6 +109,15 @@ public:
     void from_old(std::uint32_t v, double distance) {
         made_.from_old = std::max(made_.from_old, distance);
         if (distance > allowed_) made_.too_far.emplace_back(reference_.vertex_of[v], distance / allowed_);
+    }
+    /// Where an edge of the new surface passes over one of the old surface.
+    void between(const CrossingWalk& walk, const EdgeMesh& mesh, std::uint32_t triangle) {
+        const double distance = length_of(minus(walk.on_surface(), walk.on_edge()));
+        if (distance > made_.to_old)
+            from_new(measured_point(reference_.mesh, walk.on_edge(), walk.triangle(), walk.on_surface(), allowed_));
+        if (!(distance > made_.from_old)) return;
+        const double from = measured_point(mesh, walk.on_surface(), triangle, walk.on_edge(), allowed_).distance;
+        for (std::size_t k = 0; k < 3; ++k) from_old(reference_.mesh.corners[3 * std::size_t{walk.triangle()} + k], from);
     }
 
 private:
@@ -127,33 +145,33 @@ std::vector<std::uint32_t> near_triangles(const Reference& reference, const Edge
     return near;
 }
 
-/// The closest point on a mesh; where that seems too far it is looked for all around.
-SurfacePoint measured_point(const EdgeMesh& mesh, const Vec3& point, std::uint32_t start, double allowed) {
-    const SurfacePoint found = closest_point(mesh, point, start);
-    return found.distance > allowed ? closest_point_around(mesh, point, start) : found;
-}
-
-void measure_distances(const Reference& reference, const EdgeMesh& mesh, std::span<const std::uint32_t> triangle_of, double allowed,
-                       NewSurface& made) {
+void measure_distances(const Reference& reference, const EdgeMesh& mesh, std::span<const std::uint32_t> triangle_of,
+                       const SurfaceRules& rules, NewSurface& made) {
+    const double allowed = rules.max_distance;
+    const auto stopped = [&](std::uint32_t i) { return (i & 0xfff) == 0 && rules.monitor != nullptr && rules.monitor->stopped(); };
     DistanceCheck check(reference, allowed, made);
     made.source_triangles.reserve(mesh.triangle_count());
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    for (std::uint32_t t = 0; t < mesh.triangle_count() && !stopped(t); ++t) {
         const auto p = mesh.triangle(t);
         const std::uint32_t start = triangle_of[mesh.corners[3 * std::size_t{t}]];
-        const SurfacePoint middle = measured_point(reference.mesh, times(1.0 / 3, plus(p[0], plus(p[1], p[2]))), start, allowed);
+        const SurfacePoint middle = measured_point(reference.mesh, times(1.0 / 3, plus(p[0], plus(p[1], p[2]))), start, p[0], allowed);
         made.source_triangles.push_back(middle.triangle);
         check.from_new(middle);
         for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
             if (mesh.twins[h] != no_index && mesh.twins[h] < h) continue;
             const Vec3 half = times(0.5, plus(p[h % 3], p[next_of(h) % 3]));
-            check.from_new(measured_point(reference.mesh, half, triangle_of[mesh.from(h)], allowed));
+            check.from_new(measured_point(reference.mesh, half, triangle_of[mesh.from(h)], p[h % 3], allowed));
+            const SurfacePoint below = closest_point(reference.mesh, p[h % 3], triangle_of[mesh.from(h)]);
+            visit_crossings(reference.mesh, p[h % 3], p[next_of(h) % 3], below,
+                            [&](const CrossingWalk& walk) { check.between(walk, mesh, t); });
         }
     }
     const auto near = near_triangles(reference, mesh, triangle_of);
-    for (std::uint32_t v = 0; v < reference.mesh.places.size(); ++v) {
+    for (std::uint32_t v = 0; v < reference.mesh.places.size() && !stopped(v); ++v) {
         const std::uint32_t start = near[reference.mesh.leaving[v] / 3];
         if (start == no_index) continue;  // a part of which nothing is left: told by the caller
-        check.from_old(v, measured_point(mesh, reference.mesh.places[v], start, allowed).distance);
+        const Vec3& at = reference.mesh.places[v];
+        check.from_old(v, measured_point(mesh, at, start, mesh.places[mesh.corners[3 * std::size_t{start}]], allowed).distance);
     }
 }
 
@@ -239,9 +257,9 @@ NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePla
     std::vector<std::array<std::uint32_t, 2>> nodes;
     if (std::string why = fit_lines(*reference, lines, work, nodes, made.stuck); !why.empty()) return keep(std::move(why));
     work.most_triangles = most_triangles(*reference, work);
-    IsotropicRules how;
-    how.monitor = rules.monitor;
-    remesh_isotropic(work, how);
+    work.monitor = rules.monitor;
+    remesh_isotropic(work, {});
+    if (work.stopped()) return keep("stopped");
     if (work.mesh.triangle_count() >= work.most_triangles)
         return keep("its triangles are too narrow for the size: it would have very many");
     split_bridges(work, rules.bridges);
@@ -256,7 +274,7 @@ NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePla
         triangle_of.push_back(work.triangles[v]);
     }
     take_sources(*reference, work, kept, made);
-    measure_distances(*reference, mesh, triangle_of, rules.max_distance, made);
+    measure_distances(*reference, mesh, triangle_of, rules, made);
     made.places = std::move(mesh.places);
     made.corners = std::move(mesh.corners);
     for (const std::uint32_t h : mesh.twins) made.neighbours.push_back(h == no_index ? h : h / 3);

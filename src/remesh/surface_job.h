@@ -28,8 +28,8 @@ struct NewSurface {
     std::vector<Source> sources;                  ///< per vertex
     std::vector<std::uint32_t> source_triangles;  ///< per triangle that of the surface as it was in which its middle lies
     std::vector<std::uint32_t> stuck;             ///< vertices of the model on lines that could not give way
-    double to_old = 0;    ///< largest distance from the surface as it was, at vertices, middles of edges and of triangles
-    double from_old = 0;  ///< largest distance of the vertices of the surface as it was
+    double to_old = 0;    ///< largest distance from the surface as it was: at vertices, middles, and where edges pass over its edges
+    double from_old = 0;  ///< largest distance of the surface as it was from this one: at its vertices, and where edges pass over edges
     /// Where it is too far: vertices of the model, and by how many times the distance that is allowed.
     std::vector<std::pair<std::uint32_t, double>> too_far;
 };

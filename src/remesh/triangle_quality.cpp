@@ -8,7 +8,7 @@
 
 namespace geomend::remeshing {
 
-void TriangleQuality::add(const std::array<Vec3, 3>& t) {
+void TriangleQuality::add(const std::array<Vec3, 3>& t, bool is_between_lines) {
     const Vec3 u = minus(t[1], t[0]), v = minus(t[2], t[1]), w = minus(t[0], t[2]), n = cross(u, v);
     const double twice = std::sqrt(dot(n, n));
     const auto angle = [&](const Vec3& in, const Vec3& out) { return std::atan2(twice, -dot(in, out)); };
@@ -16,6 +16,7 @@ void TriangleQuality::add(const std::array<Vec3, 3>& t) {
     const double a = std::sqrt(dot(u, u)), b = std::sqrt(dot(v, v)), c = std::sqrt(dot(w, w));
     ++triangles;
     if (least >= 30) ++above_30;
+    else if (is_between_lines) ++between_lines;
     least_angle = std::min(least_angle, least);
     // 2 r / R with r = twice / (a + b + c) and R = a b c / (2 twice)
     if (a * b * c > 0) sum_quality += 4 * twice * twice / ((a + b + c) * a * b * c);

@@ -13,13 +13,15 @@ namespace geomend::remeshing {
 /// equilateral, 0 where it has no area.
 struct TriangleQuality {
     std::uint64_t triangles = 0, above_30 = 0;  ///< above: all of whose angles are at least 30 degrees
+    std::uint64_t between_lines = 0;            ///< of those that are not above: all whose corners lie on lines, which force the angle
     double least_angle = 180;                   ///< degrees
     double sum_quality = 0;
 
-    void add(const std::array<Vec3, 3>& triangle);
+    void add(const std::array<Vec3, 3>& triangle, bool is_between_lines = false);
     void add(const TriangleQuality& other) {
         triangles += other.triangles;
         above_30 += other.above_30;
+        between_lines += other.between_lines;
         least_angle = std::min(least_angle, other.least_angle);
         sum_quality += other.sum_quality;
     }

@@ -7,6 +7,17 @@
 
 namespace geomend::remeshing {
 
+namespace {
+
+double size_at(const WorkSurface& work, const SurfacePoint& at) {
+    double size = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        size += at.weights[k] * work.reference_sizes[work.reference->corners[3 * std::size_t{at.triangle} + k]];
+    return size;
+}
+
+}  // namespace
+
 WorkSurface work_surface(const EdgeMesh& reference, std::span<const double> sizes) {
     WorkSurface work;
     work.reference = &reference;
@@ -29,14 +40,17 @@ std::uint32_t add_on_edge(WorkSurface& work, std::uint32_t h, const Vec3& place,
         work.kinds.emplace_back();
         work.names.emplace_back();
     }
-    double size = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        size += at.weights[k] * work.reference_sizes[work.reference->corners[3 * std::size_t{at.triangle} + k]];
-    work.sizes[v] = size;
+    work.sizes[v] = size_at(work, at);
     work.triangles[v] = at.triangle;
     work.kinds[v] = kind;
     work.names[v] = no_index;
     return v;
+}
+
+void put_at(WorkSurface& work, std::uint32_t v, const SurfacePoint& at) {
+    work.mesh.places[v] = at.place;
+    work.triangles[v] = at.triangle;
+    work.sizes[v] = size_at(work, at);
 }
 
 void FoldGuard::add(const Vec3& a, const Vec3& b, const Vec3& c) { facing = plus(facing, cross(minus(b, a), minus(c, a))); }

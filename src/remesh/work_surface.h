@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/monitor.h"
 #include "remesh/edge_mesh.h"
 #include "remesh/reference_surface.h"
 
@@ -27,6 +28,11 @@ struct WorkSurface {
     std::vector<VertexKind> kinds;
     std::vector<std::uint32_t> names;           ///< per vertex the caller's number of a fixed one
     std::uint32_t most_triangles = UINT32_MAX;  ///< no edge is split where there are as many
+    const Monitor* monitor = nullptr;           ///< what is done ends early where this is stopped
+
+    bool stopped() const { return monitor != nullptr && monitor->stopped(); }
+    /// The same, looked up for one of some thousand items only.
+    bool stopped_at(std::uint32_t item) const { return (item & 0xfff) == 0 && stopped(); }
 };
 
 /// The reference as it is, all vertices inner ones but those on borders, which are old.
@@ -34,6 +40,9 @@ WorkSurface work_surface(const EdgeMesh& reference, std::span<const double> size
 
 /// Puts a vertex on an edge. \param at where it lies on the reference \return its number
 std::uint32_t add_on_edge(WorkSurface& work, std::uint32_t h, const Vec3& place, const SurfacePoint& at, VertexKind kind);
+
+/// Puts a vertex elsewhere on the reference.
+void put_at(WorkSurface& work, std::uint32_t v, const SurfacePoint& at);
 
 /// What changes around an edge or a vertex must keep to: triangles face the same way as those that they take the place of.
 struct FoldGuard {

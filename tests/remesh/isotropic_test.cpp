@@ -8,6 +8,8 @@
 #include <set>
 
 #include "made_surfaces.h"
+#include "remesh/crossings.h"
+#include "remesh/polish.h"
 #include "remesh/sample_line.h"
 #include "remesh/triangle_quality.h"
 
@@ -95,6 +97,75 @@ TEST(Isotropic, EveryOldVertexOfAStraightBorderGivesWay) {
     remesh_isotropic(work, {});
     EXPECT_EQ(numbers_of(work.mesh).border_edges, 16u);
     for (std::uint32_t v = 0; v < work.mesh.places.size(); ++v) EXPECT_FALSE(work.mesh.has_vertex(v) && work.kinds[v] == VertexKind::old);
+}
+
+/// A strip with a slit from the middle of it to its right end.
+EdgeMesh slit_sheet() {
+    std::vector<Vec3> places{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}};
+    return test::mesh_of(places, {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 8, 3, 8, 7, 4, 6, 9, 4, 9, 8});
+}
+
+TEST(ReferenceSurface, APointBeyondASlitIsFoundFromItsTip) {
+    const EdgeMesh reference = slit_sheet();
+    const Vec3 beyond{1.9, 1.5, 0}, tip{1, 1, 0};
+    const std::uint32_t below = 3;  // the slit is one of its edges
+    EXPECT_NEAR(closest_point(reference, beyond, below).distance, 0.5, 1e-12);
+    EXPECT_NEAR(closest_point_around(reference, beyond, below, std::hypot(beyond[0] - tip[0], beyond[1] - tip[1])).distance, 0, 1e-12);
+}
+
+TEST(ReferenceSurface, ANeedleDoesNotStopTheWay) {
+    // two large triangles with one between them whose middle vertex lies 1e-9 from its long edge, far from the origin
+    const Vec3 far{1.6e6, -1.7e5, -9e3};
+    std::vector<Vec3> places{{0, 0, 0}, {100, 0, 0}, {40, 1e-9, 0}, {50, -80, 0}, {20, 90, 0}};
+    for (Vec3& p : places) {
+        for (std::size_t k = 0; k < 3; ++k) p[k] += far[k];
+    }
+    const EdgeMesh reference = test::mesh_of(places, {0, 3, 1, 0, 1, 2, 0, 2, 4, 2, 1, 4});
+    for (const double x : {10.0, 35.0, 41.0, 60.0}) {
+        const SurfacePoint found = closest_point(reference, {far[0] + x, far[1] + 15, far[2]}, 0);
+        EXPECT_LT(found.distance, 1e-6) << x;
+    }
+}
+
+TEST(Crossings, AnEdgeOverARidgeIsMeasuredAtTheRidge) {
+    const EdgeMesh roof = test::sheet(10, 10, [](double x, double) { return x < 3 ? x : 3 - (x - 3) * 3 / 7; });
+    for (const Vec3& from : {Vec3{0, 5.3, 0}, Vec3{0, 5, 0}, Vec3{0, 2.25, 0}}) {  // inside of an edge, at a vertex, and near one
+        const Vec3 to{10, from[1] + 0.5, 0};
+        double highest = 0;
+        SurfacePoint start;
+        for (std::uint32_t t = 0; t < roof.triangle_count(); ++t) {
+            const SurfacePoint at = closest_point(roof, from, t);
+            if (t == 0 || at.distance < start.distance) start = at;
+        }
+        std::size_t count = 0;
+        visit_crossings(roof, from, to, start, [&](const CrossingWalk& walk) {
+            const double dx = walk.on_surface()[0] - walk.on_edge()[0], dz = walk.on_surface()[2] - walk.on_edge()[2];
+            highest = std::max(highest, std::hypot(dx, dz));
+            ++count;
+        });
+        EXPECT_NEAR(highest, 3, 0.01) << from[1];
+        EXPECT_GE(count, 10u);
+    }
+}
+
+TEST(Polish, SmallAnglesInsideBecomeLargerAndNothingElseChanges) {
+    EdgeMesh reference = test::sheet(12, 12);
+    WorkSurface work = with_fixed_borders(reference, std::vector<double>(reference.places.size(), 1));
+    const std::vector<double> sizes(reference.places.size(), 1);
+    work.reference_sizes = sizes;
+    for (std::uint32_t v = 0; v < work.kinds.size(); ++v) {
+        if (work.kinds[v] == VertexKind::inner && v % 3 == 0) work.mesh.places[v][0] += 0.85;  // near its neighbour
+    }
+    const auto border = border_places(work.mesh);
+    const TriangleQuality before = quality_of(work.mesh);
+    EXPECT_GT(polish_triangles(work, 34), 0u);
+    const TriangleQuality after = quality_of(work.mesh);
+    EXPECT_LT(before.least_angle, 10);
+    EXPECT_GT(after.least_angle, 25);
+    EXPECT_GT(after.share_above_30(), 0.98);
+    EXPECT_TRUE(is_consistent(work.mesh));
+    EXPECT_EQ(border_places(work.mesh), border);
+    EXPECT_EQ(numbers_of(work.mesh).euler, 1);
 }
 
 TEST(SampleLine, AStraightLineIsPartedEvenly) {

@@ -124,6 +124,7 @@ TEST(Remesh, MeshGivesSurfacesNewTrianglesFirstWhereItIsAskedTo) {
 TEST(Remesh, WrongOptionsAreRefused) {
     for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--size", "0"},
                                                   {"--size", "-1"},
+                                                  {"--size", "10", "--max-distance", "0"},
                                                   {"--size", "10", "--size-of", "fault"},
                                                   {"--size", "10", "--size-of", "fault=x"},
                                                   {}}) {
@@ -145,6 +146,29 @@ TEST(Remesh, ModelA1KeepsItsEntitiesAndItsTrianglesBecomeEquilateral) {
     EXPECT_LE(model["distance"]["hausdorff"].get<double>(), model["max_distance"].get<double>());
     EXPECT_GT(model["after"]["above_30"].get<double>(), 0.98);
     EXPECT_EQ(run_geomend({"validate", out}).status, 0);
+}
+
+TEST(Remesh, NoSurfaceOfTheRealModelsStaysAsItWasAndAnglesAreLargeWhereLinesAllow) {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<std::string, std::string>> models{{"gocad/modelA1.ml", "486"},
+                                                                  {"gocad/modelA4.ml", "486"},
+                                                                  {"gocad/split_cube.ml", "0.0433"},
+                                                                  {"gocad/CloudSpin_fixed.ml", "576"},
+                                                                  {"ringmesh/corbieres.gm", "95"}};
+    for (const auto& [file, size] : models) {
+        SCOPED_TRACE(file);
+        const auto in = test::real_data(file);
+        if (!in) GTEST_SKIP() << "the real files are not there";
+        const json report = remesh(in->string(), folder / "out.ml", {"--size", size, "--lossy"});
+        ASSERT_TRUE(report.is_object() && report["written"] == true);
+        const json& model = report["models"][0];
+        for (const json& surface : model["surfaces"]) EXPECT_FALSE(surface.contains("kept")) << surface["name"];
+        const double all = model["after"]["triangles"], above = model["after"]["above_30"].get<double>() * all,
+                     forced = model["after"]["below_30_between_lines"];
+        EXPECT_GE((above + forced) / all, 0.99);
+        EXPECT_GE(model["after"]["mean_quality"].get<double>(), 0.9);
+        EXPECT_LE(model["distance"]["hausdorff"].get<double>(), model["max_distance"].get<double>());
+    }
 }
 
 }  // namespace
