@@ -111,20 +111,23 @@ bool LinePlan::force(std::uint32_t vertex) {
 
 bool LinePlan::keep(std::uint32_t line) { return !std::exchange(lines_[line].kept, true); }
 
-bool LinePlan::sample(std::uint32_t line, std::span<const double> sizes, double max_distance) {
+bool LinePlan::sample(std::uint32_t line, const VertexSizes& sizes, double max_distance) {
     Plan& plan = lines_[line];
     const auto& vertices = brep_.lines[line].vertices;
     std::vector<LineSample> samples;
     if (plan.kept) {
         for (std::uint32_t i = 0; i < plan.points.size(); ++i) samples.push_back({i, 0});
     } else {
-        std::vector<double> own;
-        for (const VertexId v : vertices) own.push_back(sizes[v.value]);
+        std::vector<double> own, most;
+        for (const VertexId v : vertices) {
+            own.push_back(sizes.at[v.value]);
+            most.push_back(sizes.most[v.value]);
+        }
         LineRules rules;
         rules.max_distance = max_distance;
         rules.fewest = plan.fewest;
         rules.stays = plan.forced;
-        samples = sample_line(plan.points, own, rules);
+        samples = sample_line(plan.points, {own, most, sizes.growth}, rules);
     }
     if (std::ranges::equal(samples, plan.samples, {}, {}, &Named::sample)) return false;
     for (const VertexId v : vertices) {

@@ -49,8 +49,8 @@ public:
     bool keep(std::uint32_t line);
     bool kept(std::uint32_t line) const { return lines_[line].kept; }
 
-    /// Samples a line anew. \param sizes per vertex of the model \return whether anything changed
-    bool sample(std::uint32_t line, std::span<const double> sizes, double max_distance);
+    /// Samples a line anew. \param sizes of the model's vertices \return whether anything changed
+    bool sample(std::uint32_t line, const VertexSizes& sizes, double max_distance);
     /// Lowers the sizes at the vertices of a line to those of its new edges.
     void limit(std::uint32_t line, double least, std::span<double> sizes) const;
 

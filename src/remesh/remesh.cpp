@@ -49,6 +49,7 @@ public:
           lines_(cut, whole.lines.size()),
           allowed_(allowed_distance(whole, options)),
           sizes_(entity_sizes(cut, options.size, options.size_of)),
+          most_(sizes_),
           surfaces_(cut.surfaces.size()),
           expected_(cut.surfaces.size(), 0),
           tries_(cut.surfaces.size(), 0),
@@ -61,6 +62,7 @@ public:
     Result<Remeshed> run();
 
 private:
+    VertexSizes vertex_sizes() const { return {sizes_, most_, options_.growth}; }
     bool stopped() const { return options_.monitor != nullptr && options_.monitor->stopped(); }
     double triangles_for(const BrepData::Surface& surface, std::span<const double> sizes) const;
     Result<void> check_number();
@@ -72,7 +74,7 @@ private:
     bool find_bridges();
     bool crossed_before(std::uint32_t a, std::uint32_t b);
     void lower(std::uint32_t vertex, double factor, std::vector<double>& lowered) const;
-    void lower_around(std::uint32_t surface, std::uint32_t triangle, std::vector<double>& lowered) const;
+    void lower_around(std::uint32_t surface, std::uint32_t triangle, std::vector<double>& lowered);
     void take_sizes(std::vector<double> lowered);
     void keep(std::uint32_t surface, std::string why);
     bool nothing_due() const;
@@ -82,7 +84,7 @@ private:
     const RemeshOptions& options_;
     LinePlan lines_;
     double allowed_;
-    std::vector<double> sizes_;
+    std::vector<double> sizes_, most_;  // at vertices, and as large as they become between distant ones
     std::vector<NewSurface> surfaces_;
     std::vector<double> expected_;  // triangles of each
     std::vector<unsigned> tries_;
@@ -129,7 +131,7 @@ Result<void> Rounds::check_number() {
 
 void Rounds::plan_lines() {
     grade(brep_, options_.growth, sizes_);
-    for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) lines_.sample(l, sizes_, allowed_);
+    for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) lines_.sample(l, vertex_sizes(), allowed_);
     limit_by_width(brep_, lines_, options_.size / 8, sizes_);
     for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) lines_.limit(l, options_.size / 16, sizes_);
     grade(brep_, options_.growth, sizes_);
@@ -140,7 +142,7 @@ void Rounds::sample_lines() {
     for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) {
         if (line_is_due_[l] == 0) continue;
         line_is_due_[l] = 0;
-        if (lines_.sample(l, sizes_, allowed_)) changed[l] = 1;
+        if (lines_.sample(l, vertex_sizes(), allowed_)) changed[l] = 1;
     }
     for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) {
         for (const auto& use : brep_.surfaces[s].lines) {
@@ -159,7 +161,7 @@ void Rounds::remesh_surfaces() {
         const std::uint32_t s = due[i];
         if (stopped()) return;
         surfaces_[s] = is_kept_[s] != 0 ? surface_as_it_was(brep_, s)
-                                        : remeshed_surface(brep_, s, lines_, sizes_, {allowed_, bridges_[s], options_.monitor});
+                                        : remeshed_surface(brep_, s, lines_, vertex_sizes(), {allowed_, bridges_[s], options_.monitor});
     });
 }
 
@@ -178,17 +180,21 @@ void Rounds::lower(std::uint32_t vertex, double factor, std::vector<double>& low
     lowered[vertex] = std::min(lowered[vertex], std::max(sizes_[vertex] * factor, options_.size / 64));
 }
 
-void Rounds::lower_around(std::uint32_t surface, std::uint32_t triangle, std::vector<double>& lowered) const {
+void Rounds::lower_around(std::uint32_t surface, std::uint32_t triangle, std::vector<double>& lowered) {
     const auto& old = brep_.surfaces[surface];
     if (is_kept_[surface] != 0) return;
     const NewSurface& made = surfaces_[surface];
+    const auto halve = [&](std::uint32_t v) {  // also as far as sizes grow beside it: it may be far from where surfaces cross
+        lower(v, 0.5, lowered);
+        most_[v] = std::max(lowered[v], std::min(most_[v], 4 * lowered[v]));
+    };
     for (std::size_t k = 0; k < 3; ++k) {
         const auto& source = made.sources[made.corners[3 * std::size_t{triangle} + k]];
         for (std::size_t i = 0; i < 3; ++i) {
-            if (source.weights[i] > 0) lower(old.nodes[source.rows[i]].value, 0.5, lowered);
+            if (source.weights[i] > 0) halve(old.nodes[source.rows[i]].value);
         }
     }
-    for (const std::uint32_t node : old.polygons[made.source_triangles[triangle]]) lower(old.nodes[node].value, 0.5, lowered);
+    for (const std::uint32_t node : old.polygons[made.source_triangles[triangle]]) halve(old.nodes[node].value);
 }
 
 void Rounds::take_sizes(std::vector<double> lowered) {

@@ -73,20 +73,60 @@ std::vector<std::uint32_t> fixed_points(std::span<const Vec3> points, std::span<
     return fixed;
 }
 
+/// The line by places at which its sizes are known: its points, and more between points that lie farther apart than sizes there.
+struct Stations {
+    std::vector<LineSample> places;
+    std::vector<double> way, measure;  ///< lengths, and these by sizes
+    std::vector<std::uint32_t> of;     ///< per point its station
+};
+
+constexpr std::size_t most_pieces = 64;  ///< of a segment whose sizes grow and shrink again
+
+Stations stations_of(const std::vector<double>& way, const VertexSizes& sizes) {
+    Stations all;
+    double last_size = 0;
+    const auto add = [&](const LineSample& place, double at, double size) {
+        all.measure.push_back(all.way.empty() ? 0 : all.measure.back() + 2 * (at - all.way.back()) / (size + last_size));
+        all.places.push_back(place);
+        all.way.push_back(at);
+        last_size = size;
+    };
+    for (std::uint32_t i = 0; i < way.size(); ++i) {
+        all.of.push_back(static_cast<std::uint32_t>(all.places.size()));
+        add({i, 0}, way[i], sizes.at[i]);
+        if (i + 1 == way.size() || sizes.most.empty()) continue;
+        const double length = way[i + 1] - way[i], small = std::min(sizes.at[i], sizes.at[i + 1]);
+        const bool grows = length > 2 * small && small < std::max(sizes.most[i], sizes.most[i + 1]);
+        const auto pieces = grows ? std::min(most_pieces, static_cast<std::size_t>(length / small)) : 1;
+        for (std::size_t k = 1; k < pieces; ++k) {
+            const double share = static_cast<double>(k) / static_cast<double>(pieces), to = share * length;
+            const double between = sizes.at[i] + share * (sizes.at[i + 1] - sizes.at[i]),
+                         most = sizes.most[i] + share * (sizes.most[i + 1] - sizes.most[i]),
+                         grown = std::min(sizes.at[i] + sizes.growth * to, sizes.at[i + 1] + sizes.growth * (length - to));
+            add({i, share}, way[i] + to, std::max(between, std::min(most, grown)));
+        }
+    }
+    return all;
+}
+
 /// Places that part the way between two points into n pieces of equal measure, without the last one. A place very near a point is that.
-std::vector<LineSample> parted(std::uint32_t from, std::uint32_t to, const std::vector<double>& way, const std::vector<double>& measure,
+std::vector<LineSample> parted(std::uint32_t from, std::uint32_t to, const std::vector<double>& way, const Stations& stations,
                                std::size_t n) {
     std::vector<LineSample> samples{{from, 0}};
-    std::uint32_t i = from;
-    const double all = measure[to] - measure[from];
+    const std::vector<double>& measure = stations.measure;
+    std::uint32_t i = stations.of[from];
+    const std::uint32_t last_station = stations.of[to];
+    const double first = measure[i], all = measure[last_station] - first;
     for (std::size_t k = 1; k < n; ++k) {
-        const double at = measure[from] + all * static_cast<double>(k) / static_cast<double>(n);
-        while (i + 1 < to && measure[i + 1] <= at) ++i;
-        double share = std::clamp((at - measure[i]) / (measure[i + 1] - measure[i]), 0.0, 1.0);
-        const double step = 1e-3 * (way[to] - way[from]) / static_cast<double>(n), edge = way[i + 1] - way[i];
-        LineSample sample{i, share};
-        if (share * edge < step) sample.share = 0;
-        else if ((1 - share) * edge < step) sample = {i + 1, 0};
+        const double at = first + all * static_cast<double>(k) / static_cast<double>(n);
+        while (i + 1 < last_station && measure[i + 1] <= at) ++i;
+        const double part = std::clamp((at - measure[i]) / (measure[i + 1] - measure[i]), 0.0, 1.0);
+        const double here = stations.way[i] + part * (stations.way[i + 1] - stations.way[i]);
+        const std::uint32_t segment = stations.places[i].segment;
+        const double step = 1e-3 * (way[to] - way[from]) / static_cast<double>(n);
+        LineSample sample{segment, std::clamp((here - way[segment]) / (way[segment + 1] - way[segment]), 0.0, 1.0)};
+        if (here - way[segment] < step) sample.share = 0;
+        else if (way[segment + 1] - here < step) sample = {segment + 1, 0};
         const LineSample& last = samples.back();
         const bool goes_on = sample.segment > last.segment || (sample.segment == last.segment && sample.share > last.share);
         if (goes_on && sample.segment < to) samples.push_back(sample);
@@ -102,20 +142,19 @@ Vec3 place_of(std::span<const Vec3> points, const LineSample& sample) {
     return plus(a, times(sample.share, minus(points[sample.segment + 1], a)));
 }
 
-std::vector<LineSample> sample_line(std::span<const Vec3> points, std::span<const double> sizes, const LineRules& rules) {
+std::vector<LineSample> sample_line(std::span<const Vec3> points, const VertexSizes& sizes, const LineRules& rules) {
     const auto way = ways(points);
-    std::vector<double> measure(points.size(), 0);
-    for (std::size_t i = 1; i < points.size(); ++i) measure[i] = measure[i - 1] + 2 * (way[i] - way[i - 1]) / (sizes[i] + sizes[i - 1]);
-    const auto fixed = fixed_points(points, sizes, way, rules);
+    const Stations stations = stations_of(way, sizes);
+    const auto fixed = fixed_points(points, sizes.at, way, rules);
     std::vector<LineSample> all;
     const auto pieces = static_cast<std::uint32_t>(fixed.size() - 1);
     for (std::size_t f = 0; f + 1 < fixed.size(); ++f) {
         const std::uint32_t from = fixed[f], to = fixed[f + 1];
-        const double asked = measure[to] - measure[from];
+        const double asked = stations.measure[stations.of[to]] - stations.measure[stations.of[from]];
         std::size_t n =
             std::max<std::size_t>({1, static_cast<std::size_t>(std::lround(std::min(asked, 1e9))), (rules.fewest + pieces - 1) / pieces});
         for (;;) {
-            auto samples = parted(from, to, way, measure, n);
+            auto samples = parted(from, to, way, stations, n);
             double most = 0;
             for (std::size_t k = 0; k < samples.size(); ++k)
                 most = std::max(most, deviation(points, samples[k], k + 1 < samples.size() ? samples[k + 1] : LineSample{to, 0}));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "remesh/vertex_sizes.h"
 
 namespace geomend::remeshing {
 
@@ -26,7 +27,7 @@ struct LineRules {
 /// New places on a polyline from its first to its last point: pieces between points that stay are parted evenly, as measured by the
 /// sizes along them, and more finely where the way bends too much for the distance.
 /// \param sizes per point, above 0  \pre at least 2 points. Cost: linear for each try, few tries.
-std::vector<LineSample> sample_line(std::span<const Vec3> points, std::span<const double> sizes, const LineRules& rules);
+std::vector<LineSample> sample_line(std::span<const Vec3> points, const VertexSizes& sizes, const LineRules& rules);
 
 Vec3 place_of(std::span<const Vec3> points, const LineSample& sample);
 

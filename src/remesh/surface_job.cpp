@@ -19,19 +19,23 @@ namespace {
 struct Reference {
     EdgeMesh mesh;
     std::vector<std::uint32_t> node_of, vertex_of;  ///< per vertex of the mesh its node, and that of the model
-    std::vector<double> sizes;
+    std::vector<double> sizes, most;                ///< as of VertexSizes
+    double growth = 0;
+
+    VertexSizes vertex_sizes() const { return {sizes, most, growth}; }
 };
 
-Result<Reference> reference_of(const BrepData& brep, const BrepData::Surface& surface, std::span<const double> sizes) {
+Result<Reference> reference_of(const BrepData& brep, const BrepData::Surface& surface, const VertexSizes& sizes) {
     if (!surface.polygons.all_triangles()) return failure(FailureKind::cannot_hold, "F026", {}, "it has polygons that are no triangles");
     std::vector<Vec3> places;
     for (const VertexId v : surface.nodes) places.push_back(brep.vertices[v.value]);
     auto fanned = fanned_mesh(places, surface.polygons.corners, surface.neighbours);
     if (!fanned) return std::move(fanned).why();
-    Reference made{std::move(fanned->mesh), std::move(fanned->vertex_of), {}, {}};
+    Reference made{std::move(fanned->mesh), std::move(fanned->vertex_of), {}, {}, {}, sizes.growth};
     for (const std::uint32_t node : made.node_of) {
         made.vertex_of.push_back(surface.nodes[node].value);
-        made.sizes.push_back(sizes[surface.nodes[node].value]);
+        made.sizes.push_back(sizes.at[surface.nodes[node].value]);
+        made.most.push_back(sizes.most[surface.nodes[node].value]);
     }
     return made;
 }
@@ -66,6 +70,7 @@ std::string fit_lines(const Reference& reference, const LinePlan& lines, WorkSur
             at.triangle = h / 3;
             at.weights[h % 3] = 1 - share;
             at.weights[next_of(h) % 3] = share;
+            at.place = lines.place(sample.name);
             const std::uint32_t v = add_on_edge(work, edge, lines.place(sample.name), at, VertexKind::fixed);
             work.names[v] = sample.name;
             const auto [low, high] = std::minmax(reference.node_of[a], reference.node_of[b]);
@@ -243,7 +248,7 @@ NewSurface surface_as_it_was(const BrepData& brep, std::uint32_t s) {
     return made;
 }
 
-NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePlan& lines, std::span<const double> sizes,
+NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePlan& lines, const VertexSizes& sizes,
                             const SurfaceRules& rules) {
     const auto keep = [&](std::string why) {
         NewSurface kept = surface_as_it_was(brep, s);
@@ -252,7 +257,7 @@ NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePla
     };
     const auto reference = reference_of(brep, brep.surfaces[s], sizes);
     if (!reference) return keep(reference.why().error.message);
-    WorkSurface work = work_surface(reference->mesh, reference->sizes);
+    WorkSurface work = work_surface(reference->mesh, reference->vertex_sizes());
     NewSurface made;
     std::vector<std::array<std::uint32_t, 2>> nodes;
     if (std::string why = fit_lines(*reference, lines, work, nodes, made.stuck); !why.empty()) return keep(std::move(why));

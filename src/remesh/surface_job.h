@@ -43,8 +43,8 @@ struct SurfaceRules {
 /// A surface as it was, by the names of its vertices; all vertices of its lines must be kept then.
 NewSurface surface_as_it_was(const BrepData& brep, std::uint32_t surface);
 
-/// Remeshes a surface against its lines. Where that cannot be it is kept, with the reason. \param sizes per vertex of the model
-NewSurface remeshed_surface(const BrepData& brep, std::uint32_t surface, const LinePlan& lines, std::span<const double> sizes,
+/// Remeshes a surface against its lines. Where that cannot be it is kept, with the reason. \param sizes at the vertices of the model
+NewSurface remeshed_surface(const BrepData& brep, std::uint32_t surface, const LinePlan& lines, const VertexSizes& sizes,
                             const SurfaceRules& rules);
 
 }  // namespace geomend::remeshing

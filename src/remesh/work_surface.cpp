@@ -1,31 +1,40 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "remesh/work_surface.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/vectors.h"
+#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
 namespace {
 
+/// The size at a point of the reference.
 double size_at(const WorkSurface& work, const SurfacePoint& at) {
-    double size = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        size += at.weights[k] * work.reference_sizes[work.reference->corners[3 * std::size_t{at.triangle} + k]];
-    return size;
+    const VertexSizes& sizes = work.reference_sizes;
+    double between = 0, most = 0, grown = HUGE_VAL;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = work.reference->corners[3 * std::size_t{at.triangle} + k];
+        between += at.weights[k] * sizes.at[v];
+        if (sizes.most.empty()) continue;
+        most += at.weights[k] * sizes.most[v];
+        grown = std::min(grown, sizes.at[v] + sizes.growth * length_of(minus(at.place, work.reference->places[v])));
+    }
+    return std::max(between, std::min(most, grown));
 }
 
 }  // namespace
 
-WorkSurface work_surface(const EdgeMesh& reference, std::span<const double> sizes) {
+WorkSurface work_surface(const EdgeMesh& reference, const VertexSizes& sizes) {
     WorkSurface work;
     work.reference = &reference;
     work.reference_sizes = sizes;
     work.mesh = reference;
-    work.sizes.assign(sizes.begin(), sizes.end());
-    work.names.assign(sizes.size(), no_index);
-    for (std::uint32_t v = 0; v < sizes.size(); ++v) {
+    work.sizes.assign(sizes.at.begin(), sizes.at.end());
+    work.names.assign(sizes.at.size(), no_index);
+    for (std::uint32_t v = 0; v < sizes.at.size(); ++v) {
         work.triangles.push_back(reference.leaving[v] / 3);
         work.kinds.push_back(reference.on_border(v) ? VertexKind::old : VertexKind::inner);
     }

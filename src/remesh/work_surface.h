@@ -8,6 +8,7 @@
 #include "base/monitor.h"
 #include "remesh/edge_mesh.h"
 #include "remesh/reference_surface.h"
+#include "remesh/vertex_sizes.h"
 
 namespace geomend::remeshing {
 
@@ -21,7 +22,7 @@ enum class VertexKind : std::uint8_t {
 /// A surface while its triangles are changed, beside the surface as it was read.
 struct WorkSurface {
     const EdgeMesh* reference = nullptr;
-    std::span<const double> reference_sizes;  ///< per vertex of the reference
+    VertexSizes reference_sizes;  ///< at the vertices of the reference
     EdgeMesh mesh;
     std::vector<double> sizes;             ///< per vertex: edges there should be so long
     std::vector<std::uint32_t> triangles;  ///< per vertex one of the reference at which it lies
@@ -36,7 +37,7 @@ struct WorkSurface {
 };
 
 /// The reference as it is, all vertices inner ones but those on borders, which are old.
-WorkSurface work_surface(const EdgeMesh& reference, std::span<const double> sizes);
+WorkSurface work_surface(const EdgeMesh& reference, const VertexSizes& sizes);
 
 /// Puts a vertex on an edge. \param at where it lies on the reference \return its number
 std::uint32_t add_on_edge(WorkSurface& work, std::uint32_t h, const Vec3& place, const SurfacePoint& at, VertexKind kind);

@@ -31,7 +31,7 @@ std::set<Vec3> border_places(const EdgeMesh& mesh) {
 
 /// All vertices of borders stay.
 WorkSurface with_fixed_borders(const EdgeMesh& reference, std::span<const double> sizes) {
-    WorkSurface work = work_surface(reference, sizes);
+    WorkSurface work = work_surface(reference, {sizes, {}, 0});
     for (VertexKind& kind : work.kinds) kind = kind == VertexKind::old ? VertexKind::fixed : kind;
     return work;
 }
@@ -73,11 +73,21 @@ TEST(Isotropic, AFlatSheetBecomesNearlyEquilateral) {
     EXPECT_GT(quality.share_above_30(), 0.97);
 }
 
+TEST(Isotropic, ALargeTriangleIsNotFilledWithTheSmallSizesOfItsCorners) {
+    const EdgeMesh reference = test::sheet(1, 1);
+    const std::vector<double> sizes(4, 0.01), most(4, 0.2);
+    WorkSurface work = work_surface(reference, {sizes, most, 0.3});
+    for (VertexKind& kind : work.kinds) kind = VertexKind::fixed;
+    remesh_isotropic(work, {});
+    EXPECT_LT(numbers_of(work.mesh).triangles, 3000u);
+    EXPECT_TRUE(is_consistent(work.mesh));
+}
+
 TEST(Isotropic, AClosedSurfaceWithoutLinesStaysClosed) {
     const EdgeMesh reference = test::closed_cube(6);
     for (const double size : {0.4, 2.0, 100.0}) {
         const std::vector<double> sizes(reference.places.size(), size);
-        WorkSurface work = work_surface(reference, sizes);
+        WorkSurface work = work_surface(reference, {sizes, {}, 0});
         remesh_isotropic(work, {});
         EXPECT_TRUE(is_consistent(work.mesh));
         EXPECT_EQ(numbers_of(work.mesh).euler, 2) << size;
@@ -88,7 +98,7 @@ TEST(Isotropic, AClosedSurfaceWithoutLinesStaysClosed) {
 TEST(Isotropic, EveryOldVertexOfAStraightBorderGivesWay) {
     const EdgeMesh reference = test::sheet(20, 20);
     const std::vector<double> sizes(reference.places.size(), 5);
-    WorkSurface work = work_surface(reference, sizes);
+    WorkSurface work = work_surface(reference, {sizes, {}, 0});
     for (std::uint32_t v = 0; v < reference.places.size(); ++v) {
         const auto& p = reference.places[v];
         const auto stays = [](double x) { return std::fmod(x, 5.0) == 0; };
@@ -152,7 +162,7 @@ TEST(Polish, SmallAnglesInsideBecomeLargerAndNothingElseChanges) {
     EdgeMesh reference = test::sheet(12, 12);
     WorkSurface work = with_fixed_borders(reference, std::vector<double>(reference.places.size(), 1));
     const std::vector<double> sizes(reference.places.size(), 1);
-    work.reference_sizes = sizes;
+    work.reference_sizes = {sizes, {}, 0};
     for (std::uint32_t v = 0; v < work.kinds.size(); ++v) {
         if (work.kinds[v] == VertexKind::inner && v % 3 == 0) work.mesh.places[v][0] += 0.85;  // near its neighbour
     }
@@ -174,10 +184,27 @@ TEST(SampleLine, AStraightLineIsPartedEvenly) {
     const std::vector<double> sizes(points.size(), 30);
     LineRules rules;
     rules.max_distance = 1;
-    const auto samples = sample_line(points, sizes, rules);
+    const auto samples = sample_line(points, {sizes, {}, 0}, rules);
     ASSERT_EQ(samples.size(), 4u);
     EXPECT_NEAR(place_of(points, samples[1])[0], 100.0 / 3, 1e-9);
     EXPECT_EQ(place_of(points, samples.back()), points.back());
+}
+
+TEST(SampleLine, SizesGrowBetweenPointsThatLieFarApart) {
+    const std::vector<Vec3> points{{0, 0, 0}, {1000, 0, 0}};
+    const std::vector<double> sizes{1, 1}, most{100, 100};
+    LineRules rules;
+    rules.max_distance = 1;
+    const auto samples = sample_line(points, {sizes, most, 0.3}, rules);
+    EXPECT_LT(samples.size(), 50u);
+    double longest = 0;
+    for (std::size_t k = 1; k < samples.size(); ++k) {
+        const double before = samples[k - 1].share * 1000, after = samples[k].segment == 1 ? 1000 : samples[k].share * 1000;
+        longest = std::max(longest, after - before);
+        EXPECT_LT(after - before, 2 + 0.5 * std::min(after, 1000 - before));
+    }
+    EXPECT_GT(longest, 60);
+    EXPECT_LT(longest, 150);
 }
 
 TEST(SampleLine, SharpBendsStay) {
@@ -188,7 +215,7 @@ TEST(SampleLine, SharpBendsStay) {
     LineRules rules;
     rules.max_distance = 1;
     bool found = false;
-    for (const LineSample& s : sample_line(points, sizes, rules)) found = found || place_of(points, s) == Vec3{37, 0, 0};
+    for (const LineSample& s : sample_line(points, {sizes, {}, 0}, rules)) found = found || place_of(points, s) == Vec3{37, 0, 0};
     EXPECT_TRUE(found);
 }
 
@@ -200,7 +227,7 @@ RC_GTEST_PROP(SampleLine, NoPointIsFartherThanAllowed, ()) {
     const std::vector<double> sizes(points.size(), size);
     LineRules rules;
     rules.max_distance = allowed;
-    const auto samples = sample_line(points, sizes, rules);
+    const auto samples = sample_line(points, {sizes, {}, 0}, rules);
     RC_ASSERT(samples.front() == LineSample{});
     RC_ASSERT(place_of(points, samples.back()) == points.back());
     for (const Vec3& p : points) {
