@@ -2,9 +2,12 @@
 #include <memory>
 
 #include "base/number_text.h"
+#include "base/output.h"
 #include "base/wording.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "drawing/grid_page.h"
+#include "drawing/grid_pictures.h"
 #include "pipeline/make_grid.h"
 
 namespace geomend::cli {
@@ -13,8 +16,8 @@ namespace {
 
 struct GridCommand : CommonOptions {
     std::vector<std::string> inputs;
-    std::string output, cells, size, layers, area, pillars_of;
-    std::vector<std::string> horizons, fault_polygons, erosion, onlap, leave_out;
+    std::string output, cells, size, layers, area, pillars_of, map, section, page;
+    std::vector<std::string> horizons, fault_polygons, erosion, onlap, leave_out, properties_of, properties;
     std::vector<double> box;
     double rotation = 0, least_dip = 30, min_thickness = 0;
     bool rotated = false, allow_repeated = false, lossy = false;
@@ -59,6 +62,7 @@ Result<GridRequest> request_of(const GridCommand& o) {
     request.layers = o.layers;
     request.area = o.area;
     request.pillars_of = o.pillars_of;
+    request.properties = {o.properties_of, o.properties};
     if (o.rotated) request.rotation = o.rotation;
     request.options.min_thickness = o.min_thickness;
     request.options.allow_repeated = o.allow_repeated;
@@ -119,6 +123,12 @@ std::string summary(const GridMade& made) {
                 rounded(made.made.least_angles_after) + " at least; before " + rounded(made.made.mean_angles_before) + " and " +
                 rounded(made.made.least_angles_before) + "\n";
     }
+    for (const auto& p : made.properties) {
+        text +=
+            "  property " + geomend::quoted(p.name) + ": " + to_string(p.how) + ", in " + counted(p.with, "active cell", "active cells");
+        if (p.without > 0) text += ", no value in " + std::to_string(p.without);
+        text += "\n";
+    }
     for (const auto& l : made.left_out) text += "  " + geomend::quoted(l.name) + " left out: " + l.why + "\n";
     if (made.made.joined_cells > 0) text += "  " + counted(made.made.joined_cells, "thin cell", "thin cells") + " joined with neighbours\n";
     for (std::size_t r = 0; r < made.regions.size(); ++r)
@@ -130,6 +140,27 @@ std::string summary(const GridMade& made) {
     return text;
 }
 
+Result<void> write_whole(const std::string& path, const std::string& text) {
+    if (path.empty()) return {};
+    OutputSet output{path};
+    output.main_file() << text;
+    return output.commit();
+}
+
+/// The pictures and the page that are asked for.
+Result<void> write_pictures(const GridCommand& o, GridMade& made) {
+    if (!made.grid || !made.structure) return {};
+    const GridDrawing drawing{std::move(*made.grid), std::move(*made.structure), made.made.zones};
+    const GridRow row = telling_row(drawing.grid);
+    const bool all = !o.page.empty();
+    GridPage page{"Grid " + o.output, summary(made), {}, {}};
+    if (all || !o.map.empty()) page.map = grid_map(drawing, row);
+    if (all || !o.section.empty()) page.section = grid_section(drawing, row);
+    if (auto done = write_whole(o.map, page.map); !done) return done;
+    if (auto done = write_whole(o.section, page.section); !done) return done;
+    return all ? write_whole(o.page, grid_page(page)) : Result<void>();
+}
+
 ExitStatus run(const GridCommand& o) {
     if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
     auto request = request_of(o);
@@ -139,8 +170,10 @@ ExitStatus run(const GridCommand& o) {
     request->files.load.monitor = &monitor;
     request->options.monitor = &monitor;
     request->count_connections = o.json || o.verbose;
-    const auto made = make_grid(std::move(*request));
+    request->keep_made = !o.map.empty() || !o.section.empty() || !o.page.empty();
+    auto made = make_grid(std::move(*request));
     if (!made) return report(made.why());
+    if (auto drawn = write_pictures(o, *made); !drawn) return report(drawn.why());
     end_progress();
     if (o.json) return print_about(grid_json(*made), o.output, true);
     if (o.quiet) return ExitStatus::done;
@@ -180,6 +213,12 @@ void add_grid(CLI::App& program, ExitStatus& status) {
     command->add_option("--pillars-of", o->pillars_of, "File with a corner-point grid whose pillars are taken")
         ->type_name("GRID")
         ->excludes(cells);
+    command->add_option("--properties-of", o->properties_of, "Files whose properties the cells get")->delimiter(',')->type_name("A,B,...");
+    command
+        ->add_option("--properties", o->properties,
+                     "Which, and how: nearest, mean, majority or harmonic (default: all, codes by majority, other values by mean)")
+        ->delimiter(',')
+        ->type_name("NAME=METHOD,...");
     command->add_option("--pillars", o->pillars, "Whether pillars on faults lean as these do (default follow-faults)")
         ->type_name("vertical|follow-faults")
         ->check(CLI::IsMember({"vertical", "follow-faults"}));
@@ -192,6 +231,9 @@ void add_grid(CLI::App& program, ExitStatus& status) {
     command->add_option("--fault-sides", o->fault_sides, "Whether FAULTS names faces from one cell or both (default one)")
         ->type_name("one|both")
         ->check(CLI::IsMember({"one", "both"}));
+    command->add_option("--map", o->map, "A picture of the grid from above, over the faults of the model (PNG)")->type_name("FILE");
+    command->add_option("--section", o->section, "A picture of the row that crosses most faults, over the model (PNG)")->type_name("FILE");
+    command->add_option("--report", o->page, "A page with the report and both pictures (HTML)")->type_name("FILE");
     command->add_flag("--allow-repeated", o->allow_repeated, "Take one depth where a pillar meets a horizon more than once");
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the grid");
     add_common_options(*command, *o, true);

@@ -6,6 +6,8 @@
 #include <initializer_list>
 
 #include "base/number_text.h"
+#include "base/wording.h"
+#include "formats/grdecl/keywords.h"
 
 namespace geomend {
 
@@ -77,24 +79,88 @@ std::string schedule(const CornerPointGrid& grid, const GridFacts& facts) {
     std::string text = "SCHEDULE\n\n";
     if (facts.whole_columns.size() > 1) {
         const auto &injector = facts.whole_columns.front(), &producer = facts.whole_columns.back();
-        const auto completion = [&](const std::string& name, const std::array<std::uint32_t, 2>& c) {
-            return " '" + name + "' " + numbers({c[0] + std::uint64_t{1}, c[1] + std::uint64_t{1}, 1, grid.dims[2]}) + " OPEN 2* 0.2 /\n";
+        // Open in one layer each: between many layers of a high column fluid flows through the well, at rates that no step of time is
+        // short enough for.
+        const auto completion = [&](const std::string& name, const std::array<std::uint32_t, 2>& c, std::uint32_t layer) {
+            return " '" + name + "' " + numbers({c[0] + std::uint64_t{1}, c[1] + std::uint64_t{1}, layer, layer}) + " OPEN 2* 0.2 /\n";
         };
-        text += "WELSPECS\n" + well("PROD", producer) + well("INJ", injector) + "/\n\nCOMPDAT\n" + completion("PROD", producer) +
-                completion("INJ", injector) + "/\n\nWCONPROD\n 'PROD' OPEN BHP 5* " + number_text(0.8 * pressure(facts, facts.top)) +
-                " /\n/\n\nWCONINJE\n 'INJ' WATER OPEN BHP 2* " + number_text(1.2 * pressure(facts, facts.base)) + " /\n/\n\n";
+        text += "WELSPECS\n" + well("PROD", producer) + well("INJ", injector) + "/\n\nCOMPDAT\n" + completion("PROD", producer, 1) +
+                completion("INJ", injector, grid.dims[2]) + "/\n\nWCONPROD\n 'PROD' OPEN BHP 5* " +
+                number_text(0.8 * pressure(facts, facts.top)) + " /\n/\n\nWCONINJE\n 'INJ' WATER OPEN BHP 2* " +
+                number_text(1.2 * pressure(facts, facts.base)) + " /\n/\n\n";
     }
     return text + "TSTEP\n 6*30 /\n\nEND\n";
 }
 
+/// The properties of cells that a deck needs, what they are where nothing is known, and where else they come from.
+struct NeededProperty {
+    const char *name, *like;
+    double value, factor;
+};
+constexpr std::array needed{NeededProperty{"PORO", "", 0.2, 1}, NeededProperty{"PERMX", "", 200, 1},
+                            NeededProperty{"PERMY", "PERMX", 200, 1}, NeededProperty{"PERMZ", "PERMX", 20, 0.1}};
+
+bool has(const CornerPointGrid& grid, const std::string& name) {
+    return !name.empty() && find_attribute(grid.info.attributes, name, AttributeLocation::cell) != nullptr;
+}
+
+/// Keywords that give the properties which the grid does not have.
+std::string properties(const CornerPointGrid& grid) {
+    std::string constant, copied, changed;
+    for (const NeededProperty& p : needed) {
+        if (has(grid, p.name)) continue;
+        if (has(grid, p.like)) {
+            copied += std::string(" ") + p.like + " " + p.name + " /\n";
+            if (p.factor != 1) changed += std::string(" ") + p.name + " " + number_text(p.factor) + " /\n";
+        } else {
+            constant += std::string(" ") + p.name + " " + number_text(p.value) + " /\n";
+        }
+    }
+    const auto block = [](const char* keyword, const std::string& records) {
+        return records.empty() ? std::string() : std::string(keyword) + "\n" + records + "/\n\n";
+    };
+    return block("EQUALS", constant) + block("COPY", copied) + block("MULTIPLY", changed);
+}
+
+/// Gives active cells without a value one; how many there were comes back.
+std::uint64_t fill_missing(const CornerPointGrid& grid, double value, Attribute& a) {
+    auto* values = std::get_if<std::vector<double>>(&a.values);
+    if (values == nullptr || !a.no_data) return 0;
+    std::uint64_t filled = 0;
+    for (std::size_t c = 0; c < values->size(); ++c) {
+        if (!grid.is_active(c) || !is_no_data(a, (*values)[c])) continue;
+        (*values)[c] = value;
+        ++filled;
+    }
+    return filled;
+}
+
 }  // namespace
+
+std::vector<std::string> fit_for_deck(CornerPointGrid& grid) {
+    std::vector<std::string> notes;
+    std::erase_if(grid.info.attributes, [&](const Attribute& a) {
+        const auto keyword = grdecl::cell_keyword(a.name);
+        if (!keyword || keyword->section != grdecl::Section::regions) return false;
+        if (a.name != "FIPNUM") notes.push_back("the deck has one table of each kind only: " + geomend::quoted(a.name) + " is left out");
+        return true;
+    });
+    for (const NeededProperty& p : needed) {
+        for (Attribute& a : grid.info.attributes) {
+            if (a.name != p.name || a.location != AttributeLocation::cell) continue;
+            if (const std::uint64_t n = fill_missing(grid, p.value, a); n > 0)
+                notes.push_back(geomend::quoted(a.name) + " has no value in " + counted(n, "active cell", "active cells") +
+                                ": the deck has " + number_text(p.value) + " there");
+        }
+    }
+    return notes;
+}
 
 std::string flow_deck(const CornerPointGrid& grid, const std::string& title, const std::string& include,
                       const std::vector<FipLayers>& layers) {
     const GridFacts facts = facts_of(grid);
     const double contact = (facts.top + facts.base) / 2;
-    return runspec(grid, facts, title) + "GRID\n\nINIT\n\nGRIDFILE\n 0 1 /\n\nINCLUDE\n '" + include +
-           "' /\n\nEQUALS\n PORO 0.2 /\n PERMX 200 /\n PERMY 200 /\n PERMZ 20 /\n/\n\n"
+    return runspec(grid, facts, title) + "GRID\n\nINIT\n\nGRIDFILE\n 0 1 /\n\nINCLUDE\n '" + include + "' /\n\n" + properties(grid) +
            "PROPS\n\nPVTW\n 200 1.02 4.5E-5 0.5 0 /\n\nPVDO\n 1 1.2 1\n 200 1.15 1.1\n 2000 1.1 1.5 /\n\nROCK\n 200 5E-5 /\n\n"
            "DENSITY\n 850 1020 1 /\n\nSWOF\n 0.2 0 1 0\n 0.5 0.2 0.3 0\n 0.8 1 0 0 /\n\n" +
            regions(grid, layers) + "SOLUTION\n\nEQUIL\n " + number_text(facts.top) + ' ' + number_text(pressure(facts, facts.top)) + ' ' +

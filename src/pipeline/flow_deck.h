@@ -14,9 +14,14 @@ struct FipLayers {
     std::uint32_t number = 1, first = 0, last = 0;  ///< layers from 0
 };
 
-/// A METRIC deck of oil and water over a grid that stands in an include: constant porosity and permeabilities, a contact in the middle of
-/// the depths, one injector and one producer in columns that are wholly active (none, where there are no two such), half a year. As
-/// OPM Flow takes it. Depths are in the grid's unit, which is feet where the grid says so. \pre a cell is active
+/// Makes the attributes of a grid such that a deck runs: cells without porosity or permeability get values, regions of tables are taken
+/// off, FIPNUM too, which the deck states itself. Notes say what was changed.
+std::vector<std::string> fit_for_deck(CornerPointGrid& grid);
+
+/// A METRIC deck of oil and water over a grid that stands in an include: porosity and permeabilities of the grid, or constant, a contact
+/// in the middle of the depths, one injector in the lowest and one producer in the uppermost layer of columns that are wholly active
+/// (none, where there are no two such), half a year. As OPM Flow takes it. Depths are in the grid's unit, which is feet where the grid says
+/// so. \pre a cell is active
 std::string flow_deck(const CornerPointGrid& grid, const std::string& title, const std::string& include,
                       const std::vector<FipLayers>& layers);
 

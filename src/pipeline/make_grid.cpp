@@ -146,11 +146,11 @@ CoordinateSystem system_of(const Dataset& dataset, const FoundStructure& found) 
 }
 
 /// The deck beside the grid, as text; FIPNUM goes from the grid into it.
-std::string deck_of(CornerPointGrid& grid, const gridding::GridReport& report, const std::string& output) {
+std::string deck_of(CornerPointGrid& grid, const gridding::GridReport& report, const std::string& output, std::vector<std::string>& notes) {
     std::vector<FipLayers> layers;
     for (std::uint32_t z = 0; z < report.zones.size(); ++z)
         layers.push_back({z + 1, report.zones[z].first_layer, report.zones[z].last_layer});
-    std::erase_if(grid.info.attributes, [](const Attribute& a) { return a.name == "FIPNUM"; });
+    for (std::string& note : fit_for_deck(grid)) notes.push_back(std::move(note));
     const std::filesystem::path path(output);
     return flow_deck(grid, path.stem().string(), path.filename().string(), layers);
 }
@@ -230,12 +230,20 @@ Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest
         for (const auto& region : dataset.breps[0]->regions) report.regions.push_back(region.name);
     }
     made->grid.info.crs = system_of(dataset, *found);
+    auto sampled = add_properties(request.properties, request.files.load, made->grid);
+    if (!sampled) return std::move(sampled).why();
+    report.properties = std::move(sampled->report);
+    report.notes.insert(report.notes.end(), sampled->notes.begin(), sampled->notes.end());
     if (request.count_connections) report.nnc = grid::connections(made->grid).others.size();
     if (option_value(request.files.load.options, "deck") == "yes") {
         if (target.name != std::string_view("grdecl") || request.files.output == "-")
             return failure(FailureKind::usage, "F018", {}, "--option deck=yes: the grid must go into a GRDECL file");
         if (report.made.active == 0) return failure(FailureKind::cannot_hold, "F027", {}, "no cell is active: there is nothing to run");
-        beside.deck = deck_of(made->grid, report.made, request.files.output);
+        beside.deck = deck_of(made->grid, report.made, request.files.output, report.notes);
+    }
+    if (request.keep_made) {
+        report.grid = made->grid;
+        report.structure = std::move(found->structure);
     }
     if (request.files.output != "-") beside.grid = taken_off(made->grid, target);
     Dataset only;
@@ -307,6 +315,9 @@ std::string grid_json(const GridMade& made) {
                             {"max_gave_way", r.max_moved}});
     }
     for (const auto& l : made.left_out) out.push_back({{"name", l.name}, {"why", l.why}});
+    Json properties = Json::array();
+    for (const auto& p : made.properties)
+        properties.push_back({{"name", p.name}, {"method", to_string(p.how)}, {"with_value", p.with}, {"without_value", p.without}});
     Json all{{"dims", made.dims},
              {"active_cells", made.made.active},
              {"rotation", made.rotation},
@@ -322,6 +333,7 @@ std::string grid_json(const GridMade& made) {
                {"least", made.made.least_angles_after},
                {"mean_before", made.made.mean_angles_before},
                {"least_before", made.made.least_angles_before}}},
+             {"properties", std::move(properties)},
              {"left_out", std::move(out)},
              {"notes", made.notes},
              {"loss", losses_json(made.written.losses)}};

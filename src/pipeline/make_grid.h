@@ -10,6 +10,7 @@
 #include "gridding/build_grid.h"
 #include "gridding/structure_of.h"
 #include "pipeline/convert.h"
+#include "pipeline/grid_properties.h"
 
 namespace geomend {
 
@@ -25,7 +26,9 @@ struct GridRequest {
     std::string area;                          ///< object or file with a ring: columns outside are inactive
     std::string pillars_of;                    ///< a file whose corner-point grid gives the pillars
     gridding::GridOptions options;             ///< zones are made from `layers`
+    PropertyRequest properties;
     bool count_connections = false;
+    bool keep_made = false;  ///< the grid and the structure are wanted, too
 };
 
 /// What came of it.
@@ -38,9 +41,12 @@ struct GridMade {
     std::vector<double> map_volumes;   ///< per zone what the maps hold below and above the active columns; empty where not all are maps
     std::vector<std::string> regions;  ///< of a sealed model, by their numbers in REGION, from 1
     std::vector<gridding::LeftOut> left_out;
+    std::vector<gridding::SampledProperty> properties;
     std::vector<std::string> notes;
-    std::string beside;  ///< an include with faults and regions that the format has no place for; empty: none is needed
-    std::string deck;    ///< the deck that was written beside the grid
+    std::string beside;                   ///< an include with faults and regions that the format has no place for; empty: none is needed
+    std::optional<CornerPointGrid> grid;  ///< where it is wanted
+    std::optional<gridding::Structure> structure;  ///< as is this
+    std::string deck;                              ///< the deck that was written beside the grid
 };
 
 /// Reads all inputs as one structural model, makes a corner-point grid of it and writes that.

@@ -85,6 +85,44 @@ TEST(Grid, WrongCommandLinesAreRefused) {
     EXPECT_EQ(status({"--cells", "20x15"}), 0);
 }
 
+TEST(Grid, PropertiesOfAMeshOfCellsComeAlong) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "box.roff", mesh = sample("layered_box.so");
+    const json all = make({sample("layered_box.ml")}, out, {"--cells", "10x8", "--layers", "proportional:2", "--properties-of", mesh});
+    ASSERT_TRUE(all.is_object());
+    ASSERT_EQ(all["properties"].size(), 2u) << all["properties"];  // porosity and permeability; regions are those of the model
+    for (const json& property : all["properties"]) {
+        EXPECT_EQ(property["without_value"], 0) << property;
+        EXPECT_EQ(property["with_value"], all["active_cells"]);
+    }
+    const std::string name = all["properties"][1]["name"];
+    const json one =
+        make({sample("layered_box.ml")}, out, {"--cells", "10x8", "--properties-of", mesh, "--properties", name + "=harmonic"});
+    ASSERT_EQ(one["properties"].size(), 1u);
+    EXPECT_EQ(one["properties"][0]["method"], "harmonic");
+    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--properties-of", mesh, "--properties", "nothing"},
+                                                  {"--properties-of", mesh, "--properties", name + "=most"},
+                                                  {"--properties", name}}) {
+        std::vector<std::string> arguments{"grid", sample("layered_box.ml"), "-o", out, "--cells", "10x8"};
+        arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+        EXPECT_EQ(run_geomend(arguments).status, 2);
+    }
+}
+
+TEST(Grid, PicturesAndAPageAreWritten) {
+    const TemporaryFolder folder;
+    const json made =
+        make(two_maps(), folder / "a.egrid",
+             {"--cells", "12x9", "--map", folder / "map.png", "--section", folder / "section.png", "--report", folder / "page.html"});
+    ASSERT_TRUE(made.is_object());
+    for (const char* name : {"map.png", "section.png", "page.html"}) {
+        std::ifstream file(folder / name);
+        std::string start(4, ' ');
+        file.read(start.data(), 4);
+        EXPECT_EQ(start.substr(1), std::string(name) == "page.html" ? "!DO" : "PNG") << name;
+    }
+}
+
 TEST(Grid, HorizonsAndPolygonsMayBeNamedAsFiles) {
     const TemporaryFolder folder;
     const json by_name = make({}, folder / "a.grdecl",
@@ -121,6 +159,27 @@ TEST(Grid, ADeckHasTheZonesAndRunsInFlowWhereThatIsInstalled) {
     const json ran = test::info(folder / "out/SMALL.EGRID");
     EXPECT_EQ(ran["objects"][0]["counts"]["active_cells"], made["active_cells"]);
     EXPECT_EQ(ran["connections"]["nnc"], made["nnc"]);
+}
+
+TEST(Grid, DecksOfRealModelsRunToTheirEndWithOurCellsAndConnections) {
+    if (std::system("command -v flow > /dev/null 2>&1") != 0) GTEST_SKIP() << "flow is not installed";
+    for (const char* name : {"modelA1", "modelA4"}) {
+        const auto model = test::real_data(std::string("gocad/") + name + ".ml");
+        if (!model) GTEST_SKIP() << "no real data";
+        const TemporaryFolder folder;
+        const json made =
+            make({model->string()}, folder / "real.grdecl", {"--cells", "30x20", "--layers", "proportional:3", "--option", "deck=yes"});
+        ASSERT_TRUE(made.is_object()) << name;
+        const std::string run = "cd " + folder.path().string() + " && timeout 300 flow real.DATA --output-dir=out > log 2>&1";
+        ASSERT_EQ(std::system(run.c_str()), 0) << name;
+        std::ifstream log(folder / "log");
+        const std::string text{std::istreambuf_iterator<char>(log), {}};
+        EXPECT_NE(text.find("End of simulation"), std::string::npos) << name;
+        EXPECT_EQ(text.find("Timestep chopped"), std::string::npos) << name;
+        const json ran = test::info(folder / "out/REAL.EGRID");
+        EXPECT_EQ(ran["objects"][0]["counts"]["active_cells"], made["active_cells"]) << name;
+        EXPECT_EQ(ran["connections"]["nnc"], made["nnc"]) << name;
+    }
 }
 
 TEST(Grid, ReekIsMetByItsMaps) {

@@ -30,7 +30,7 @@ USES = {
     "volume": ("repair", "remesh"),
     "gridding": ("repair",),
     "hexes": ("volume", "gridding"),
-    "drawing": ("repair", "report"),
+    "drawing": ("gridding", "report"),
     "pipeline": ("formats", "report", "hexes", "complexity"),
     "cli": ("pipeline", "drawing"),
 }
