@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 
 #include "base/number_text.h"
 #include "base/wording.h"
 #include "formats/grdecl/keywords.h"
+#include "grid/cell_geometry.h"
 
 namespace geomend {
 
@@ -18,6 +20,8 @@ struct GridFacts {
     double top = 1e300, base = -1e300;                        ///< depths of active cells, metres
     std::vector<std::array<std::uint32_t, 2>> whole_columns;  ///< columns all of whose cells are active, from 0
     std::uint64_t fault_boxes = 0;
+    double volume = 0;         ///< of active cells, cubic metres
+    double narrowest = 1e300;  ///< the least edge along I or J of the cells that wells may be in
 };
 
 GridFacts facts_of(const CornerPointGrid& grid) {
@@ -37,9 +41,14 @@ GridFacts facts_of(const CornerPointGrid& grid) {
                     facts.base = std::max(facts.base, metres * grid.depths[corner_index(grid.dims, i, j, k, c + 4)]);
                 }
             }
-            if (whole) facts.whole_columns.push_back({i, j});
+            if (!whole) continue;
+            facts.whole_columns.push_back({i, j});
+            const auto c = cell_corners(grid, i, j, 0);
+            for (const auto& [a, b] : {std::array{0, 1}, {2, 3}, {0, 2}, {1, 3}})
+                facts.narrowest = std::min(facts.narrowest, metres * std::hypot(c[b][0] - c[a][0], c[b][1] - c[a][1]));
         }
     }
+    facts.volume = metres * metres * metres * grid::volume(grid);
     for (const auto& fault : grid.faults) facts.fault_boxes += fault.boxes.size();
     return facts;
 }
@@ -75,6 +84,8 @@ std::string well(const std::string& name, const std::array<std::uint32_t, 2>& co
            (name == "PROD" ? "OIL" : "WATER") + " /\n";
 }
 
+constexpr int steps = 6, days = 30;
+
 std::string schedule(const CornerPointGrid& grid, const GridFacts& facts) {
     std::string text = "SCHEDULE\n\n";
     if (facts.whole_columns.size() > 1) {
@@ -82,14 +93,17 @@ std::string schedule(const CornerPointGrid& grid, const GridFacts& facts) {
         // Open in one layer each: between many layers of a high column fluid flows through the well, at rates that no step of time is
         // short enough for.
         const auto completion = [&](const std::string& name, const std::array<std::uint32_t, 2>& c, std::uint32_t layer) {
-            return " '" + name + "' " + numbers({c[0] + std::uint64_t{1}, c[1] + std::uint64_t{1}, layer, layer}) + " OPEN 2* 0.2 /\n";
+            return " '" + name + "' " + numbers({c[0] + std::uint64_t{1}, c[1] + std::uint64_t{1}, layer, layer}) + " OPEN 2* " +
+                   number_text(std::min(0.2, facts.narrowest / 10)) + " /\n";
         };
+        // In all a hundredth of the fluid, so that small grids are not swept within the first step.
+        const std::string rate = number_text(0.01 * 0.2 * facts.volume / (steps * days));
         text += "WELSPECS\n" + well("PROD", producer) + well("INJ", injector) + "/\n\nCOMPDAT\n" + completion("PROD", producer, 1) +
-                completion("INJ", injector, grid.dims[2]) + "/\n\nWCONPROD\n 'PROD' OPEN BHP 5* " +
-                number_text(0.8 * pressure(facts, facts.top)) + " /\n/\n\nWCONINJE\n 'INJ' WATER OPEN BHP 2* " +
+                completion("INJ", injector, grid.dims[2]) + "/\n\nWCONPROD\n 'PROD' OPEN LRAT 3* " + rate + " 1* " +
+                number_text(0.8 * pressure(facts, facts.top)) + " /\n/\n\nWCONINJE\n 'INJ' WATER OPEN RATE " + rate + " 1* " +
                 number_text(1.2 * pressure(facts, facts.base)) + " /\n/\n\n";
     }
-    return text + "TSTEP\n 6*30 /\n\nEND\n";
+    return text + "TSTEP\n " + std::to_string(steps) + "*" + std::to_string(days) + " /\n\nEND\n";
 }
 
 /// The properties of cells that a deck needs, what they are where nothing is known, and where else they come from.
