@@ -45,11 +45,12 @@ std::uint64_t near_misses_in(std::span<const Finding> findings) {
     return static_cast<std::uint64_t>(std::ranges::count(findings, "B23", &Finding::code));
 }
 
-/// Judges by the lengths that the model is mended by, but by no larger tolerance than it will have by rule.
-Result<Judged> judge(const SurfaceResult& result, const topology::Lengths& mended_by, validators::CheckOptions checks) {
+/// Judges by the tolerance that the result has by rule, or by the one that was given where that is smaller.
+Result<Judged> judge(const SurfaceResult& result, const SurfaceModel& model, validators::CheckOptions checks) {
     const auto by_rule = topology::local_lengths(result.dataset, {}).largest;
-    checks.tolerance = std::min(mended_by.tolerance, by_rule.tolerance);
-    checks.near = checks.near >= 0 ? mended_by.near : std::min(mended_by.near, by_rule.near);
+    const double given = model.rules.tolerance;
+    checks.tolerance = given >= 0 ? std::min(given, by_rule.tolerance) : by_rule.tolerance;
+    checks.near = checks.near >= 0 ? model.lengths.near : std::min(model.lengths.near, by_rule.near);
     checks.closing_tolerance = false;
     auto checked = validators::check_models(result.dataset, checks);
     if (!checked) return std::move(checked).why();
@@ -147,7 +148,7 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
     if (why.empty()) {
         auto result = result_of(next);
         if (!result) return std::move(result).why();
-        auto judged = judge(*result, next.lengths, options.checks);
+        auto judged = judge(*result, next, options.checks);
         if (!judged) return std::move(judged).why();
         if (!options.keep_worse) why = why_worse(state.errors, judged->errors);
         if (!options.keep_worse && why.empty() && !changes_regions) {

@@ -204,6 +204,9 @@ void measure_lengths(SurfaceModel& model, std::uint32_t patches) {
         const topology::Lengths& own = lengths.of(p);
         if (own.diameter > model.lengths.diameter) model.lengths = own;
     }
+    // What is removed later moves the centroid, from which sizes are measured.
+    constexpr double margin = 1.25;
+    if (model.rules.tolerance < 0) model.lengths.tolerance *= margin;
 }
 
 void take_soup(SurfaceModel& model, TriangleSoup soup, const Origin& origin) {
