@@ -11,21 +11,27 @@
 
 namespace geomend::ringmesh {
 
+/// What an entity is bounded by.
+struct EntityBound {
+    std::uint32_t number = 0;  ///< of the entity one dimension lower
+    bool positive = true;      ///< a region's side of a surface: the one that its normal points into
+};
+
+/// An entity of a model.
+struct StatedEntity {
+    bool stated = false;
+    std::string name;     ///< empty: it has none
+    std::string feature;  ///< the file's word for what it is; empty: not stated
+    std::vector<EntityBound> bounds;
+    std::uint64_t line = 0;  ///< of its record
+};
+
 /// What mesh_entities.txt says: corners, lines, surfaces and regions, each bounded by those before it.
 struct EntityText {
     enum Kind : std::uint8_t { corner, line, surface, region };
 
-    struct Bound {
-        std::uint32_t number = 0;  ///< of the entity one dimension lower
-        bool positive = true;      ///< a region's side of a surface: the one that its normal points into
-    };
-    struct Entity {
-        bool stated = false;
-        std::string name;     ///< empty: it has none
-        std::string feature;  ///< the file's word for what it is; empty: not stated
-        std::vector<Bound> bounds;
-        std::uint64_t line = 0;  ///< of its record
-    };
+    using Bound = EntityBound;
+    using Entity = StatedEntity;
 
     std::string model;
     std::array<std::vector<Entity>, 4> entities;  ///< by Kind; all stated
