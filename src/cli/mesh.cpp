@@ -41,6 +41,9 @@ std::string region_lines(const MeshReport& report, bool all_tries) {
         if (!all_tries && r.filled() && r.as_asked) continue;
         for (const std::string& why : r.why_not) text += "    " + why + '\n';
     }
+    if (report.surface_vertices > 0)
+        text += counted(report.surface_vertices, "vertex was", "vertices were") +
+                " added on surfaces and lines, since no cells could be made without; their shape is as it was\n";
     if (report.split.surfaces > 0)
         text += "split along " + counted(report.split.surfaces, "surface", "surfaces") + ": " +
                 counted(report.split.vertices, "point", "points") + " doubled, " + counted(report.split.pairs, "pair", "pairs") +

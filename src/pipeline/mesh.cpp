@@ -108,9 +108,10 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& req
     }
     auto model = model_to_fill(dataset, request);
     if (!model) return std::move(model).why();
-    auto filled = volumes::fill_regions(*model, request.fill);
+    auto filled = volumes::fill_dividing_surfaces(*model->brep, model->found, request.fill);
     if (!filled) return std::move(filled).why();
     report.regions = std::move(filled->regions);
+    report.surface_vertices = filled->surface_vertices;
     for (Loss& loss : filled->losses) add_loss(dataset.losses, std::move(loss));
     list_face_sets(filled->brep, report);
     if (!std::ranges::all_of(report.regions, &volumes::FilledRegion::filled))
@@ -184,6 +185,7 @@ std::string mesh_json(const MeshReport& report) {
         all["quality"] = {{"min_dihedral", least}, {"min_dihedral_by_5_degrees", shapes.least_dihedral}, {"shape_by_tenths", shapes.shape}};
         all["loss"] = losses_json(report.written.losses);
     }
+    all["surface_vertices_added"] = report.surface_vertices;
     all["split"] = {{"surfaces", report.split.surfaces}, {"vertices", report.split.vertices}, {"pairs", report.split.pairs}};
     if (report.remeshed) all["remesh"] = remesh_json_value(*report.remeshed);
     Json errors = Json::array();

@@ -44,6 +44,7 @@ struct MeshReport {
     std::optional<RemeshReport> remeshed;  ///< where that was asked for
     std::vector<volumes::FilledRegion> regions;
     std::vector<MeshFaceSet> face_sets;
+    std::uint64_t surface_vertices = 0;  ///< added on lines and surfaces, since cells could not be made without
     SplitReport split;
     bool is_written = false;
 };

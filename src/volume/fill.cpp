@@ -136,10 +136,10 @@ void drop_unused_vertices(BrepData& brep) {
 
 }  // namespace
 
-Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOptions& options) {
-    auto facets = facets_of_regions(model);
+Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options) {
+    auto facets = facets_of_regions(brep, found);
     if (!facets) return std::move(facets).why();
-    Filled filled{*model.brep, {}, {}};
+    Filled filled{brep, {}, {}, 0};
     for (const auto& region : filled.brep.regions) {
         filled.regions.emplace_back().name = region.name;
     }

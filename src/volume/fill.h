@@ -39,15 +39,24 @@ struct FilledRegion {
 };
 
 struct Filled {
-    BrepData brep;                      ///< the model with tetrahedra in its regions; those that were not filled are empty
-    std::vector<FilledRegion> regions;  ///< as those of the boundary representation
-    std::vector<Loss> losses;           ///< cells that regions had before, and their values
+    BrepData brep;                       ///< the model with tetrahedra in its regions; those that were not filled are empty
+    std::vector<FilledRegion> regions;   ///< as those of the boundary representation
+    std::vector<Loss> losses;            ///< cells that regions had before, and their values
+    std::uint64_t surface_vertices = 0;  ///< that lines and surfaces got since cells could not be made without them
 };
 
 /// Fills all regions of a sealed model with tetrahedra. Surfaces stay as they are: each of their triangles is a face of one cell on
 /// either side that is in a region. Cells that regions held before give way. Each region is tried with good shapes first, then with any.
 /// Failure as of facets_of_regions(), or (cancelled). Regions that nothing fills are told in `regions`. Results do not depend on the
 /// number of threads. Cost: that of TetGen; regions side by side.
-Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOptions& options);
+Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options);
+
+inline Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOptions& options) {
+    return fill_regions(*model.brep, model.found, options);
+}
+
+/// The same; where nothing fills a region as its surfaces are, they and their lines get vertices where the tetrahedra have them, on
+/// both sides, and all is tried again. Shapes stay, values lie between those that were there. Cost: that of the first, up to four times.
+Result<Filled> fill_dividing_surfaces(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options);
 
 }  // namespace geomend::volumes

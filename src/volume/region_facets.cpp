@@ -14,13 +14,13 @@ namespace geomend::volumes {
 namespace {
 
 /// Per found region the stated one that has the most of its sides; no_index where none has any.
-std::vector<std::uint32_t> stated_regions(const topology::JudgedModel& model) {
-    const auto& side_region = model.found.region_of_side;
-    std::vector<std::uint32_t> stated(model.found.regions.size(), no_index);
+std::vector<std::uint32_t> stated_regions(const BrepData& brep, const topology::FoundRegions& by_walking) {
+    const auto& side_region = by_walking.region_of_side;
+    std::vector<std::uint32_t> stated(by_walking.regions.size(), no_index);
     std::vector<std::size_t> most(stated.size(), 0);
-    for (std::uint32_t r = 0; r < model.brep->regions.size(); ++r) {
+    for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
         std::vector<std::size_t> sides(stated.size(), 0);
-        for (const auto& side : model.brep->regions[r].sides) {
+        for (const auto& side : brep.regions[r].sides) {
             const std::uint32_t found = side_region[2 * std::size_t{side.surface.value} + (side.front ? 1 : 0)];
             if (found != no_index && ++sides[found] > most[found]) {
                 most[found] = sides[found];
@@ -93,9 +93,8 @@ Failure cannot_fill(const std::string& why) { return failure(FailureKind::cannot
 
 }  // namespace
 
-Result<std::vector<RegionFacets>> facets_of_regions(const topology::JudgedModel& model) {
-    const BrepData& brep = *model.brep;
-    const auto stated = stated_regions(model);
+Result<std::vector<RegionFacets>> facets_of_regions(const BrepData& brep, const topology::FoundRegions& found) {
+    const auto stated = stated_regions(brep, found);
     if (stated.empty()) return cannot_fill("no region is closed by surfaces: there is nothing to fill");
     std::vector<RegionFacets> all(stated.size());
     for (std::size_t f = 0; f < stated.size(); ++f) {
@@ -105,8 +104,7 @@ Result<std::vector<RegionFacets>> facets_of_regions(const topology::JudgedModel&
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
         const auto& surface = brep.surfaces[s];
         if (!surface.polygons.all_triangles()) return cannot_fill(quoted(surface.name) + " has polygons that are no triangles");
-        const std::uint32_t back = model.found.region_of_side[2 * std::size_t{s}],
-                            front = model.found.region_of_side[2 * std::size_t{s} + 1];
+        const std::uint32_t back = found.region_of_side[2 * std::size_t{s}], front = found.region_of_side[2 * std::size_t{s} + 1];
         for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
             const auto polygon = surface.polygons[p];
             const Triangle t{surface.nodes[polygon[0]].value, surface.nodes[polygon[1]].value, surface.nodes[polygon[2]].value};

@@ -29,6 +29,10 @@ struct RegionFacets {
 /// stated region that has one of its sides.
 /// Failure (cannot_hold, F026) where a polygon is no triangle, where there is no region, or none that is stated where one was found.
 /// Cost: linear in triangles.
-Result<std::vector<RegionFacets>> facets_of_regions(const topology::JudgedModel& model);
+Result<std::vector<RegionFacets>> facets_of_regions(const BrepData& brep, const topology::FoundRegions& found);
+
+inline Result<std::vector<RegionFacets>> facets_of_regions(const topology::JudgedModel& model) {
+    return facets_of_regions(*model.brep, model.found);
+}
 
 }  // namespace geomend::volumes

@@ -8,12 +8,14 @@
 #include <map>
 #include <set>
 
-#include "topology/brep_from_dataset.h"
+#include "judged_model.h"
 
 // Boxes put together in the test are filled by the program's own child process.
 
 namespace geomend::volumes {
 namespace {
+
+using test::model_of;
 
 // A quadrangle of two triangles.
 using Quad = std::array<Vec3, 4>;
@@ -39,14 +41,6 @@ Surface named(const std::string& name, FeatureRole role) {
     surface.info.name = name;
     surface.info.role = role;
     return surface;
-}
-
-topology::JudgedModel model_of(std::vector<Surface> surfaces) {
-    Dataset dataset;
-    for (Surface& s : surfaces) dataset.objects.emplace_back(std::move(s));
-    auto models = topology::models_to_judge(dataset, 1e-9);
-    EXPECT_TRUE(models && models->size() == 1);
-    return std::move(models->front());
 }
 
 FillOptions options() {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "volume/fill.h"
+#include "volume/region_facets.h"
+#include "volume/surface_points.h"
+
+namespace geomend::volumes {
+
+namespace {
+
+/// Where tetrahedra of a region want vertices on its facets: the first try that ends, those first that keep facets whole where they can.
+Result<SurfacePoints> wanted_points(const RegionFacets& facets, const FillOptions& options) {
+    struct Try {
+        const char* switches;
+        std::uint32_t shuffle;
+    };
+    constexpr std::array tries = {Try{"QpYMT1e-14", 0}, Try{"QpYMT1e-14", 1}, Try{"QpYMT1e-14", 2},
+                                  Try{"QpMT1e-14", 0},  Try{"QpMT1e-14", 1},  Try{"QpMT1e-14", 2}};
+    for (const Try& one : tries) {
+        auto all = tetrahedra_of(facets, one.switches, {one.shuffle}, options.limits, options.monitor);
+        if (!all && all.why().kind == FailureKind::cancelled) return std::move(all).why();
+        if (!all) continue;
+        SurfacePoints points = points_on_facets(facets, *all);
+        if (points.size() > 0) return points;
+    }
+    return SurfacePoints{};
+}
+
+/// The points that the regions want which are not filled.
+Result<SurfacePoints> wanted_points(const BrepData& brep, const topology::FoundRegions& found, const Filled& filled,
+                                    const FillOptions& options) {
+    auto facets = facets_of_regions(brep, found);
+    if (!facets) return std::move(facets).why();
+    SurfacePoints all;
+    for (const RegionFacets& region : *facets) {
+        if (filled.regions[region.region].filled()) continue;
+        auto points = wanted_points(region, options);
+        if (!points) return points;
+        all.on_edges.insert(all.on_edges.end(), points->on_edges.begin(), points->on_edges.end());
+        all.inside.insert(all.inside.end(), points->inside.begin(), points->inside.end());
+    }
+    return all;
+}
+
+}  // namespace
+
+Result<Filled> fill_dividing_surfaces(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options) {
+    constexpr int most_rounds = 3;
+    auto filled = fill_regions(brep, found, options);
+    BrepData divided = brep;
+    std::uint64_t added = 0;
+    for (int round = 0; filled && round < most_rounds; ++round) {
+        if (std::ranges::all_of(filled->regions, &FilledRegion::filled)) break;
+        const auto points = wanted_points(divided, found, *filled, options);
+        if (!points) return points.why();
+        if (points->size() == 0) break;
+        divided = with_points(divided, *points);
+        added += points->size();
+        auto again = fill_regions(divided, found, options);
+        if (!again) return again;
+        for (std::size_t r = 0; r < again->regions.size(); ++r) {
+            const auto& why = filled->regions[r].why_not;
+            again->regions[r].why_not.insert(again->regions[r].why_not.begin(), why.begin(), why.end());
+        }
+        filled = std::move(again);
+    }
+    if (filled) filled->surface_vertices = added;
+    return filled;
+}
+
+}  // namespace geomend::volumes
