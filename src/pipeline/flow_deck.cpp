@@ -10,6 +10,7 @@
 #include "base/wording.h"
 #include "formats/grdecl/keywords.h"
 #include "grid/cell_geometry.h"
+#include "pipeline/grid_connections.h"
 
 namespace geomend {
 
@@ -168,6 +169,26 @@ std::vector<std::string> fit_for_deck(CornerPointGrid& grid) {
         }
     }
     return notes;
+}
+
+Result<std::uint64_t> connections_in_deck(const CornerPointGrid& grid) {
+    CornerPointGrid whole = grid;
+    for (const NeededProperty& p : needed) {
+        if (has(whole, p.name)) continue;
+        Attribute a;
+        a.name = p.name;
+        a.location = AttributeLocation::cell;
+        std::vector<double> values(grid.cell_count(), p.value);
+        if (has(whole, p.like)) {
+            const Attribute* like = find_attribute(whole.info.attributes, p.like, AttributeLocation::cell);
+            for (std::size_t c = 0; c < values.size(); ++c) values[c] = p.factor * value_as_double(*like, c);
+        }
+        a.values = std::move(values);
+        whole.info.attributes.push_back(std::move(a));
+    }
+    std::vector<Finding> ignored;
+    if (auto computed = compute_connections(whole, false, ignored); !computed) return std::move(computed).why();
+    return whole.connections.size();
 }
 
 std::string flow_deck(const CornerPointGrid& grid, const std::string& title, const std::string& include,

@@ -240,6 +240,11 @@ Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest
             return failure(FailureKind::usage, "F018", {}, "--option deck=yes: the grid must go into a GRDECL file");
         if (report.made.active == 0) return failure(FailureKind::cannot_hold, "F027", {}, "no cell is active: there is nothing to run");
         beside.deck = deck_of(made->grid, report.made, request.files.output, report.notes);
+        if (request.count_connections) {
+            const auto in_deck = connections_in_deck(made->grid);
+            if (!in_deck) return in_deck.why();
+            report.nnc = *in_deck;
+        }
     }
     if (request.keep_made) {
         report.grid = made->grid;

@@ -37,7 +37,7 @@ struct GridMade {
     gridding::GridReport made;
     std::array<std::uint32_t, 3> dims{0, 0, 0};
     double rotation = 0;
-    std::optional<std::uint64_t> nnc;
+    std::optional<std::uint64_t> nnc;  ///< pairs that touch; with a deck those that it has in a simulator
     std::vector<double> map_volumes;   ///< per zone what the maps hold below and above the active columns; empty where not all are maps
     std::vector<std::string> regions;  ///< of a sealed model, by their numbers in REGION, from 1
     std::vector<gridding::LeftOut> left_out;
