@@ -85,7 +85,13 @@ public:
             normal[1] += u[2] * v[0] - u[0] * v[2];
             normal[2] += u[0] * v[1] - u[1] * v[0];
         }
-        const Vec3 d = minus(inside, origin);
+        // From the middle: a flat cell over a warped polygon may lie behind the plane through one of its corners.
+        Vec3 middle{};
+        for (const std::uint32_t node : polygon) {
+            const Vec3 from_origin = minus(point(surface, node), origin);
+            for (std::size_t a = 0; a < 3; ++a) middle[a] += from_origin[a] / static_cast<double>(polygon.size());
+        }
+        const Vec3 d = minus(minus(inside, origin), middle);
         const double height = normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2];
         if (height != 0) ++votes_[surface_index][height > 0 ? 1 : 0];
     }
