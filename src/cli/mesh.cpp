@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "base/wording.h"
 #include "base/worker.h"
 #include "cli/check_arguments.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "pipeline/recombine_cells.h"
 
 namespace geomend::cli {
 
@@ -17,9 +19,9 @@ namespace {
 
 struct MeshOptions : CommonOptions {
     std::vector<std::string> inputs;
-    std::string output, split = "none", method = "keep";
+    std::string output, split = "none", method = "keep", cells = "tet";
     double size = 0, ratio = 1.4, seconds = 120, megabytes = 0, max_distance = 0;
-    bool lossy = false;
+    bool lossy = false, recombine = false;
 };
 
 /// One line for each region: what it holds, or why it is empty.
@@ -44,12 +46,15 @@ std::string region_lines(const MeshReport& report, bool all_tries) {
     if (report.surface_vertices > 0)
         text += counted(report.surface_vertices, "vertex was", "vertices were") +
                 " added on surfaces and lines, since no cells could be made without; their shape is as it was\n";
+    if (report.recombined) text += recombined_text(*report.recombined);
     if (report.split.surfaces > 0)
         text += "split along " + counted(report.split.surfaces, "surface", "surfaces") + ": " +
                 counted(report.split.vertices, "point", "points") + " doubled, " + counted(report.split.pairs, "pair", "pairs") +
                 " of faces\n";
-    if (report.is_written)
-        text += counted(cells, "cell", "cells") + " in " + counted(report.regions.size(), "region", "regions") + " written\n";
+    if (report.recombined) cells = report.recombined->cell_count();
+    std::set<std::string> regions;
+    for (const auto& block : report.blocks) regions.insert(block.region);
+    if (report.is_written) text += counted(cells, "cell", "cells") + " in " + counted(regions.size(), "region", "regions") + " written\n";
     return text;
 }
 
@@ -68,6 +73,9 @@ ExitStatus run(const MeshOptions& o) {
         return report(failure(FailureKind::usage, "F018", {}, "--method isotropic needs --size, the length that edges should have"));
     if (o.method == "keep" && o.max_distance > 0)
         return report(failure(FailureKind::usage, "F018", {}, "--max-distance is for --method isotropic: surfaces are kept as they are"));
+    if (o.recombine && (o.method != "keep" || o.size > 0))
+        return report(
+            failure(FailureKind::usage, "F018", {}, "--recombine takes the tetrahedra as they are: --size and --method do not go with it"));
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     auto checks = check_options(o, {}, &monitor);
@@ -86,6 +94,11 @@ ExitStatus run(const MeshOptions& o) {
         request.remesh->size = o.size;
         request.remesh->max_distance = o.max_distance;
         request.remesh->monitor = &monitor;
+    }
+    request.fills = !o.recombine;
+    if (o.recombine || o.cells == "hex-dominant") {
+        request.recombine.emplace();
+        request.recombine->monitor = &monitor;
     }
     const auto made = mesh(request);
     if (!made) return report(made.why());
@@ -131,6 +144,12 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
     command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
         ->type_name("R")
         ->check(is_length());
+    command
+        ->add_option("--cells", o->cells,
+                     "Cells that are wanted: tet (default), or hex-dominant: hexahedra where tetrahedra make some, and prisms and pyramids")
+        ->type_name("CELLS")
+        ->check(CLI::IsMember({"tet", "hex-dominant"}));
+    command->add_flag("--recombine", o->recombine, "Fill nothing: make hexahedra of the tetrahedra of the inputs");
     command->add_option("--split", o->split, "Double the points along surfaces: none (default), faults, all, or names between commas")
         ->type_name("WHICH");
     command->add_option("--time-limit", o->seconds, "Most time for one try to fill a region; 0 is no limit (default 120)")

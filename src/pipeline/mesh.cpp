@@ -8,6 +8,7 @@
 #include "exchange/model_from_brep.h"
 #include "pipeline/command_options.h"
 #include "pipeline/json_parts.h"
+#include "pipeline/recombine_cells.h"
 #include "pipeline/record_places.h"
 #include "pipeline/validate.h"
 #include "topology/brep_from_dataset.h"
@@ -98,6 +99,26 @@ Result<void> remesh_before(Dataset& dataset, const Format& target, const MeshReq
     return remesh(dataset, target, first, report.remeshed.emplace());
 }
 
+void list_blocks(MeshReport& report) {
+    std::uint64_t first = 0;
+    for (const auto& region : report.regions) {
+        report.blocks.push_back({region.name, CellType::tetrahedron, first, region.cells});
+        first += region.cells;
+    }
+}
+
+/// Hexahedra of the tetrahedra, and what the report says of blocks and sets of faces.
+Result<void> recombine(Dataset& dataset, const MeshRequest& request, MeshReport& report) {
+    auto made = recombine_cells(dataset, *request.recombine, report.recombined.emplace(), dataset.losses);
+    if (!made) return std::move(made).why();
+    report.blocks.clear();
+    for (const auto& b : (*made)->blocks) report.blocks.push_back({(*made)->regions[b.region], b.type, b.first, b.count});
+    report.face_sets.clear();
+    for (const auto& set : (*made)->face_sets)
+        report.face_sets.push_back({set.name, set.role, set.side == FaceSide::none ? "" : to_string(set.side), set.faces.size()});
+    return {};
+}
+
 Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& request, MeshReport& report) {
     auto errors = errors_of(dataset, request);
     if (!errors) return std::move(errors).why();
@@ -116,7 +137,17 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& req
     list_face_sets(filled->brep, report);
     if (!std::ranges::all_of(report.regions, &volumes::FilledRegion::filled))
         return cannot_fill(request.files.inputs.front(), "not all regions could be filled");
-    if (auto put = put_in_place(dataset, std::move(filled->brep)); !put) return put;
+    list_blocks(report);
+    return put_in_place(dataset, std::move(filled->brep));
+}
+
+Result<void> make_cells(Dataset& dataset, const Format& target, const MeshRequest& request, MeshReport& report) {
+    if (request.fills) {
+        if (auto filled = fill(dataset, target, request, report); !filled) return filled;
+    }
+    if (request.recombine) {
+        if (auto recombined = recombine(dataset, request, report); !recombined) return recombined;
+    }
     auto split = split_mesh(dataset, request.split, dataset.losses);
     if (!split) return std::move(split).why();
     report.split = *split;
@@ -129,7 +160,7 @@ Result<MeshReport> mesh(const MeshRequest& request) {
     MeshReport report;
     bool judged = false;
     auto converted = convert(request.files, [&](Dataset& dataset, const Format& target) {
-        auto done = fill(dataset, target, request, report);
+        auto done = make_cells(dataset, target, request, report);
         judged = !report.errors.empty() || (!done && std::ranges::any_of(report.regions, [](const auto& r) { return !r.filled(); }));
         return done;
     });
@@ -140,16 +171,6 @@ Result<MeshReport> mesh(const MeshRequest& request) {
     report.written = std::move(*converted);
     report.is_written = true;
     return report;
-}
-
-std::vector<MeshBlock> blocks_of(const MeshReport& report) {
-    std::vector<MeshBlock> blocks;
-    std::uint64_t first = 0;
-    for (const auto& region : report.regions) {
-        blocks.push_back({region.name, CellType::tetrahedron, first, region.cells});
-        first += region.cells;
-    }
-    return blocks;
 }
 
 std::string mesh_json(const MeshReport& report) {
@@ -175,18 +196,27 @@ std::string mesh_json(const MeshReport& report) {
         for (std::size_t i = 0; i < shapes.least_dihedral.size(); ++i) shapes.least_dihedral[i] += r.shapes.least_dihedral[i];
         for (std::size_t i = 0; i < shapes.shape.size(); ++i) shapes.shape[i] += r.shapes.shape[i];
     }
-    for (const MeshBlock& b : blocks_of(report))
+    for (const MeshBlock& b : report.blocks)
         blocks.push_back({{"region", b.region}, {"type", to_string(b.type)}, {"first", b.first}, {"count", b.count}});
     for (const MeshFaceSet& s : report.face_sets)
         sets.push_back({{"name", s.name}, {"role", to_string(s.role)}, {"side", s.side}, {"count", s.count}});
     Json all{
         {"written", report.is_written}, {"regions", std::move(regions)}, {"blocks", std::move(blocks)}, {"face_sets", std::move(sets)}};
     if (report.is_written) {
-        all["quality"] = {{"min_dihedral", least}, {"min_dihedral_by_5_degrees", shapes.least_dihedral}, {"shape_by_tenths", shapes.shape}};
+        all["quality"] = Json::object();
+        if (!report.regions.empty())
+            all["quality"] = {
+                {"min_dihedral", least}, {"min_dihedral_by_5_degrees", shapes.least_dihedral}, {"shape_by_tenths", shapes.shape}};
+        if (report.recombined) {
+            all["quality"]["min_scaled_jacobian"] = report.recombined->least_jacobian;
+            all["quality"]["scaled_jacobian_by_tenths"] = report.recombined->jacobian_by_tenths;
+            all["quality"]["shares"] = shares_json(*report.recombined);
+        }
         all["loss"] = losses_json(report.written.losses);
     }
     all["surface_vertices_added"] = report.surface_vertices;
     all["split"] = {{"surfaces", report.split.surfaces}, {"vertices", report.split.vertices}, {"pairs", report.split.pairs}};
+    if (report.recombined) all["recombine"] = recombined_json(*report.recombined);
     if (report.remeshed) all["remesh"] = remesh_json_value(*report.remeshed);
     Json errors = Json::array();
     for (const Finding& f : report.errors) errors.push_back(finding_json(f));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hexes/recombine.h"
 #include "pipeline/convert.h"
 #include "pipeline/mesh_split.h"
 #include "pipeline/remesh.h"
@@ -18,8 +19,10 @@ struct MeshRequest {
     ConvertRequest files;
     validators::CheckOptions checks;  ///< by which the model is judged before it is filled
     volumes::FillOptions fill;
-    std::string split = "none";                      ///< along which surfaces, see split_mesh()
-    std::optional<remeshing::RemeshOptions> remesh;  ///< new triangles before regions are filled
+    std::string split = "none";                        ///< along which surfaces, see split_mesh()
+    std::optional<remeshing::RemeshOptions> remesh;    ///< new triangles before regions are filled
+    std::optional<hexes::RecombineOptions> recombine;  ///< hexahedra of the tetrahedra
+    bool fills = true;                                 ///< false: the tetrahedra that are recombined are those of the inputs
 };
 
 /// A block of cells in the file: those of one region and type.
@@ -45,17 +48,17 @@ struct MeshReport {
     std::vector<volumes::FilledRegion> regions;
     std::vector<MeshFaceSet> face_sets;
     std::uint64_t surface_vertices = 0;  ///< added on lines and surfaces, since cells could not be made without
+    std::optional<hexes::RecombineReport> recombined;  ///< where that was asked for
+    std::vector<MeshBlock> blocks;
     SplitReport split;
     bool is_written = false;
 };
 
-/// Reads all inputs as one model, checks it, fills its regions with tetrahedra and writes surfaces and cells. Nothing is written
+/// Reads all inputs as one model, checks it, fills its regions with tetrahedra, makes hexahedra of them where that is asked for, and
+/// writes surfaces and cells. Where it does not fill, it takes the tetrahedra of the inputs, and judges no model. Nothing is written
 /// where the model has errors or a region was not filled: the report says which, why and where.
 /// Failure as of convert() and volumes::fill_regions(); (cannot_hold, F026) where there is not one model.
 Result<MeshReport> mesh(const MeshRequest& request);
-
-/// The blocks of a filled model, in the order of its regions.
-std::vector<MeshBlock> blocks_of(const MeshReport& report);
 
 /// What INTERFACE states of `mesh --json`.
 std::string mesh_json(const MeshReport& report);

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "hexes/conflicts.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "hexes/pair_set.h"
+#include "model/cell_faces.h"
+
+namespace geomend::hexes {
+
+namespace {
+
+/// Where a pair of vertices goes once it has a number.
+struct Use {
+    std::uint64_t pair;
+    std::uint64_t place;  ///< twice the index into edges, or twice that into diagonals and one
+};
+
+bool has_edge(const Candidates& all, std::uint32_t i, std::uint32_t a, std::uint32_t b) {
+    const auto& c = all.corners[i];
+    return std::ranges::any_of(edges_of(all.types[i]),
+                               [&](const auto& e) { return (c[e[0]] == a && c[e[1]] == b) || (c[e[0]] == b && c[e[1]] == a); });
+}
+
+/// Whether a candidate has a face with these corners; \param across of a quadrangle the one opposite to the first, or no_index
+bool has_face(const Candidates& all, std::uint32_t i, const std::vector<std::uint32_t>& corners, std::uint32_t across) {
+    for (const LocalFace& face : faces_of(all.types[i])) {
+        const auto local = face.corners();
+        if (local.size() != corners.size()) continue;
+        std::size_t common = 0, first = 0;
+        for (std::size_t k = 0; k < local.size(); ++k) {
+            const std::uint32_t v = all.corners[i][local[k]];
+            if (std::ranges::find(corners, v) != corners.end()) ++common;
+            if (v == corners.front()) first = k;
+        }
+        if (common != corners.size()) continue;
+        if (local.size() == 3 || all.corners[i][local[(first + 2) % 4]] == across) return true;
+    }
+    return false;
+}
+
+/// The corner opposite to the first one on the quadrangle with these four corners, or no_index.
+std::uint32_t across_in(const Candidates& all, std::uint32_t i, const std::vector<std::uint32_t>& corners) {
+    for (const std::uint32_t v : corners) {
+        if (v != corners.front() && has_face(all, i, corners, v)) return v;
+    }
+    return no_index;
+}
+
+}  // namespace
+
+template <class Row, class Each>
+Conflicts::Table<Row> Conflicts::table_of(std::size_t keys, const Each& each) {
+    Table<Row> table;
+    table.offsets.assign(keys + 1, 0);
+    each([&](std::uint32_t key, const Row&) { ++table.offsets[key + 1]; });
+    std::partial_sum(table.offsets.begin(), table.offsets.end(), table.offsets.begin());
+    table.rows.resize(table.offsets.back());
+    std::vector<std::uint64_t> next(table.offsets.begin(), table.offsets.end() - 1);
+    each([&](std::uint32_t key, const Row& row) { table.rows[next[key]++] = row; });
+    return table;
+}
+
+Conflicts::Conflicts(const Candidates& candidates, std::size_t tets) : all_(candidates) {
+    number_pairs();
+    const auto count = static_cast<std::uint32_t>(all_.size());
+    by_tet_ = table_of<std::uint32_t>(tets, [&](const auto& put) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            for (const std::uint32_t t : all_.tets_of(i)) put(t, i);
+        }
+    });
+    by_edge_ = table_of<std::uint32_t>(pairs_, [&](const auto& put) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            for (const std::uint32_t pair : edges_of(i)) put(pair, i);
+        }
+    });
+    by_diagonal_ = table_of<Diagonal>(pairs_, [&](const auto& put) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            for (const Diagonal& d : diagonals_of(i)) put(d.pair, Diagonal{d.other, d.other, i});
+        }
+    });
+}
+
+void Conflicts::number_pairs() {
+    std::vector<Use> uses;
+    for (std::uint32_t i = 0; i < all_.size(); ++i) {
+        const auto& c = all_.corners[i];
+        for (const auto& e : geomend::edges_of(all_.types[i])) {
+            uses.push_back({pair_key(c[e[0]], c[e[1]]), 2 * edges_.size()});
+            edges_.push_back(0);
+        }
+        for (const LocalFace& face : faces_of(all_.types[i])) {
+            const auto f = face.corners();
+            if (f.size() != 4) continue;
+            for (std::size_t k = 0; k < 2; ++k) {
+                uses.push_back({pair_key(c[f[k]], c[f[k + 2]]), 2 * diagonals_.size() + 1});
+                diagonals_.push_back({0, 0, i});
+            }
+        }
+        edge_offsets_.push_back(edges_.size());
+        diagonal_offsets_.push_back(diagonals_.size());
+    }
+    std::ranges::sort(uses, {}, [](const Use& u) { return std::pair(u.pair, u.place); });
+    for (std::size_t u = 0; u < uses.size(); ++u) {
+        if (u > 0 && uses[u].pair != uses[u - 1].pair) ++pairs_;
+        const auto number = static_cast<std::uint32_t>(pairs_);
+        if (uses[u].place % 2 == 0) edges_[uses[u].place / 2] = number;
+        else diagonals_[uses[u].place / 2].pair = number;
+    }
+    if (!uses.empty()) ++pairs_;
+    for (std::size_t d = 0; d < diagonals_.size(); ++d) diagonals_[d].other = diagonals_[d ^ 1].pair;
+}
+
+std::uint64_t Conflicts::count() const {
+    std::vector<std::uint32_t> seen(size(), no_index);
+    std::uint64_t twice = 0;
+    for (std::uint32_t i = 0; i < size(); ++i) visit(i, seen, i, [&](std::uint32_t) { ++twice; });
+    return twice / 2;
+}
+
+bool stand_together(const Candidates& all, std::uint32_t a, std::uint32_t b) {
+    for (const std::uint32_t t : all.tets_of(a)) {
+        if (std::ranges::find(all.tets_of(b), t) != all.tets_of(b).end()) return false;
+    }
+    std::vector<std::uint32_t> common;
+    for (const std::uint32_t v : all.corners_of(a)) {
+        if (std::ranges::find(all.corners_of(b), v) != all.corners_of(b).end()) common.push_back(v);
+    }
+    switch (common.size()) {
+        case 0:
+        case 1:
+            return true;
+        case 2:
+            return has_edge(all, a, common[0], common[1]) && has_edge(all, b, common[0], common[1]);
+        case 3:
+            return has_face(all, a, common, no_index) && has_face(all, b, common, no_index);
+        case 4: {
+            const std::uint32_t across = across_in(all, a, common);
+            return across != no_index && has_face(all, b, common, across);
+        }
+        default:
+            return false;
+    }
+}
+
+}  // namespace geomend::hexes

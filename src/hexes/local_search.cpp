@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "hexes/local_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace geomend::hexes {
+
+namespace {
+
+/// Numbers at random (xorshift64*, S. Vigna 2014).
+class Random {
+public:
+    explicit Random(std::uint32_t seed) : state_(0x9e3779b97f4a7c15u ^ (std::uint64_t{seed} << 17)) {}
+    std::uint64_t next() {
+        state_ ^= state_ >> 12;
+        state_ ^= state_ << 25;
+        state_ ^= state_ >> 27;
+        return state_ * 0x2545f4914f6cdd1du;
+    }
+    std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(((next() >> 32) * n) >> 32); }
+    /// More than 0, at most 1.
+    double part() { return (static_cast<double>(next() >> 11) + 1) * 0x1p-53; }
+
+private:
+    std::uint64_t state_;
+};
+
+/// A selection with, for each candidate, the weight of the selected ones in its way.
+class Selection {
+public:
+    Selection(const Conflicts& conflicts, std::span<const double> weights)
+        : c_(conflicts),
+          weight_(conflicts.size()),
+          in_way_(conflicts.size(), 0),
+          is_in_(conflicts.size(), 0),
+          seen_(conflicts.size(), no_index) {
+        double sum = 0;
+        for (const double w : weights) sum += w;
+        for (std::size_t i = 0; i < weights.size(); ++i) weight_[i] = sum > 0 ? std::llround(weights[i] / sum * 0x1p40) : 0;
+    }
+
+    std::int64_t weight(std::uint32_t i) const { return weight_[i]; }
+    bool has(std::uint32_t i) const { return is_in_[i] != 0; }
+    std::int64_t gain(std::uint32_t i) const { return weight_[i] - in_way_[i]; }
+    std::int64_t total() const { return total_; }
+
+    /// Takes a candidate, and leaves out those in its way. \param freed gets those that now have less in their way
+    void take(std::uint32_t i, std::vector<std::uint32_t>* freed) {
+        is_in_[i] = 1;
+        total_ += weight_[i];
+        out_.clear();
+        c_.visit(i, seen_, next_mark(), [&](std::uint32_t j) {
+            in_way_[j] += weight_[i];
+            if (is_in_[j] != 0) out_.push_back(j);
+        });
+        for (const std::uint32_t j : out_) leave_out(j, freed);
+    }
+
+    std::vector<std::uint32_t> list() const {
+        std::vector<std::uint32_t> all;
+        for (std::uint32_t i = 0; i < is_in_.size(); ++i) {
+            if (is_in_[i] != 0) all.push_back(i);
+        }
+        return all;
+    }
+
+private:
+    void leave_out(std::uint32_t i, std::vector<std::uint32_t>* freed) {
+        is_in_[i] = 0;
+        total_ -= weight_[i];
+        c_.visit(i, seen_, next_mark(), [&](std::uint32_t j) {
+            in_way_[j] -= weight_[i];
+            if (freed != nullptr) freed->push_back(j);
+        });
+    }
+    std::uint32_t next_mark() {
+        if (++mark_ == no_index) {
+            std::ranges::fill(seen_, no_index);
+            mark_ = 0;
+        }
+        return mark_;
+    }
+
+    const Conflicts& c_;
+    std::vector<std::int64_t> weight_, in_way_;
+    std::vector<std::uint8_t> is_in_;
+    std::vector<std::uint32_t> seen_, out_;
+    std::uint32_t mark_ = no_index - 1;
+    std::int64_t total_ = 0;
+};
+
+/// Takes candidates as long as one is heavier than those in its way.
+void climb(Selection& s, std::vector<std::uint32_t> queue) {
+    while (!queue.empty()) {
+        const std::uint32_t i = queue.back();
+        queue.pop_back();
+        if (!s.has(i) && s.weight(i) > 0 && s.gain(i) > 0) s.take(i, &queue);
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> search_selection(const Conflicts& conflicts, std::span<const double> weights,
+                                            std::span<const std::uint32_t> start, const LocalSearch& how) {
+    Selection s(conflicts, weights);
+    const auto count = static_cast<std::uint32_t>(conflicts.size());
+    for (const std::uint32_t i : start) s.take(i, nullptr);
+    std::vector<std::uint32_t> best = s.list(), all(count);
+    std::int64_t best_total = s.total();
+    std::iota(all.begin(), all.end(), 0u);
+    Random random(how.seed);
+    const double heat = count > 0 ? how.heat * 0x1p40 / count : 0;
+    constexpr std::uint64_t stretch = 1 << 16;
+    for (std::uint64_t step = 0; step < how.steps && count > 0; step += stretch) {
+        if (how.monitor != nullptr && how.monitor->stopped()) break;
+        const double done = static_cast<double>(step) / static_cast<double>(how.steps);
+        if (how.monitor != nullptr) how.monitor->progress("selection", done);
+        const double now = heat * std::pow(0.01, done);
+        for (std::uint64_t k = 0; k < std::min(stretch, how.steps - step); ++k) {
+            const std::uint32_t i = random.below(count);
+            if (s.has(i) || s.weight(i) == 0) continue;
+            const std::int64_t gain = s.gain(i);
+            if (gain > 0 || static_cast<double>(gain) > now * std::log(random.part())) s.take(i, nullptr);
+        }
+    }
+    climb(s, all);
+    if (s.total() > best_total) best = s.list();
+    return best;
+}
+
+}  // namespace geomend::hexes

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/monitor.h"
+#include "base/result.h"
+#include "hexes/closing.h"
+#include "hexes/selection.h"
+#include "model/volume_mesh.h"
+
+namespace geomend::hexes {
+
+struct RecombineOptions {
+    double least_quality = 0.3;  ///< scaled Jacobian of every hexahedron; also of prisms
+    Closing closing = Closing::open;
+    const Monitor* monitor = nullptr;
+};
+
+/// The cells of one type in one region of the mesh made.
+struct TypeShare {
+    std::uint32_t region = 0;
+    CellType type = CellType::tetrahedron;
+    std::uint64_t count = 0;
+    double volume = 0;
+};
+
+struct RecombineReport {
+    std::uint64_t tetrahedra = 0;  ///< of the mesh given
+    std::uint64_t candidates = 0;  ///< hexahedra
+    std::uint64_t selected = 0;    ///< of them
+    ClosingCounts closing;
+    std::vector<TypeShare> shares;                       ///< by region, then type
+    double least_jacobian = 1;                           ///< scaled, of hexahedra
+    std::array<std::uint64_t, 10> jacobian_by_tenths{};  ///< how many hexahedra
+    std::uint64_t folded = 0;                            ///< cells whose Jacobian is not positive throughout
+    /// How many cells of a type the mesh has, and their part of its volume.
+    std::uint64_t count_of(CellType type) const;
+    std::uint64_t cell_count() const;
+    double volume_share_of(CellType type) const;
+};
+
+/// Makes hexahedra of the tetrahedra of a mesh, as many as can stand beside each other by volume and shape; what is left over becomes
+/// prisms, and pyramids where quadrangles meet triangles. Surfaces, lines, regions and sets stay: where two triangles of a surface become
+/// a quadrangle they do so on both sides. Cells of other types stay as they are. A mesh that is split along surfaces has to be joined
+/// before. Failure (cannot_hold) where there are no tetrahedra. The same for any number of threads. Cost: some 10 microseconds a
+/// candidate, of which there are as many as tetrahedra where points lie in lattices; and the local search.
+Result<VolumeMesh> recombine(const VolumeMesh& mesh, const RecombineOptions& options, RecombineReport& report);
+
+}  // namespace geomend::hexes
