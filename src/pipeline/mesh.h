@@ -47,7 +47,7 @@ struct MeshReport {
     std::optional<RemeshReport> remeshed;  ///< where that was asked for
     std::vector<volumes::FilledRegion> regions;
     std::vector<MeshFaceSet> face_sets;
-    std::uint64_t surface_vertices = 0;  ///< added on lines and surfaces, since cells could not be made without
+    std::uint64_t surface_vertices = 0;                ///< added on lines and surfaces, since cells could not be made without
     std::optional<hexes::RecombineReport> recombined;  ///< where that was asked for
     std::vector<MeshBlock> blocks;
     SplitReport split;
