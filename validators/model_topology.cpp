@@ -13,6 +13,7 @@
 #include "validators/loose_seams.h"
 #include "validators/model_checks.h"
 #include "validators/region_volumes.h"
+#include "validators/triangle_overlap.h"
 
 namespace geomend::validators {
 
@@ -211,6 +212,60 @@ void check_seams(const ModelScope& scope, std::vector<Finding>& findings) {
     }
 }
 
+namespace {
+
+std::array<Vec3, 3> triangle_of(const ModelScope& scope, const topology::EdgeUse& use) {
+    const auto& surface = scope.brep().surfaces[use.surface];
+    const auto polygon = surface.polygons[use.corner / 3];
+    const auto at = [&](std::size_t k) { return scope.brep().vertices[surface.nodes[polygon[k]].value]; };
+    return {at(0), at(1), at(2)};
+}
+
+/// B20 for surfaces that leave a line together and lie on each other there: by exact predicates they may cross, touch or lie beside
+/// each other, as coordinates are rounded.
+void report_overlaps_at_lines(const ModelScope& scope, std::span<const LineId> lines, std::vector<Finding>& findings) {
+    std::map<std::pair<std::int64_t, std::int64_t>, Finding> overlaps;
+    const auto& graph = scope.model().graph;
+    const auto take = [&](const topology::EdgeUse& a, const topology::EdgeUse& b) {
+        const auto& surfaces = scope.brep().surfaces;
+        if (a.surface == b.surface || !surfaces[a.surface].polygons.all_triangles() || !surfaces[b.surface].polygons.all_triangles())
+            return;
+        const double tolerance = std::max(scope.lengths(a.surface).tolerance, scope.lengths(b.surface).tolerance);
+        const auto first = triangle_of(scope, a), second = triangle_of(scope, b);
+        if (!lie_on_each_other(first, second, tolerance)) return;
+        const auto [low, high] = std::pair(std::min(a.surface, b.surface), std::max(a.surface, b.surface));
+        Finding& finding = overlaps[{low, high}];
+        ++finding.count;
+        if (finding.points.size() < listed_elements) finding.points.push_back(times(1.0 / 3, plus(first[0], plus(first[1], first[2]))));
+    };
+    for (const LineId l : lines) {
+        for (std::uint32_t e = graph.line_first_edge[l.value]; e < graph.line_first_edge[l.value + 1]; ++e) {
+            const auto uses = graph.edge_uses(graph.edges[graph.line_edges[e]]);
+            for (std::size_t i = 0; i < uses.size(); ++i) {
+                for (std::size_t j = i + 1; j < uses.size(); ++j) {
+                    if (uses[i].surface != no_index && uses[j].surface != no_index) take(uses[i], uses[j]);
+                }
+            }
+        }
+    }
+    for (const Finding& f : findings) {
+        if (f.code == "B20" && f.entities.size() == 2) overlaps.erase(std::minmax({f.entities[0].id, f.entities[1].id}));
+    }
+    for (auto& [pair, found] : overlaps) {
+        const auto a = static_cast<std::uint32_t>(pair.first), b = static_cast<std::uint32_t>(pair.second);
+        const auto& surfaces = scope.brep().surfaces;
+        Finding finding =
+            finding_of("B20", quoted(surfaces[a].name) + " and " + quoted(surfaces[b].name) + " overlap, within the tolerance");
+        finding.entities = {surface_ref(scope, a), surface_ref(scope, b)};
+        finding.count = found.count;
+        finding.element_kind = "pair";
+        finding.points = std::move(found.points);
+        findings.push_back(std::move(finding));
+    }
+}
+
+}  // namespace
+
 void check_radial_order(const ModelScope& scope, std::vector<Finding>& findings) {
     const auto& lines = scope.model().found.uncertain_lines;
     if (lines.empty()) return;
@@ -225,6 +280,7 @@ void check_radial_order(const ModelScope& scope, std::vector<Finding>& findings)
         mark_line(scope, l.value, finding);
     }
     findings.push_back(std::move(finding));
+    report_overlaps_at_lines(scope, lines, findings);
 }
 
 void check_holes(const ModelScope& scope, std::vector<Finding>& findings) {
