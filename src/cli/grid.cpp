@@ -20,7 +20,7 @@ struct GridCommand : CommonOptions {
     std::vector<std::string> horizons, fault_polygons, erosion, onlap, leave_out, properties_of, properties;
     std::vector<double> box;
     double rotation = 0, least_dip = 30, min_thickness = 0;
-    bool rotated = false, allow_repeated = false, lossy = false;
+    bool rotated = false, allow_repeated = false, pinch = false, lossy = false;
     std::string fault_sides = "one", pillars = "follow-faults";
 };
 
@@ -66,6 +66,7 @@ Result<GridRequest> request_of(const GridCommand& o) {
     if (o.rotated) request.rotation = o.rotation;
     request.options.min_thickness = o.min_thickness;
     request.options.allow_repeated = o.allow_repeated;
+    request.options.pinch = o.pinch;
     request.options.follow_faults = o.pillars == "follow-faults";
     request.options.fault_sides_both = o.fault_sides == "both";
     if (!o.box.empty()) {
@@ -121,7 +122,8 @@ std::string summary(const GridMade& made) {
     if (made.made.mean_angles_after < 1) {
         text += "  columns in plan: right-angled to " + rounded(made.made.mean_angles_after) + " on average, " +
                 rounded(made.made.least_angles_after) + " at least; before " + rounded(made.made.mean_angles_before) + " and " +
-                rounded(made.made.least_angles_before) + "\n";
+                rounded(made.made.least_angles_before) +
+                (made.made.border_relaxed ? "; the border was relaxed towards upright columns\n" : "\n");
     }
     for (const auto& p : made.properties) {
         text +=
@@ -234,6 +236,7 @@ void add_grid(CLI::App& program, ExitStatus& status) {
     command->add_option("--map", o->map, "A picture of the grid from above, over the faults of the model (PNG)")->type_name("FILE");
     command->add_option("--section", o->section, "A picture of the row that crosses most faults, over the model (PNG)")->type_name("FILE");
     command->add_option("--report", o->page, "A page with the report and both pictures (HTML)")->type_name("FILE");
+    command->add_flag("--pinch", o->pinch, "Let simulators join cells past others without thickness (PINCH)");
     command->add_flag("--allow-repeated", o->allow_repeated, "Take one depth where a pillar meets a horizon more than once");
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the grid");
     add_common_options(*command, *o, true);

@@ -139,6 +139,7 @@ LeanResult follow_faults(const Structure& structure, const Chains& chains, const
     report.mean_angles_after = lean.angles_after;
     report.least_angles_before = lean.least_before;
     report.least_angles_after = lean.least_after;
+    report.border_relaxed = lean.border_relaxed;
     return lean;
 }
 
@@ -201,6 +202,7 @@ Result<MadeGrid> build_grid(const Structure& structure, const Net& upright, cons
     grid.info.name = "grid";
     grid.info.crs.z_positive = ZPositive::depth;
     grid.info.crs.z_positive_stated = true;
+    if (options.pinch) grid.pinch.emplace();
     set_pillars(net, range, grid);
     const LayerPlan plan = plan_layers(options.zones, depths, level);
     for (std::size_t z = 0; z < options.zones.size(); ++z)

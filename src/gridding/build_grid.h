@@ -20,6 +20,7 @@ struct GridOptions {
     double min_thickness = 0;       ///< cells thinner than this everywhere are joined with a neighbour in their zone
     Path area;                      ///< columns whose middle is outside of this ring are inactive; empty: none are
     bool fault_sides_both = false;  ///< FAULTS names each face from both of its cells, not from one
+    bool pinch = false;             ///< PINCH: cells are joined past others without thickness
     bool allow_repeated = false;    ///< where a pillar meets a horizon more than once the nearest to mid level is taken
     bool follow_faults = false;     ///< pillars of chains lean as their faults do
     const Monitor* monitor = nullptr;
@@ -66,6 +67,7 @@ struct GridReport {
     std::uint64_t joined_cells = 0;
     /// How right-angled columns are in plan at the uppermost and the lowest depth, 0 to 1, before and after pillars were made to lean.
     double mean_angles_before = 1, mean_angles_after = 1, least_angles_before = 1, least_angles_after = 1;
+    bool border_relaxed = false;  ///< for that the border was relaxed towards upright columns
 };
 
 struct MadeGrid {

@@ -107,6 +107,24 @@ public:
         side(nx, nx + 1, ny);
     }
 
+    /// Brings border nodes of both levels together where nothing holds them. \param held what is fixed apart from the border
+    void relax_border_nodes(const std::vector<std::uint8_t>& held, Shifts& shifts) const {
+        const auto ring = border();
+        std::vector<Path> paths(2);
+        std::vector<std::uint8_t> fixed;
+        for (const std::size_t p : ring) {
+            const Point place = net_.at(p, 0);
+            for (std::size_t e = 0; e < 2; ++e)
+                paths[e].push_back({place[0] + shifts.values[2 * e][p], place[1] + shifts.values[2 * e + 1][p]});
+            fixed.push_back(held[p] != 0 || is_corner(p) ? 1 : 0);
+        }
+        relax_border(paths, fixed, 0.5, 1e-4 * spacing_of(net_, 0));
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            const Point place = net_.at(ring[n], 0);
+            for (std::size_t e = 0; e < 2; ++e) set(shifts, ring[n], e, {paths[e][n][0] - place[0], paths[e][n][1] - place[1]});
+        }
+    }
+
     Net leaning(const Shifts& shifts) const {
         Net net = net_;
         for (std::size_t p = 0; p < net.pillar_count(); ++p) {
@@ -134,6 +152,22 @@ private:
         const Point i = unit(0, net_.cells[0]), j = unit(0, net_.pillar(0, net_.cells[1]));
         const Point a = net_.at(chain.pillars.front(), 0), b = net_.at(chain.pillars.back(), 0), d{b[0] - a[0], b[1] - a[1]};
         return std::abs(d[0] * j[0] + d[1] * j[1]) >= std::abs(d[0] * i[0] + d[1] * i[1]) ? i : j;
+    }
+
+    bool is_corner(std::size_t p) const {
+        const std::size_t row = std::size_t{net_.cells[0]} + 1, i = p % row, j = p / row;
+        return (i == 0 || i == net_.cells[0]) && (j == 0 || j == net_.cells[1]);
+    }
+
+    /// The outermost pillars in order.
+    std::vector<std::size_t> border() const {
+        const std::size_t nx = net_.cells[0], ny = net_.cells[1];
+        std::vector<std::size_t> ring;
+        for (std::size_t i = 0; i < nx; ++i) ring.push_back(net_.pillar(i, 0));
+        for (std::size_t j = 0; j < ny; ++j) ring.push_back(net_.pillar(nx, j));
+        for (std::size_t i = nx; i > 0; --i) ring.push_back(net_.pillar(i, ny));
+        for (std::size_t j = ny; j > 0; --j) ring.push_back(net_.pillar(0, j));
+        return ring;
     }
 
     static void set(Shifts& shifts, std::size_t p, std::size_t level, const Point& shift) {
@@ -227,6 +261,19 @@ LeanResult lean_pillars(const Structure& structure, const Chains& chains, double
         net = std::move(leaning);
     }
     measure_angles(net, upper, lower, result.angles_after, result.least_after);
+    if (std::ranges::none_of(result.faults, &LeanReport::leans)) return result;
+    Shifts relaxed = taken;
+    leaner.shift_border(relaxed);
+    leaner.relax_border_nodes(taken.fixed, relaxed);
+    for (auto& values : relaxed.values) weights.make_harmonic(relaxed.fixed, values);
+    Net other = leaner.leaning(relaxed);
+    double mean = 0, least = 0;
+    measure_angles(other, upper, lower, mean, least);
+    if (mean < result.angles_after || least < result.least_after || !columns_hold(upright, other, checked)) return result;
+    net = std::move(other);
+    result.angles_after = mean;
+    result.least_after = least;
+    result.border_relaxed = true;
     return result;
 }
 

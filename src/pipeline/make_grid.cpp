@@ -171,14 +171,17 @@ CornerPointGrid taken_off(CornerPointGrid& grid, const Format& target) {
     beside.info.name = grid.info.name;
     beside.info.crs = grid.info.crs;
     beside.dims = grid.dims;
-    if (target.keeps.fault_faces == Keeping::no) beside.faults = std::exchange(grid.faults, {});
+    if (target.keeps.fault_faces == Keeping::no) {
+        beside.faults = std::exchange(grid.faults, {});
+        beside.pinch = std::exchange(grid.pinch, {});
+    }
     if (target.keeps.attributes == Keeping::no) beside.info.attributes = std::exchange(grid.info.attributes, {});
     return beside;
 }
 
 /// Writes an include of what was taken off, where there is anything.
 Result<void> write_beside(CornerPointGrid grid, const GridRequest& request, GridMade& made) {
-    if (request.files.output == "-" || (grid.faults.empty() && grid.info.attributes.empty())) return {};
+    if (request.files.output == "-" || (grid.faults.empty() && grid.info.attributes.empty() && !grid.pinch)) return {};
     std::filesystem::path path(request.files.output);
     path.replace_filename(path.stem().string() + ".include.grdecl");
     Dataset dataset;
@@ -337,7 +340,8 @@ std::string grid_json(const GridMade& made) {
               {{"mean", made.made.mean_angles_after},
                {"least", made.made.least_angles_after},
                {"mean_before", made.made.mean_angles_before},
-               {"least_before", made.made.least_angles_before}}},
+               {"least_before", made.made.least_angles_before},
+               {"border_relaxed", made.made.border_relaxed}}},
              {"properties", std::move(properties)},
              {"left_out", std::move(out)},
              {"notes", made.notes},

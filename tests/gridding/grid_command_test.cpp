@@ -109,6 +109,73 @@ TEST(Grid, PropertiesOfAMeshOfCellsComeAlong) {
     }
 }
 
+/// A map in IRAP text with its heights multiplied and moved; what has none stays without.
+void write_moved(const std::string& from, const std::string& to, double factor, double by) {
+    std::ifstream in(from);
+    std::ofstream out(to);
+    out.precision(12);
+    double value = 0;
+    for (int n = 0; in >> value; ++n) {
+        const bool is_height = n >= 19 && value < 9999000;  // the header has 19 numbers in lines of four and seven
+        out << (is_height ? factor * value + by : value) << (n == 3 || n == 7 || n == 11 || n == 18 || n > 18 ? '\n' : ' ');
+    }
+}
+
+TEST(Grid, SuccessiveStepsKeepTheirCells) {
+    const TemporaryFolder folder;
+    const std::string first = folder / "first.grdecl";
+    const std::vector<std::string> layers{"--layers", "from-top:10:5", "--option", "z=depth"};
+    std::vector<std::string> how = layers;
+    how.insert(how.end(), {"--cells", "20x15"});
+    const json before = make(two_maps(), first, how);
+    write_moved(sample("top_map.irap"), folder / "top_map.irap", 1.1, 150);
+    write_moved(sample("base_map.irap"), folder / "base_map.irap", 1.1, 180);
+    how = layers;
+    how.insert(how.end(), {"--pillars-of", first});
+    const json after = make({folder / "top_map.irap", folder / "base_map.irap", sample("top_faults.pol")}, folder / "second.grdecl", how);
+    ASSERT_TRUE(before.is_object() && after.is_object());
+    EXPECT_EQ(before["dims"], after["dims"]);
+    EXPECT_EQ(before["blocks"], after["blocks"]);
+    EXPECT_EQ(before["zones"][0]["last_layer"], after["zones"][0]["last_layer"]);
+    ASSERT_EQ(before["faults"].size(), after["faults"].size());
+    EXPECT_EQ(before["faults"][0]["faces"], after["faults"][0]["faces"]);
+    EXPECT_NEAR(after["faults"][0]["max_throw"].get<double>() / before["faults"][0]["max_throw"].get<double>(), 1.1, 0.01);
+}
+
+TEST(Grid, CellsAreJoinedPastOthersWithoutThicknessWhereAsked) {
+    const TemporaryFolder folder;
+    std::ofstream sheets(folder / "wedge.ts");
+    const auto sheet = [&](const char* name, double left, double right) {  // flat from x = 0 to 50, a plane from there to 100
+        sheets << "GOCAD TSurf 1\nHEADER {\nname:" << name << "\n}\nTFACE\n";
+        int n = 0;
+        for (const double x : {0.0, 50.0, 100.0}) {
+            for (const double y : {0.0, 40.0}) sheets << "VRTX " << ++n << ' ' << x << ' ' << y << ' ' << (x > 50 ? right : left) << '\n';
+        }
+        sheets << "TRGL 1 3 2\nTRGL 2 3 4\nTRGL 3 5 4\nTRGL 4 5 6\nEND\n";
+    };
+    sheet("a", -90, -90);
+    sheet("b", -100, -100);
+    sheet("c", -100, -110);
+    sheet("d", -120, -120);
+    sheets.close();
+    for (const bool pinch : {false, true}) {
+        std::vector<std::string> how{"--cells", "10x4", "--rotate", "0"};
+        if (pinch) how.emplace_back("--pinch");
+        const json made = make({folder / "wedge.ts"}, folder / "wedge.grdecl", how);
+        ASSERT_TRUE(made.is_object());
+        EXPECT_EQ(made["active_cells"], 100);  // 40 above, 20 in the wedge, 40 below
+        std::ifstream file(folder / "wedge.grdecl");
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        EXPECT_EQ(text.find("\nPINCH\n") != std::string::npos, pinch);
+        EXPECT_EQ(run_geomend({"validate", folder / "wedge.grdecl"}).status, 0);
+    }
+    const json beside = make({folder / "wedge.ts"}, folder / "wedge.egrid", {"--cells", "10x4", "--pinch"});
+    ASSERT_TRUE(beside.is_object());
+    std::ifstream include(beside["include"].get<std::string>());
+    const std::string text{std::istreambuf_iterator<char>(include), {}};
+    EXPECT_NE(text.find("PINCH"), std::string::npos);
+}
+
 TEST(Grid, PicturesAndAPageAreWritten) {
     const TemporaryFolder folder;
     const json made =
