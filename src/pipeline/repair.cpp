@@ -261,22 +261,6 @@ Result<FoundBefore> found_before(const std::string& path, const Dataset& dataset
     return before;
 }
 
-// Regions that cells part, with no surface between them, are parted by one from now on: the cells go. What a model stated of their
-// sides does not know these surfaces.
-void add_region_surfaces(Dataset& dataset) {
-    for (std::uint32_t o = 0; o < dataset.objects.size(); ++o) {
-        auto* mesh = std::get_if<CellMesh>(&dataset.objects[o]);
-        if (mesh == nullptr || mesh->entities.empty() || topology::add_region_surfaces(*mesh) == 0) continue;
-        std::erase_if(dataset.models, [&](const StatedModel& model) {
-            const bool is_of_it = std::ranges::any_of(model.faces, [&](const StatedModel::Face& face) { return face.object == o; });
-            if (is_of_it)
-                add_loss(dataset.losses, {LossClass::identity, model.name, "sides of regions, layers and fault blocks as stated",
-                                          "they leave out surfaces around the cells", 1});
-            return is_of_it;
-        });
-    }
-}
-
 // Whether the regions of meshes go into a format by the surfaces around them alone: it is these that have to be sound then.
 bool leaves_cells_behind(const Dataset& dataset, const Format& target) {
     return target.wants == WriterWants::faced_model && std::ranges::any_of(dataset.objects, [](const Object& object) {
@@ -305,7 +289,7 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
         before = found_before(path, dataset, grids, request.checks);
         if (!before) return std::move(before).why();
     }
-    if (!grids && !cells_only) add_region_surfaces(dataset);
+    if (!grids && !cells_only) surround_regions(dataset);
     report.closed = grids || cells_only;
     repair::ModelChanges changes;
     auto mended = cells_only ? Result<void>()

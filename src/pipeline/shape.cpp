@@ -162,19 +162,23 @@ void to_flat_objects(Dataset& dataset) {
     dataset.objects = std::move(objects);
 }
 
-// Surfaces around volumes that the file bounds by their cells alone, for targets that hold regions by their surfaces.
-void surround_regions(Dataset& dataset, const Format& target) {
-    const bool comes_from_there = dataset.format == target.family && target.read != nullptr;
-    if (!target.bounded_regions || !dataset.models.empty() || comes_from_there) return;
-    for (Object& object : dataset.objects) {
-        auto* mesh = std::get_if<CellMesh>(&object);
-        if (mesh != nullptr && has_entities(*mesh)) topology::add_region_surfaces(*mesh);
-    }
-}
-
 }  // namespace
 
 void flatten_meshes(Dataset& dataset) { to_flat_objects(dataset); }
+
+void surround_regions(Dataset& dataset) {
+    for (std::uint32_t o = 0; o < dataset.objects.size(); ++o) {
+        auto* mesh = std::get_if<CellMesh>(&dataset.objects[o]);
+        if (mesh == nullptr || !has_entities(*mesh) || topology::add_region_surfaces(*mesh) == 0) continue;
+        std::erase_if(dataset.models, [&](const StatedModel& model) {
+            const bool is_of_it = std::ranges::any_of(model.faces, [&](const StatedModel::Face& face) { return face.object == o; });
+            if (is_of_it)
+                add_loss(dataset.losses, {LossClass::identity, model.name, "sides of regions, layers and fault blocks as stated",
+                                          "they leave out surfaces around the cells", 1});
+            return is_of_it;
+        });
+    }
+}
 
 void state_models(Dataset& dataset, std::vector<Brep> found) {
     if (found.empty()) return;
@@ -184,7 +188,9 @@ void state_models(Dataset& dataset, std::vector<Brep> found) {
 }
 
 void shape_for(Dataset& dataset, const Format& target) {
-    surround_regions(dataset, target);
+    // A file of the target's own format keeps what it leaves out, unless its cells do not go along.
+    const bool comes_from_there = dataset.format == target.family && target.read != nullptr;
+    if (target.bounded_regions && (!comes_from_there || target.wants == WriterWants::faced_model)) surround_regions(dataset);
     const bool stated = states_a_model(dataset);
     switch (target.wants) {
         case WriterWants::objects:

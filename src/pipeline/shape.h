@@ -19,6 +19,10 @@ void shape_for(Dataset& dataset, const Format& target);
 /// were made from. Models that it states become such ones, too; other objects follow behind them.
 void state_models(Dataset& dataset, std::vector<Brep> found);
 
+/// Gives meshes of cells with regions the surfaces around these that they leave out, between regions and around all. What a model
+/// stated of their sides does not know these surfaces: it goes, as a loss.
+void surround_regions(Dataset& dataset);
+
 /// Takes meshes that have no volumes and no entities apart into surfaces, polylines and point sets.
 void flatten_meshes(Dataset& dataset);
 

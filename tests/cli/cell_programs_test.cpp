@@ -185,6 +185,26 @@ void convert(const std::filesystem::path& from, const std::filesystem::path& to,
     ASSERT_EQ(run.status, 0) << run.err;
 }
 
+// Cells do not go into a model of surfaces: what surrounds them there has to close.
+TEST(CellsBetweenPrograms, ASolidThatLeavesOutAFaceIsAModelWhoseRegionsClose) {
+    const TemporaryFolder folder;
+    std::string solid = read_file(std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.so");
+    const std::size_t face = solid.find("TFACE 5\n"), next = solid.find("TFACE 6\n");
+    ASSERT_LT(face, next);
+    solid.erase(face, next - face);
+    write_file(folder / "part.so", solid);
+    const std::string model = (folder / "part.ml").string();
+    ASSERT_EQ(run_geomend({"convert", (folder / "part.so").string(), "-o", model, "--lossy"}).status, 0);
+    EXPECT_EQ(run_geomend({"validate", model}).status, 0);
+    const auto told = nlohmann::json::parse(run_geomend({"info", "--json", model}).out);
+    ASSERT_EQ(told[0]["brep"]["region_volumes"].size(), 6u);
+    for (const auto& region : told[0]["brep"]["region_volumes"]) EXPECT_TRUE(region["volume"].is_number()) << region;
+    // As a solid it stays as it is.
+    ASSERT_EQ(run_geomend({"convert", (folder / "part.so").string(), "-o", (folder / "again.so").string(), "--lossy"}).status, 0);
+    const std::string again = read_file(folder / "again.so");
+    EXPECT_EQ(again.find("TFACE 31"), std::string::npos);
+}
+
 }  // namespace
 
 TEST(CellsBetweenPrograms, WedgesKeepTheirVolumesAndTheOrderOfEachProgram) {
