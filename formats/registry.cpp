@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include "base/text_cursor.h"
 #include "formats/byte_order_mark.h"
@@ -97,6 +98,12 @@ Result<const Format*> format_for_writing(const std::string& path) {
     for (const Format& format : all_formats()) {
         if (format.write != nullptr && has_extension(format, extension)) return &format;
     }
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        return failure(FailureKind::usage, "F018", {path}, "a folder: name the file to write in it, with its extension");
+    if (extension.empty())
+        return failure(FailureKind::usage, "F018", {path},
+                       "no extension says which format to write: name it with --to (see 'geomend formats')");
     return failure(FailureKind::usage, "F018", {path},
                    "no format that can be written has the extension '" + extension + "': name it with --to (see 'geomend formats')");
 }

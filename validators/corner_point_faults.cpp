@@ -171,9 +171,11 @@ void check_fault_boxes(const GridScope& scope, std::vector<Finding>& findings) {
     }
     f.count = outside + thick;
     if (f.count == 0) return;
-    f.message = counted(f.count, "fault record is", "fault records are") + " wrong: " + std::to_string(outside) +
-                " reach outside the grid or run backwards, " + std::to_string(thick) +
-                " are not on one face; first cells of theirs are listed";
+    std::string which;
+    if (outside > 0)
+        which = counted(outside, "reaches", "reach") + " outside the grid or " + (outside == 1 ? "runs" : "run") + " backwards";
+    if (thick > 0) which += (which.empty() ? "" : ", ") + counted(thick, "is", "are") + " not on one face";
+    f.message = counted(f.count, "fault record is", "fault records are") + " wrong: " + which + "; first cells of theirs are listed";
     f.measures = {{"outside", static_cast<double>(outside)}, {"not_on_one_face", static_cast<double>(thick)}};
     findings.push_back(std::move(f));
 }

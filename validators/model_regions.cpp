@@ -148,8 +148,10 @@ void check_model_closed(const ModelScope& scope, std::vector<Finding>& findings)
     if (!scope.model().regions_stated || !scope.model().found.regions.empty() || brep.surfaces.empty()) return;
     if (std::ranges::any_of(brep.regions, [](const auto& region) { return !region.cell_types.empty(); })) return;
     const auto open = static_cast<std::uint64_t>(std::ranges::count(scope.free_lines(), 1));
-    Finding finding = finding_of("B06", "the " + counted(brep.surfaces.size(), "surface", "surfaces") + " of model " + quoted(brep.name) +
-                                            " enclose no volume; " + counted(open, "line is a free border", "lines are free borders"));
+    const bool one = brep.surfaces.size() == 1;
+    Finding finding = finding_of("B06", (one ? std::string("the surface") : "the " + std::to_string(brep.surfaces.size()) + " surfaces") +
+                                            " of model " + quoted(brep.name) + (one ? " encloses" : " enclose") + " no volume; " +
+                                            counted(open, "line is a free border", "lines are free borders"));
     finding.entities.push_back({"model", brep.name});
     finding.count = open;
     finding.element_kind = "line";

@@ -48,8 +48,14 @@ std::vector<std::string> with_command_first(const CLI::App& program, std::vector
 
 std::optional<std::string> wrong_command(const CLI::App& program, const std::vector<std::string>& arguments) {
     const auto names = command_names(program);
-    if (arguments.empty() || is_option(arguments.front())) return std::nullopt;
+    if (arguments.empty()) return std::nullopt;
     const std::string& word = arguments.front();
+    if (is_option(word)) {  // there is no command then
+        const auto options = option_names(program);
+        const std::string option = word.substr(0, word.find('='));
+        if (!option.starts_with("--") || std::ranges::find(options, option) != options.end()) return std::nullopt;
+        return "no such option '" + option + "'" + nearest_hint(option, views_of(options));
+    }
     if (std::ranges::find(names, word) != names.end()) return std::nullopt;
     if (std::ranges::find(planned, word) != planned.end()) return "'" + word + "' is not in this version yet";
     std::string all;

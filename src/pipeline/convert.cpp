@@ -118,7 +118,8 @@ Result<void> make_like(Dataset& dataset, const Format& format, const ConvertRequ
 
 Failure cannot_hold(const std::string& output, const Format& format, const std::vector<Loss>& losses) {
     Failure why = failure(FailureKind::cannot_hold, "F021", {output},
-                          std::string(format.title) + " cannot hold all of this model: nothing was written (--lossy writes what fits)");
+                          std::string(format.title.substr(0, format.title.find(':'))) +
+                              " cannot hold all of this model: nothing was written (--lossy writes what fits)");
     for (const Loss& loss : losses) {
         if (loss.loss_class != LossClass::substance) continue;
         Finding f = make_finding(

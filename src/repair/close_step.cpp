@@ -207,7 +207,7 @@ Result<StepOutcome> close_borders(SurfaceModel& model, const SurfaceStepOptions&
     outcome.changed = strip.made;
     outcome.max_displacement = strip.largest;
     outcome.mean_displacement = strip.sum / static_cast<double>(std::max<std::uint64_t>(strip.moved, 1));
-    outcome.what.message = counted(closed, "piece", "pieces") + " of borders were brought onto the surfaces ahead of them, by " +
+    outcome.what.message = counted(closed, "piece of a border was", "pieces of borders were") + " brought onto the surfaces ahead, by " +
                            counted(strip.made, "triangle", "triangles");
     const auto first = static_cast<std::uint32_t>(soup.triangles.size());
     take_soup(model, std::move(strip.soup), strip.origin);

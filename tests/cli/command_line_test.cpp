@@ -15,6 +15,25 @@ const char* const one_triangle = "GOCAD TSurf 1\nHEADER {\nname:t\n}\nTFACE\nVRT
 
 bool says(const ProgramRun& run, const std::string& text) { return run.err.find(text) != std::string::npos; }
 
+TEST(CommandLine, AMisspelledOptionWithoutACommandNamesTheNearest) {
+    const ProgramRun run = run_geomend({"--verion"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find("the nearest is '--version'"), std::string::npos) << run.err;
+    EXPECT_EQ(run_geomend({"-V"}).status, 0);
+    EXPECT_EQ(run_geomend({"-h"}).status, 0);
+}
+
+TEST(CommandLine, AnOutputThatIsAFolderOrHasNoExtensionIsSaidToBeThat) {
+    const TemporaryFolder folder;
+    const std::string input = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.ml";
+    const ProgramRun to_folder = run_geomend({"convert", input, "-o", folder.path().string()});
+    EXPECT_EQ(to_folder.status, 2);
+    EXPECT_NE(to_folder.err.find("a folder"), std::string::npos) << to_folder.err;
+    const ProgramRun bare = run_geomend({"convert", input, "-o", (folder / "bare").string()});
+    EXPECT_EQ(bare.status, 2);
+    EXPECT_NE(bare.err.find("no extension"), std::string::npos) << bare.err;
+}
+
 TEST(CommandLine, NamesTheNearestCommandAndOption) {
     ProgramRun run = run_geomend({"valdate", "x.ts"});
     EXPECT_EQ(run.status, 2);
