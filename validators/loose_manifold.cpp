@@ -2,6 +2,7 @@
 #include "validators/loose_manifold.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/vectors.h"
 #include "base/wording.h"
 #include "topology/face_edges.h"
 #include "validators/cell_findings.h"
@@ -70,13 +72,15 @@ struct CornerNeighbours {
     std::uint64_t polygon;
 };
 
-/// Whether the polygons around one point hang together by the edges there.
-bool is_one_ring(std::span<const CornerNeighbours> around) {
+/// Whether the polygons around one point hang together by the edges there, or in another way.
+template <class AlsoJoined>
+bool is_one_ring(std::span<const CornerNeighbours> around, const AlsoJoined& also_joined) {
     DisjointSets rings(around.size());
     for (std::uint32_t i = 0; i < around.size(); ++i) {
         for (std::uint32_t j = 0; j < i; ++j) {
             const CornerNeighbours &a = around[i], &b = around[j];
-            if (a.before == b.before || a.before == b.after || a.after == b.before || a.after == b.after) rings.join(i, j);
+            if (a.before == b.before || a.before == b.after || a.after == b.before || a.after == b.after || also_joined(a, b))
+                rings.join(i, j);
         }
     }
     for (std::uint32_t i = 0; i < around.size(); ++i) {
@@ -136,6 +140,58 @@ std::vector<std::uint8_t> vertices_between(const BrepData& brep) {
     return between;
 }
 
+/// Per vertex whether surfaces of several parts have it: there they meet, and lines divide them.
+std::vector<std::uint8_t> vertices_of_several_parts(const BrepData& brep) {
+    std::vector<std::uint8_t> several(brep.vertices.size(), 0);
+    std::vector<std::uint32_t> owner(brep.vertices.size(), no_index);
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (const VertexId v : brep.surfaces[s].nodes) {
+            std::uint32_t& first = owner[v.value];
+            if (first != no_index && part_of(brep.surfaces[first]) != part_of(brep.surfaces[s])) several[v.value] = 1;
+            first = s;
+        }
+    }
+    return several;
+}
+
+/// Per surface a number that those of one part have in common which hang together along edges.
+std::vector<std::uint32_t> connected_surfaces(const ModelScope& scope) {
+    const BrepData& brep = scope.brep();
+    DisjointSets sets(brep.surfaces.size());
+    for (const auto& edge : scope.model().graph.edges) {
+        const auto uses = scope.model().graph.edge_uses(edge);
+        for (std::size_t i = 0; i < uses.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                if (uses[i].surface == no_index || uses[j].surface == no_index) continue;
+                if (part_of(brep.surfaces[uses[i].surface]) == part_of(brep.surfaces[uses[j].surface]))
+                    sets.join(uses[i].surface, uses[j].surface);
+            }
+        }
+    }
+    return std::move(sets).roots();
+}
+
+/// What is asked again and again of a model.
+struct Connections {
+    std::vector<std::uint8_t> between;     ///< per vertex, as vertices_between()
+    std::vector<std::uint8_t> contacts;    ///< per vertex, as vertices_of_several_parts()
+    std::vector<std::uint32_t> connected;  ///< per surface, as connected_surfaces()
+};
+
+/// The vertex of a polygon that is nearest to a point.
+std::uint32_t vertex_near(const BrepData& brep, const std::pair<std::uint32_t, std::uint32_t>& polygon, const Vec3& point) {
+    const auto& surface = brep.surfaces[polygon.first];
+    std::uint32_t nearest = no_index;
+    double least = HUGE_VAL;
+    for (const std::uint32_t node : surface.polygons[polygon.second]) {
+        const Vec3 d = minus(brep.vertices[surface.nodes[node].value], point);
+        if (dot(d, d) >= least) continue;
+        least = dot(d, d);
+        nearest = surface.nodes[node].value;
+    }
+    return nearest;
+}
+
 /// The points, by their numbers, of all polygons of an object with such a vertex.
 std::vector<std::uint8_t> points_of_polygons_at(const ModelScope& scope, const std::vector<std::uint8_t>& between, const Surface& source,
                                                 std::span<const std::uint32_t> surfaces, const std::vector<std::uint32_t>& number) {
@@ -179,8 +235,10 @@ Surface cells_as_polygons(const CellMesh& mesh) {
     return faces;
 }
 
-void find_points(const ModelScope& scope, const std::vector<std::uint8_t>& between, std::uint32_t object,
-                 std::span<const std::uint32_t> surfaces, std::map<Part, Wrong>& wrong) {
+/// Points where a part only touches itself. Where others meet it lines divide it, as in a model that is stated: there it is enough that
+/// what touches hangs together elsewhere.
+void find_points(const ModelScope& scope, const Connections& known, std::uint32_t object, std::span<const std::uint32_t> surfaces,
+                 std::map<Part, Wrong>& wrong) {
     if (object >= scope.dataset().objects.size()) return;
     std::optional<Surface> faces;
     if (const auto* mesh = std::get_if<CellMesh>(&scope.dataset().objects[object])) faces = cells_as_polygons(*mesh);
@@ -190,7 +248,7 @@ void find_points(const ModelScope& scope, const std::vector<std::uint8_t>& betwe
     std::vector<std::uint32_t> parts;
     for (const auto& [s, p] : belongs) parts.push_back(s == no_index ? no_index : scope.brep().surfaces[s].source_part);
     const auto number = numbers_of(*source);
-    const auto corners = corners_at(*source, number, points_of_polygons_at(scope, between, *source, surfaces, number), parts);
+    const auto corners = corners_at(*source, number, points_of_polygons_at(scope, known.between, *source, surfaces, number), parts);
     std::vector<CornerNeighbours> around;
     for (std::size_t i = 0; i < corners.size();) {
         around.clear();
@@ -199,11 +257,18 @@ void find_points(const ModelScope& scope, const std::vector<std::uint8_t>& betwe
             around.push_back(corners[j].second);
         const std::uint32_t part = corners[i].first;
         i = j;
-        if (is_one_ring(around)) continue;
+        if (is_one_ring(around, [](const auto&, const auto&) { return false; })) continue;
         const auto is_sound = [&](const CornerNeighbours& a) {
             return belongs[a.polygon].first != no_index && parts_regions(scope, belongs[a.polygon].first);
         };
         if (std::ranges::all_of(around, is_sound)) continue;
+        const auto& first = belongs[around[0].polygon];
+        const std::uint32_t vertex = first.first == no_index ? no_index : vertex_near(scope.brep(), first, source->points[around[0].point]);
+        const auto elsewhere = [&](const CornerNeighbours& a, const CornerNeighbours& b) {
+            const std::uint32_t s = belongs[a.polygon].first, t = belongs[b.polygon].first;
+            return s != no_index && t != no_index && known.connected[s] == known.connected[t];
+        };
+        if (vertex != no_index && known.contacts[vertex] != 0 && is_one_ring(around, elsewhere)) continue;
         Wrong& here = wrong[{object, part}];
         here.points.insert(source->points[around[0].point]);
         for (const CornerNeighbours& a : around) {
@@ -259,8 +324,8 @@ void report_loose_manifold(const ModelScope& scope, const std::vector<std::vecto
             wrong[part_of(brep.surfaces[s])].surfaces.insert(s);
         }
     }
-    const auto between = vertices_between(brep);
-    for (const auto& [object, surfaces] : surfaces_of) find_points(scope, between, object, surfaces, wrong);
+    const Connections known{vertices_between(brep), vertices_of_several_parts(brep), connected_surfaces(scope)};
+    for (const auto& [object, surfaces] : surfaces_of) find_points(scope, known, object, surfaces, wrong);
     for (const auto& [part, what] : wrong) findings.push_back(finding_of_part(scope, what, part));
 }
 
