@@ -11,6 +11,7 @@
 #include "cli/check_arguments.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/size_arguments.h"
 #include "pipeline/recombine_cells.h"
 
 namespace geomend::cli {
@@ -21,6 +22,7 @@ struct MeshOptions : CommonOptions {
     std::vector<std::string> inputs;
     std::string output, split = "none", method = "keep", cells = "tet";
     double size = 0, ratio = 1.4, seconds = 120, megabytes = 0, max_distance = 0;
+    SizeArguments sizes;
     bool lossy = false, recombine = false;
 };
 
@@ -34,6 +36,9 @@ std::string region_lines(const MeshReport& report, bool all_tries) {
             text += counted(r.cells, "tetrahedron", "tetrahedra") + ", volume " + short_number(r.volume) + ", least dihedral angle " +
                     rounded(r.least_dihedral) + " degrees" +
                     (r.improvement.bad_after > 0 ? ", " + counted(r.improvement.bad_after, "bad cell", "bad cells") : std::string()) +
+                    (r.narrow.all > 0 ? ", " + std::to_string(r.narrow.all) + " below 5 degrees (" + std::to_string(r.narrow.forced) +
+                                            " of them beside surfaces that are close or meet sharply)"
+                                      : std::string()) +
                     " (" + r.rung + ", " + rounded(r.seconds) + " s)\n";
         } else {
             text += "not filled\n";
@@ -76,6 +81,10 @@ ExitStatus run(const MeshOptions& o) {
     if (o.recombine && (o.method != "keep" || o.size > 0))
         return report(
             failure(FailureKind::usage, "F018", {}, "--recombine takes the tetrahedra as they are: --size and --method do not go with it"));
+    if (o.method == "keep" && !(o.sizes.size_of.empty() && o.sizes.size_by.empty()))
+        return report(failure(FailureKind::usage, "F018", {}, "--size-of and --size-by are for --method isotropic: surfaces are kept"));
+    remeshing::RemeshOptions sizes;
+    if (auto taken = take_sizes(o.sizes, sizes); !taken) return report(taken.why());
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     auto checks = check_options(o, {}, &monitor);
@@ -90,7 +99,7 @@ ExitStatus run(const MeshOptions& o) {
     request.fill.limits.memory_bytes = o.megabytes > 0 && o.megabytes < 1e12 ? static_cast<std::uint64_t>(o.megabytes * 1e6) : 0;
     request.fill.monitor = &monitor;
     if (o.method == "isotropic") {
-        request.remesh.emplace();
+        request.remesh.emplace(std::move(sizes));
         request.remesh->size = o.size;
         request.remesh->max_distance = o.max_distance;
         request.remesh->monitor = &monitor;
@@ -141,6 +150,7 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
                      "model at most)")
         ->type_name("L")
         ->check(is_positive_length());
+    add_size_options(*command, o->sizes);
     command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
         ->type_name("R")
         ->check(is_length());

@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "base/number_text.h"
 #include "base/wording.h"
 #include "cli/check_arguments.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/size_arguments.h"
 
 namespace geomend::cli {
 
@@ -17,24 +17,11 @@ namespace {
 struct RemeshArguments : CommonOptions {
     std::vector<std::string> inputs;
     std::string output;
-    std::vector<std::string> size_of;
+    SizeArguments sizes;
     double size = 0, growth = 0.3, max_distance = 0;
     std::uint64_t most_triangles = 20'000'000;
     bool lossy = false, keep_invalid = false;
 };
-
-Result<std::vector<std::pair<std::string, double>>> sizes_of(const std::vector<std::string>& texts) {
-    std::vector<std::pair<std::string, double>> sizes;
-    for (const std::string& text : texts) {
-        const std::size_t at = text.rfind('=');
-        double size = 0;
-        if (at == std::string::npos || at == 0 || parse_real(std::string_view(text).substr(at + 1), size) != NumberStatus::ok ||
-            !(size > 0) || size > 1e20)
-            return failure(FailureKind::usage, "F018", {}, "--size-of " + text + ": expected NAME=LENGTH");
-        sizes.emplace_back(text.substr(0, at), size);
-    }
-    return sizes;
-}
 
 std::string quality_words(const remeshing::TriangleQuality& q) {
     return counted(q.triangles, "triangle", "triangles") + " (least angle " + rounded(q.least_angle) + " degrees, " +
@@ -68,19 +55,17 @@ std::string model_lines(const RemeshReport::Model& model, bool all_surfaces) {
 ExitStatus run(const RemeshArguments& o) {
     auto options = format_options(o.options);
     if (!options) return report(options.why());
-    auto sizes = sizes_of(o.size_of);
-    if (!sizes) return report(sizes.why());
+    RemeshRequest request;
+    if (auto taken = take_sizes(o.sizes, request.remesh); !taken) return report(taken.why());
     if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     auto checks = check_options(o, {}, &monitor);
     if (!checks) return report(checks.why());
-    RemeshRequest request;
     take_files(o, std::move(*options), &monitor, request.files);
     request.checks = std::move(*checks);
     request.keep_invalid = o.keep_invalid;
     request.remesh.size = o.size;
-    request.remesh.size_of = std::move(*sizes);
     request.remesh.growth = o.growth;
     request.remesh.max_distance = o.max_distance;
     request.remesh.most_triangles = o.most_triangles;
@@ -113,8 +98,7 @@ void add_remesh(CLI::App& program, ExitStatus& status) {
         ->required()
         ->type_name("L")
         ->check(is_positive_length());
-    command->add_option("--size-of", o->size_of, "The same for one surface or interface, by its name; may be given several times")
-        ->type_name("NAME=L");
+    add_size_options(*command, o->sizes);
     command->add_option("--growth", o->growth, "Sizes grow by no more than this share of the way (default 0.3)")
         ->type_name("SHARE")
         ->check(is_length());

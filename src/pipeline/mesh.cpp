@@ -187,6 +187,7 @@ std::string mesh_json(const MeshReport& report) {
                     {"as_asked", r.as_asked},
                     {"seconds", r.seconds},
                     {"min_dihedral", r.least_dihedral},
+                    {"below_5_degrees", {{"cells", r.narrow.all}, {"forced_by_surfaces", r.narrow.forced}}},
                     {"bad_cells", {{"before", r.improvement.bad_before}, {"after", r.improvement.bad_after}}},
                     {"flips", r.improvement.flips},
                     {"moves", r.improvement.moves}};

@@ -69,17 +69,33 @@ void mark_parts(const BrepData& brep, std::vector<std::uint8_t>& is_part) {
     }
 }
 
-/// Sizes are of surfaces or interfaces that are there.
+/// Sizes are of surfaces, interfaces and properties that are there.
 Result<void> check_names(std::span<const topology::JudgedModel> models, const remeshing::RemeshOptions& options) {
-    std::vector<std::string_view> known;
+    std::vector<std::string_view> known, properties;
     for (const auto& model : models) {
-        for (const auto& surface : model.brep->surfaces) known.push_back(surface.name);
+        for (const auto& surface : model.brep->surfaces) {
+            known.push_back(surface.name);
+            for (const Attribute& a : surface.attributes) {
+                if (a.location == AttributeLocation::point && a.components == 1) properties.push_back(a.name);
+            }
+        }
         for (const auto& interface : model.brep->interfaces) known.push_back(interface.name);
     }
+    const auto check = [](const char* option, const char* what, const std::string& name, const std::vector<std::string_view>& names) {
+        if (std::ranges::find(names, name) != names.end()) return Result<void>{};
+        return Result<void>(failure(FailureKind::usage, "F018", {},
+                                    std::string(option) + ": no " + what + " is called '" + name + "'" + nearest_hint(name, names)));
+    };
     for (const auto& [name, size] : options.size_of) {
-        if (std::ranges::find(known, name) != known.end()) continue;
-        return failure(FailureKind::usage, "F018", {},
-                       "--size-of: no surface or interface is called '" + name + "'" + nearest_hint(name, known));
+        if (auto named = check("--size-of", "surface or interface", name, known); !named) return named;
+    }
+    for (const auto& rule : options.size_by) {
+        const bool by_property = rule.kind == remeshing::SizeRule::Kind::property;
+        if (rule.kind == remeshing::SizeRule::Kind::curvature) continue;
+        if (auto named = check("--size-by", by_property ? "property at nodes of surfaces" : "surface or interface", rule.name,
+                               by_property ? properties : known);
+            !named)
+            return named;
     }
     return {};
 }

@@ -127,7 +127,7 @@ bool LinePlan::sample(std::uint32_t line, const VertexSizes& sizes, double max_d
         rules.max_distance = max_distance;
         rules.fewest = plan.fewest;
         rules.stays = plan.forced;
-        samples = sample_line(plan.points, {own, most, sizes.growth}, rules);
+        samples = sample_line(plan.points, {own, most, sizes.growth, sizes.limit}, rules);
     }
     if (std::ranges::equal(samples, plan.samples, {}, {}, &Named::sample)) return false;
     for (const VertexId v : vertices) {

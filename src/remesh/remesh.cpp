@@ -15,6 +15,7 @@
 #include "geometry/intersections.h"
 #include "remesh/creases.h"
 #include "remesh/new_brep.h"
+#include "remesh/rule_sizes.h"
 #include "remesh/size_field.h"
 
 namespace geomend::remeshing {
@@ -48,8 +49,9 @@ public:
           options_(options),
           lines_(cut, whole.lines.size()),
           allowed_(allowed_distance(whole, options)),
+          rules_(cut, options.size_by, options.size),
+          limit_([this](const Vec3& point) { return rules_.at(point); }),
           sizes_(entity_sizes(cut, options.size, options.size_of)),
-          most_(sizes_),
           surfaces_(cut.surfaces.size()),
           expected_(cut.surfaces.size(), 0),
           tries_(cut.surfaces.size(), 0),
@@ -57,12 +59,15 @@ public:
           bridges_(cut.surfaces.size()),
           is_kept_(cut.surfaces.size(), 0),
           line_is_due_(cut.lines.size(), 1),
-          surface_is_due_(cut.surfaces.size(), 1) {}
+          surface_is_due_(cut.surfaces.size(), 1) {
+        rules_.apply(sizes_);
+        most_ = sizes_;
+    }
 
     Result<Remeshed> run();
 
 private:
-    VertexSizes vertex_sizes() const { return {sizes_, most_, options_.growth}; }
+    VertexSizes vertex_sizes() const { return {sizes_, most_, options_.growth, rules_.has_distances() ? &limit_ : nullptr}; }
     bool stopped() const { return options_.monitor != nullptr && options_.monitor->stopped(); }
     double triangles_for(const BrepData::Surface& surface, std::span<const double> sizes) const;
     Result<void> check_number();
@@ -84,6 +89,8 @@ private:
     const RemeshOptions& options_;
     LinePlan lines_;
     double allowed_;
+    RuleSizes rules_;
+    std::function<double(const Vec3&)> limit_;
     std::vector<double> sizes_, most_;  // at vertices, and as large as they become between distant ones
     std::vector<NewSurface> surfaces_;
     std::vector<double> expected_;  // triangles of each

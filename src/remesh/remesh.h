@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "model/brep.h"
 #include "model/loss.h"
+#include "remesh/size_rules.h"
 #include "remesh/triangle_quality.h"
 
 namespace geomend::remeshing {
@@ -17,6 +18,7 @@ namespace geomend::remeshing {
 struct RemeshOptions {
     double size = 0;                                      ///< of edges, above 0
     std::vector<std::pair<std::string, double>> size_of;  ///< of interfaces or surfaces by name
+    std::vector<SizeRule> size_by;                        ///< distances, curvature, properties
     double growth = 0.3;                                  ///< sizes grow by no more than this share of the way
     double max_distance = 0;  ///< between new and old surfaces; 0: a tenth of the size, 1/200 of the model at most
     std::uint64_t most_triangles = 20'000'000;

@@ -82,7 +82,7 @@ struct Stations {
 
 constexpr std::size_t most_pieces = 64;  ///< of a segment whose sizes grow and shrink again
 
-Stations stations_of(const std::vector<double>& way, const VertexSizes& sizes) {
+Stations stations_of(std::span<const Vec3> points, const std::vector<double>& way, const VertexSizes& sizes) {
     Stations all;
     double last_size = 0;
     const auto add = [&](const LineSample& place, double at, double size) {
@@ -97,13 +97,16 @@ Stations stations_of(const std::vector<double>& way, const VertexSizes& sizes) {
         if (i + 1 == way.size() || sizes.most.empty()) continue;
         const double length = way[i + 1] - way[i], small = std::min(sizes.at[i], sizes.at[i + 1]);
         const bool grows = length > 2 * small && small < std::max(sizes.most[i], sizes.most[i + 1]);
-        const auto pieces = grows ? std::min(most_pieces, static_cast<std::size_t>(length / small)) : 1;
+        const auto limit = [&](double share) { return sizes.limit != nullptr ? (*sizes.limit)(place_of(points, {i, share})) : HUGE_VAL; };
+        double shortest = grows ? small : length;
+        for (const double share : {0.25, 0.5, 0.75}) shortest = std::min(shortest, limit(share));
+        const auto pieces = shortest < length ? std::min(most_pieces, static_cast<std::size_t>(length / shortest)) : 1;
         for (std::size_t k = 1; k < pieces; ++k) {
             const double share = static_cast<double>(k) / static_cast<double>(pieces), to = share * length;
             const double between = sizes.at[i] + share * (sizes.at[i + 1] - sizes.at[i]),
                          most = sizes.most[i] + share * (sizes.most[i + 1] - sizes.most[i]),
                          grown = std::min(sizes.at[i] + sizes.growth * to, sizes.at[i + 1] + sizes.growth * (length - to));
-            add({i, share}, way[i] + to, std::max(between, std::min(most, grown)));
+            add({i, share}, way[i] + to, std::min(limit(share), std::max(between, std::min(most, grown))));
         }
     }
     return all;
@@ -144,7 +147,7 @@ Vec3 place_of(std::span<const Vec3> points, const LineSample& sample) {
 
 std::vector<LineSample> sample_line(std::span<const Vec3> points, const VertexSizes& sizes, const LineRules& rules) {
     const auto way = ways(points);
-    const Stations stations = stations_of(way, sizes);
+    const Stations stations = stations_of(points, way, sizes);
     const auto fixed = fixed_points(points, sizes.at, way, rules);
     std::vector<LineSample> all;
     const auto pieces = static_cast<std::uint32_t>(fixed.size() - 1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 
@@ -21,8 +22,9 @@ struct Reference {
     std::vector<std::uint32_t> node_of, vertex_of;  ///< per vertex of the mesh its node, and that of the model
     std::vector<double> sizes, most;                ///< as of VertexSizes
     double growth = 0;
+    const std::function<double(const Vec3&)>* limit = nullptr;
 
-    VertexSizes vertex_sizes() const { return {sizes, most, growth}; }
+    VertexSizes vertex_sizes() const { return {sizes, most, growth, limit}; }
 };
 
 Result<Reference> reference_of(const BrepData& brep, const BrepData::Surface& surface, const VertexSizes& sizes) {
@@ -31,7 +33,7 @@ Result<Reference> reference_of(const BrepData& brep, const BrepData::Surface& su
     for (const VertexId v : surface.nodes) places.push_back(brep.vertices[v.value]);
     auto fanned = fanned_mesh(places, surface.polygons.corners, surface.neighbours);
     if (!fanned) return std::move(fanned).why();
-    Reference made{std::move(fanned->mesh), std::move(fanned->vertex_of), {}, {}, {}, sizes.growth};
+    Reference made{std::move(fanned->mesh), std::move(fanned->vertex_of), {}, {}, {}, sizes.growth, sizes.limit};
     for (const std::uint32_t node : made.node_of) {
         made.vertex_of.push_back(surface.nodes[node].value);
         made.sizes.push_back(sizes.at[surface.nodes[node].value]);

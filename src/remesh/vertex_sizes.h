@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <span>
+
+#include "base/vec3.h"
 
 namespace geomend::remeshing {
 
@@ -11,6 +14,8 @@ struct VertexSizes {
     std::span<const double> at;    ///< per vertex
     std::span<const double> most;  ///< per vertex: up to here sizes grow; empty: they do not
     double growth = 0;             ///< by no more than this share of the way
+    /// No more at a point than this; null: anything.
+    const std::function<double(const Vec3&)>* limit = nullptr;
 };
 
 }  // namespace geomend::remeshing

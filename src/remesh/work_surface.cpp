@@ -22,7 +22,8 @@ double size_at(const WorkSurface& work, const SurfacePoint& at) {
         most += at.weights[k] * sizes.most[v];
         grown = std::min(grown, sizes.at[v] + sizes.growth * length_of(minus(at.place, work.reference->places[v])));
     }
-    return std::max(between, std::min(most, grown));
+    const double size = std::max(between, std::min(most, grown));
+    return sizes.limit != nullptr ? std::min(size, (*sizes.limit)(at.place)) : size;
 }
 
 }  // namespace

@@ -91,6 +91,7 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
     report.surface_volume = facets.volume;
     report.least_dihedral = report.filled() ? result.cells.least_dihedral : 0;
     report.shapes = result.cells.shapes;
+    report.narrow = narrow_cells(facets, result.cells, options.size > 0 ? options.size : facets.median_edge);
     return result;
 }
 

@@ -9,6 +9,7 @@
 #include "model/loss.h"
 #include "topology/assemble.h"
 #include "volume/improve.h"
+#include "volume/narrow_cells.h"
 #include "volume/tetrahedra.h"
 
 namespace geomend::volumes {
@@ -29,6 +30,7 @@ struct FilledRegion {
     double surface_volume = 0;  ///< enclosed by its surfaces
     double least_dihedral = 0;  ///< degrees
     ShapeCounts shapes;
+    NarrowCells narrow;
     Improvement improvement;
     std::string rung;                  ///< the method that served; empty: none did
     bool as_asked = true;              ///< false: shapes and sizes that were asked for could not be had

@@ -11,6 +11,7 @@
 #include "remesh/crossings.h"
 #include "remesh/polish.h"
 #include "remesh/sample_line.h"
+#include "remesh/size_rules.h"
 #include "remesh/triangle_quality.h"
 
 // What remeshing must not do to a surface, whatever its shape and size.
@@ -31,7 +32,7 @@ std::set<Vec3> border_places(const EdgeMesh& mesh) {
 
 /// All vertices of borders stay.
 WorkSurface with_fixed_borders(const EdgeMesh& reference, std::span<const double> sizes) {
-    WorkSurface work = work_surface(reference, {sizes, {}, 0});
+    WorkSurface work = work_surface(reference, {sizes, {}, 0, nullptr});
     for (VertexKind& kind : work.kinds) kind = kind == VertexKind::old ? VertexKind::fixed : kind;
     return work;
 }
@@ -76,7 +77,7 @@ TEST(Isotropic, AFlatSheetBecomesNearlyEquilateral) {
 TEST(Isotropic, ALargeTriangleIsNotFilledWithTheSmallSizesOfItsCorners) {
     const EdgeMesh reference = test::sheet(1, 1);
     const std::vector<double> sizes(4, 0.01), most(4, 0.2);
-    WorkSurface work = work_surface(reference, {sizes, most, 0.3});
+    WorkSurface work = work_surface(reference, {sizes, most, 0.3, nullptr});
     for (VertexKind& kind : work.kinds) kind = VertexKind::fixed;
     remesh_isotropic(work, {});
     EXPECT_LT(numbers_of(work.mesh).triangles, 3000u);
@@ -87,7 +88,7 @@ TEST(Isotropic, AClosedSurfaceWithoutLinesStaysClosed) {
     const EdgeMesh reference = test::closed_cube(6);
     for (const double size : {0.4, 2.0, 100.0}) {
         const std::vector<double> sizes(reference.places.size(), size);
-        WorkSurface work = work_surface(reference, {sizes, {}, 0});
+        WorkSurface work = work_surface(reference, {sizes, {}, 0, nullptr});
         remesh_isotropic(work, {});
         EXPECT_TRUE(is_consistent(work.mesh));
         EXPECT_EQ(numbers_of(work.mesh).euler, 2) << size;
@@ -98,7 +99,7 @@ TEST(Isotropic, AClosedSurfaceWithoutLinesStaysClosed) {
 TEST(Isotropic, EveryOldVertexOfAStraightBorderGivesWay) {
     const EdgeMesh reference = test::sheet(20, 20);
     const std::vector<double> sizes(reference.places.size(), 5);
-    WorkSurface work = work_surface(reference, {sizes, {}, 0});
+    WorkSurface work = work_surface(reference, {sizes, {}, 0, nullptr});
     for (std::uint32_t v = 0; v < reference.places.size(); ++v) {
         const auto& p = reference.places[v];
         const auto stays = [](double x) { return std::fmod(x, 5.0) == 0; };
@@ -158,11 +159,31 @@ TEST(Crossings, AnEdgeOverARidgeIsMeasuredAtTheRidge) {
     }
 }
 
+TEST(SizeRules, ZonesAreAsWideAsTheThesisHasThem) {
+    const auto zone = [](double from, double to) { return influence_zone(from, to, 0.8); };
+    EXPECT_NEAR(zone(5, 50), 290.98, 0.01);
+    EXPECT_NEAR(zone(50, 5), 178.53, 0.01);
+    EXPECT_NEAR(zone(10, 75), 385.81, 0.01);
+    EXPECT_NEAR(zone(75, 10), 259.73, 0.01);
+    EXPECT_NEAR(zone(10, 50), 249.59, 0.01);
+    EXPECT_EQ(zone(10, 10), 0);
+    SizeRule rule;
+    rule.size = 5;
+    EXPECT_EQ(size_at_distance(rule, 0, 50), 5);
+    EXPECT_NEAR(size_at_distance(rule, 290.98 / 2, 50), 27.5, 0.01);
+    EXPECT_EQ(size_at_distance(rule, 291, 50), 50);
+    rule.thickness = 100;
+    EXPECT_EQ(size_at_distance(rule, 100, 50), 5);
+    EXPECT_NEAR(size_at_distance(rule, 100 + 290.98 / 2, 50), 27.5, 0.01);
+    rule.exponent = 2;
+    EXPECT_NEAR(size_at_distance(rule, 100 + 290.98 / 2, 50), 5 + 45.0 / 4, 0.01);
+}
+
 TEST(Polish, SmallAnglesInsideBecomeLargerAndNothingElseChanges) {
     EdgeMesh reference = test::sheet(12, 12);
     WorkSurface work = with_fixed_borders(reference, std::vector<double>(reference.places.size(), 1));
     const std::vector<double> sizes(reference.places.size(), 1);
-    work.reference_sizes = {sizes, {}, 0};
+    work.reference_sizes = {sizes, {}, 0, nullptr};
     for (std::uint32_t v = 0; v < work.kinds.size(); ++v) {
         if (work.kinds[v] == VertexKind::inner && v % 3 == 0) work.mesh.places[v][0] += 0.85;  // near its neighbour
     }
@@ -184,7 +205,7 @@ TEST(SampleLine, AStraightLineIsPartedEvenly) {
     const std::vector<double> sizes(points.size(), 30);
     LineRules rules;
     rules.max_distance = 1;
-    const auto samples = sample_line(points, {sizes, {}, 0}, rules);
+    const auto samples = sample_line(points, {sizes, {}, 0, nullptr}, rules);
     ASSERT_EQ(samples.size(), 4u);
     EXPECT_NEAR(place_of(points, samples[1])[0], 100.0 / 3, 1e-9);
     EXPECT_EQ(place_of(points, samples.back()), points.back());
@@ -195,7 +216,7 @@ TEST(SampleLine, SizesGrowBetweenPointsThatLieFarApart) {
     const std::vector<double> sizes{1, 1}, most{100, 100};
     LineRules rules;
     rules.max_distance = 1;
-    const auto samples = sample_line(points, {sizes, most, 0.3}, rules);
+    const auto samples = sample_line(points, {sizes, most, 0.3, nullptr}, rules);
     EXPECT_LT(samples.size(), 50u);
     double longest = 0;
     for (std::size_t k = 1; k < samples.size(); ++k) {
@@ -215,7 +236,7 @@ TEST(SampleLine, SharpBendsStay) {
     LineRules rules;
     rules.max_distance = 1;
     bool found = false;
-    for (const LineSample& s : sample_line(points, {sizes, {}, 0}, rules)) found = found || place_of(points, s) == Vec3{37, 0, 0};
+    for (const LineSample& s : sample_line(points, {sizes, {}, 0, nullptr}, rules)) found = found || place_of(points, s) == Vec3{37, 0, 0};
     EXPECT_TRUE(found);
 }
 
@@ -227,7 +248,7 @@ RC_GTEST_PROP(SampleLine, NoPointIsFartherThanAllowed, ()) {
     const std::vector<double> sizes(points.size(), size);
     LineRules rules;
     rules.max_distance = allowed;
-    const auto samples = sample_line(points, {sizes, {}, 0}, rules);
+    const auto samples = sample_line(points, {sizes, {}, 0, nullptr}, rules);
     RC_ASSERT(samples.front() == LineSample{});
     RC_ASSERT(place_of(points, samples.back()) == points.back());
     for (const Vec3& p : points) {

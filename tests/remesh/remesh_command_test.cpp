@@ -80,6 +80,28 @@ TEST(Remesh, SizesOfOneInterfaceAreSmallerThere) {
     EXPECT_LT(triangles(graded, "west"), 2 * triangles(even, "west"));
 }
 
+TEST(Remesh, SizesByDistanceCurvatureAndProperty) {
+    const TemporaryFolder folder;
+    const auto triangles = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"--size", "100"};
+        words.insert(words.end(), more.begin(), more.end());
+        const json report = remesh(sample("layered_box.ml"), folder / "out.ml", words);
+        EXPECT_TRUE(report.is_object() && report["written"] == true);
+        return report.is_object() ? report["models"][0]["after"]["triangles"].get<double>() : 0;
+    };
+    const double even = triangles({}), near = triangles({"--size-by", "distance=fault:30"}),
+                 thick = triangles({"--size-by", "distance=fault:30:200"}), one = triangles({"--size-of", "fault=30"});
+    EXPECT_GT(near, one);  // other surfaces are finer beside the fault, too
+    EXPECT_GT(near, 1.5 * even);
+    EXPECT_GT(thick, 1.5 * near);
+    EXPECT_EQ(triangles({"--size-by", "curvature=20"}), even);  // all is flat
+    for (const char* wrong : {"distance=fault", "distance=fault:0", "distance=fault:10:5:1", "distance=fautl:10", "property=x:1",
+                              "property=none:1:2", "curvature=0", "size=3", "x"}) {
+        const auto run = run_geomend({"remesh", sample("layered_box.ml"), "-o", folder / "out.ml", "--size", "60", "--size-by", wrong});
+        EXPECT_EQ(run.status, 2) << wrong;
+    }
+}
+
 TEST(Remesh, EdgesOfABoxThatIsOneSurfaceStaySharp) {
     const auto in = test::real_data("gocad/split_cube.ml");
     if (!in) GTEST_SKIP() << "the real files are not there";
