@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/vectors.h"
 #include "geometry/closest_points.h"
@@ -20,94 +22,126 @@ constexpr double degree = std::numbers::pi / 180;
 
 double length(const Vec3& d) { return std::sqrt(dot(d, d)); }
 
-/// Looks about narrow cells for what forces them.
+Vec3 normal_of(const std::array<Vec3, 3>& t) {
+    const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    const double size = length(n);
+    return size > 0 ? times(1 / size, n) : Vec3{};
+}
+
+/// What forces narrow cells: edges at which facets meet sharply, and facets that face each other closely.
 class Surroundings {
 public:
-    Surroundings(const RegionFacets& facets, double size) : facets_(facets), size_(size), tree_(facets.positions, facets.triangles) {}
+    Surroundings(const RegionFacets& facets, double size)
+        : facets_(facets),
+          size_(size),
+          tree_(facets.positions, facets.triangles),
+          sharp_(facets.triangles.size()),
+          facing_(facets.triangles.size()) {
+        find_sharp_edges();
+    }
 
     bool force(const std::array<Vec3, 4>& cell) {
-        Vec3 low = cell[0], high = cell[0];
-        for (const Vec3& p : cell) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], p[k]);
-                high[k] = std::max(high[k], p[k]);
-            }
-        }
-        near_.clear();
-        tree_.visit_triangles(tree_.box(low, high, size_), [&](std::size_t i) { near_.push_back(tree_.number(i)); });
-        std::ranges::sort(near_);
-        for (std::size_t i = 0; i < near_.size(); ++i) {
-            for (std::size_t j = i + 1; j < near_.size(); ++j) {
-                if (force(cell, near_[i], near_[j])) return true;
-            }
-        }
-        return false;
+        return std::ranges::any_of(cell, [&](const Vec3& p) { return force(p); });
     }
 
 private:
+    using Edge = std::array<std::uint32_t, 2>;
     const RegionFacets& facets_;
     const double size_;
     TriangleTree tree_;
-    std::vector<std::uint32_t> near_;
+    std::vector<std::vector<Edge>> sharp_;                           ///< per facet its sharp edges
+    std::vector<std::optional<std::vector<std::uint32_t>>> facing_;  ///< per facet those that face it closely, once that was asked
 
     std::array<Vec3, 3> corners(std::uint32_t f) const {
         const Triangle& t = facets_.triangles[f];
         return {facets_.positions[t[0]], facets_.positions[t[1]], facets_.positions[t[2]]};
     }
-    static Vec3 normal(const std::array<Vec3, 3>& t) {
-        const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-        const double size = length(n);
-        return size > 0 ? times(1 / size, n) : Vec3{};
-    }
 
-    bool force(const std::array<Vec3, 4>& cell, std::uint32_t a, std::uint32_t b) const {
-        std::array<std::uint32_t, 3> shared{};
-        std::size_t count = 0;
-        for (const std::uint32_t v : facets_.triangles[a]) {
-            if (std::ranges::find(facets_.triangles[b], v) != facets_.triangles[b].end()) shared[count++] = v;
+    void find_sharp_edges() {
+        std::vector<std::pair<Edge, std::uint32_t>> edges;
+        for (std::uint32_t f = 0; f < facets_.triangles.size(); ++f) {
+            const Triangle& t = facets_.triangles[f];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+                edges.push_back({{low, high}, f});
+            }
         }
-        if (count == 2)
-            return meets_sharply(a, b, shared[0], shared[1]) && is_beside(cell, facets_.positions[shared[0]], facets_.positions[shared[1]]);
-        if (count != 0) return false;
-        return lie_close(cell, a, b);
+        std::ranges::sort(edges);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            for (std::size_t j = i + 1; j < edges.size() && edges[j].first == edges[i].first; ++j) {
+                const auto& [edge, f] = edges[i];
+                if (!meet_sharply(f, edges[j].second, edge)) continue;
+                sharp_[f].push_back(edge);
+                sharp_[edges[j].second].push_back(edge);
+            }
+        }
     }
 
     /// Whether two facets meet along an edge at less than 10 degrees, with the region between them.
-    bool meets_sharply(std::uint32_t a, std::uint32_t b, std::uint32_t v, std::uint32_t w) const {
+    bool meet_sharply(std::uint32_t a, std::uint32_t b, const Edge& edge) const {
         const auto apex = [&](std::uint32_t f) {
             for (const std::uint32_t c : facets_.triangles[f]) {
-                if (c != v && c != w) return facets_.positions[c];
+                if (c != edge[0] && c != edge[1]) return facets_.positions[c];
             }
-            return facets_.positions[v];
+            return facets_.positions[edge[0]];
         };
-        const Vec3 along = minus(facets_.positions[w], facets_.positions[v]);
+        const Vec3 along = minus(facets_.positions[edge[1]], facets_.positions[edge[0]]);
         const auto across = [&](const Vec3& p) {
-            const Vec3 d = minus(p, facets_.positions[v]);
+            const Vec3 d = minus(p, facets_.positions[edge[0]]);
             return minus(d, times(dot(d, along) / dot(along, along), along));
         };
         const Vec3 p = across(apex(a)), q = across(apex(b));
         if (std::atan2(length(cross(p, q)), dot(p, q)) >= 10 * degree) return false;
-        const double side = dot(normal(corners(a)), q);
+        const double side = dot(normal_of(corners(a)), q);
         return side == 0 || (facets_.sides[a] & (side > 0 ? in_front : behind)) != 0;
     }
 
-    bool is_beside(const std::array<Vec3, 4>& cell, const Vec3& from, const Vec3& to) const {
-        const Vec3 along = minus(to, from);
-        return std::ranges::any_of(cell, [&](const Vec3& p) {
-            const Vec3 d = minus(p, from);
-            const double share = std::clamp(dot(d, along) / dot(along, along), 0.0, 1.0);
-            return length(minus(d, times(share, along))) <= size_;
+    /// The facets nearer than half the size that a facet faces.
+    const std::vector<std::uint32_t>& facing(std::uint32_t f) {
+        if (facing_[f]) return *facing_[f];
+        std::vector<std::uint32_t>& found = facing_[f].emplace();
+        const auto t = corners(f);
+        Vec3 low = t[0], high = t[0];
+        for (const Vec3& p : t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], p[k]);
+                high[k] = std::max(high[k], p[k]);
+            }
+        }
+        tree_.visit_triangles(tree_.box(low, high, size_ / 2), [&](std::size_t i) {
+            const std::uint32_t other = tree_.number(i);
+            for (const std::uint32_t v : facets_.triangles[other]) {
+                if (std::ranges::find(facets_.triangles[f], v) != facets_.triangles[f].end()) return;
+            }
+            if (are_opposite(closest_points(t, corners(other)), f, other)) found.push_back(other);
         });
+        return found;
+    }
+    bool are_opposite(const Closest& gap, std::uint32_t a, std::uint32_t b) const {
+        if (!(gap.distance < size_ / 2) || !(gap.distance > 0)) return false;
+        const auto faces = [&](std::uint32_t f) { return std::abs(dot(normal_of(corners(f)), gap.apart)) > 0.5 * gap.distance; };
+        return faces(a) && faces(b);
     }
 
-    /// Whether two facets that share no corner face each other nearer than half the size.
-    bool lie_close(const std::array<Vec3, 4>& cell, std::uint32_t a, std::uint32_t b) const {
-        const auto s = corners(a), t = corners(b);
-        const Closest gap = closest_points(s, t);
-        if (!(gap.distance < size_ / 2) || !(gap.distance > 0)) return false;
-        const auto faces = [&](const Vec3& n) { return std::abs(dot(n, gap.apart)) > 0.5 * gap.distance; };
-        if (!faces(normal(s)) || !faces(normal(t))) return false;
-        return std::ranges::any_of(cell, [&](const Vec3& p) { return length(minus(p, gap.on_first)) <= size_; });
+    bool force(const Vec3& p) {
+        bool found = false;
+        tree_.visit_triangles(tree_.box(p, p, size_), [&](std::size_t i) {
+            if (found || tree_.is_farther(p, i, size_)) return;
+            const std::uint32_t f = tree_.number(i);
+            const Closest foot = closest_points(p, corners(f));
+            if (foot.distance > size_) return;
+            for (const Edge& edge : sharp_[f]) found = found || is_near(p, edge);
+            for (const std::uint32_t other : facing(f)) {
+                if (found) break;
+                found = are_opposite(closest_points(foot.on_second, corners(other)), f, other);
+            }
+        });
+        return found;
+    }
+    bool is_near(const Vec3& p, const Edge& edge) const {
+        const Vec3 d = minus(p, facets_.positions[edge[0]]), along = minus(facets_.positions[edge[1]], facets_.positions[edge[0]]);
+        const double share = std::clamp(dot(d, along) / dot(along, along), 0.0, 1.0);
+        return length(minus(d, times(share, along))) <= size_;
     }
 };
 
