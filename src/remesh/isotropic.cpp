@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/vectors.h"
 #include "remesh/polish.h"
@@ -219,14 +220,22 @@ std::size_t remove_old_vertices(WorkSurface& work) {
 
 std::size_t flip_edges(WorkSurface& work) {
     std::size_t count = 0;
-    for (std::size_t round = 0; round < 4; ++round) {
-        const std::size_t before = count;
-        for (std::uint32_t h = 0; h < work.mesh.corners.size() && !work.stopped_at(h); ++h) {
-            if (!stands_for_edge(work.mesh, h) || work.mesh.twins[h] == no_index || !should_flip(work.mesh, h)) continue;
+    std::vector<std::uint32_t> next;  // edges around one that was turned are looked at again; each turn makes the worse triangle better
+    for (std::uint32_t first = 0; first < work.mesh.corners.size() && !work.stopped_at(first); ++first) {
+        if (!stands_for_edge(work.mesh, first)) continue;
+        next.push_back(first);
+        while (!next.empty()) {
+            const std::uint32_t h = next.back();
+            next.pop_back();
+            if (work.mesh.twins[h] == no_index || !should_flip(work.mesh, h)) continue;
             flip_edge(work.mesh, h);
             ++count;
+            const std::uint32_t back = work.mesh.twins[h];
+            for (const std::uint32_t side : {h, back}) {
+                next.push_back(next_of(side));
+                next.push_back(previous_of(side));
+            }
         }
-        if (count == before) break;
     }
     return count;
 }
