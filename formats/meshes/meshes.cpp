@@ -22,10 +22,10 @@ namespace geomend::meshes {
 
 namespace {
 
-constexpr std::string_view medit_extensions[] = {".mesh"}, tetgen_extensions[] = {".node", ".ele"}, abaqus_extensions[] = {".inp"},
-                           code_aster_extensions[] = {".mail"}, openfoam_extensions[] = {".foam"}, pflotran_extensions[] = {".uge"},
-                           modflow_extensions[] = {".disu"}, ucd_extensions[] = {".ucd", ".avs"}, mfem_extensions[] = {".mfem"},
-                           gprs_extensions[] = {".gprs"}, tough2_extensions[] = {".tough2"};
+constexpr std::string_view medit_extensions[] = {".mesh", ".meshb"}, tetgen_extensions[] = {".node", ".ele"},
+                           abaqus_extensions[] = {".inp"}, code_aster_extensions[] = {".mail"}, openfoam_extensions[] = {".foam"},
+                           pflotran_extensions[] = {".uge"}, modflow_extensions[] = {".disu"}, ucd_extensions[] = {".ucd", ".avs"},
+                           mfem_extensions[] = {".mfem"}, gprs_extensions[] = {".gprs"}, tough2_extensions[] = {".tough2"};
 constexpr std::string_view tried = "fixtures and clients: no real file was found",
                            tried_by_readers_of_tests = "fixtures only: no client was at hand";
 

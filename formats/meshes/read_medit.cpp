@@ -7,6 +7,7 @@
 
 #include "formats/drop.h"
 #include "formats/meshes/mesh_reading.h"
+#include "formats/meshes/read_medit_binary.h"
 #include "formats/text_reading.h"
 
 namespace geomend::meshes {
@@ -188,10 +189,13 @@ private:
 
 }  // namespace
 
-int sniff_medit(std::string_view head, std::string_view) { return Words(head).next() == "MeshVersionFormatted" ? 95 : 0; }
+int sniff_medit(std::string_view head, std::string_view) {
+    if (is_medit_binary(head)) return 95;
+    return Words(head).next() == "MeshVersionFormatted" ? 95 : 0;
+}
 
 Result<Dataset> read_medit(const Input& input, const ReadOptions& options) {
-    auto data = Reader(input, options).run();
+    auto data = is_medit_binary(input.bytes()) ? read_medit_binary(input, options) : Reader(input, options).run();
     if (!data) return data;
     data->format = "mesh";
     data->variant = "Medit";

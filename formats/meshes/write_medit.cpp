@@ -2,8 +2,11 @@
 #include "formats/meshes/write_medit.h"
 
 #include <array>
+#include <filesystem>
 
+#include "base/text_cursor.h"
 #include "formats/meshes/mesh_writing.h"
+#include "formats/meshes/write_medit_binary.h"
 
 namespace geomend::meshes {
 
@@ -86,7 +89,10 @@ void write_edges(const VolumeMesh& mesh, OutputFile& file) {
 
 }  // namespace
 
-Result<std::vector<Loss>> write_medit(const VolumeMesh& mesh, OutputSet& out, const WriteOptions&) {
+Result<std::vector<Loss>> write_medit(const VolumeMesh& mesh, OutputSet& out, const WriteOptions& options) {
+    const std::filesystem::path name = out.main_path().filename();
+    if (lower_case((name.extension() == ".gz" ? name.stem() : name).extension().string()) == ".meshb")
+        return write_medit_binary(mesh, out, options);
     OutputFile& file = out.main_file();
     file << "MeshVersionFormatted 2\nDimension 3\n";
     write_names(mesh, file);

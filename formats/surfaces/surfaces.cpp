@@ -6,6 +6,7 @@
 #include "formats/surfaces/obj.h"
 #include "formats/surfaces/off.h"
 #include "formats/surfaces/ply.h"
+#include "formats/surfaces/smesh.h"
 #include "formats/surfaces/stl.h"
 
 namespace geomend::surfaces {
@@ -13,7 +14,7 @@ namespace geomend::surfaces {
 namespace {
 
 constexpr std::string_view stl_extensions[] = {".stl"}, obj_extensions[] = {".obj"}, ply_extensions[] = {".ply"},
-                           off_extensions[] = {".off"};
+                           off_extensions[] = {".off"}, smesh_extensions[] = {".smesh", ".poly"};
 constexpr std::string_view tried = "fixtures and clients: no real file was found", by_itself = "fixtures only: no real file was found";
 constexpr std::string_view note =
     "substance: attributes, points, lines, cells, grids, wells, regions; identity: role, feature, units, coordinate system";
@@ -42,6 +43,8 @@ constexpr std::array rows = {
            WriterWants::objects, keeps(Keeping::yes, Keeping::no, Keeping::yes), ply_note, tried, encoding_options},
     Format{"off", "surface", "OFF", off_extensions, sniff_off, read_off, write_off, WriterWants::objects,
            keeps(Keeping::yes, Keeping::no, Keeping::no), note, by_itself},
+    Format{"smesh", "surface", "TetGen: facets of surfaces, in .smesh or .poly", smesh_extensions, sniff_smesh, read_smesh, write_smesh,
+           WriterWants::objects, keeps(Keeping::yes, Keeping::yes, Keeping::no), note, tried},
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ struct MeshOptions : CommonOptions {
 };
 
 /// One line for each region: what it holds, or why it is empty.
-std::string region_lines(const MeshReport& report, bool all_tries) {
+std::string region_lines(const MeshReport& report, bool all_tries, const std::string& split) {
     std::string text;
     std::uint64_t cells = 0;
     for (const auto& r : report.regions) {
@@ -56,6 +56,8 @@ std::string region_lines(const MeshReport& report, bool all_tries) {
         text += "split along " + counted(report.split.surfaces, "surface", "surfaces") + ": " +
                 counted(report.split.vertices, "point", "points") + " doubled, " + counted(report.split.pairs, "pair", "pairs") +
                 " of faces\n";
+    else if (!split.empty() && split != "none" && report.is_written)
+        text += split == "faults" ? "nothing is split: no surface is a fault\n" : "nothing is split: there are no surfaces\n";
     if (report.recombined) cells = report.recombined->cell_count();
     std::set<std::string> regions;
     for (const auto& block : report.blocks) regions.insert(block.region);
@@ -117,7 +119,7 @@ ExitStatus run(const MeshOptions& o) {
     report(made->errors, false);
     if (!o.quiet) {
         report(made->written.losses, o.verbose);
-        const std::string text = region_lines(*made, o.verbose);
+        const std::string text = region_lines(*made, o.verbose, o.split);
         status = worse(status, print_about(text, o.output, made->is_written));
     }
     if (!made->errors.empty()) std::fputs("geomend: the model has errors: nothing was written; geomend repair may mend them\n", stderr);

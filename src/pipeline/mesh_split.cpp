@@ -15,32 +15,39 @@ namespace geomend {
 
 namespace {
 
-/// Surfaces of the mesh by name: that of the surface, or that of its set without the side.
+/// Chooses the surfaces of a name: that of the surface, or that of its set without the side. False where there are none.
+bool choose(const VolumeMesh& mesh, std::string_view name, std::vector<std::uint8_t>& chosen) {
+    bool found = false;
+    for (std::size_t s = 0; s < mesh->surfaces.size(); ++s) {
+        if (mesh->surfaces[s] != name) continue;
+        chosen[s] = 1;
+        found = true;
+    }
+    for (const auto& set : mesh->face_sets) {
+        const bool is_side = set.name.starts_with(name) && (set.name.size() == name.size() || set.name[name.size()] == '_');
+        if (set.surface == no_index || !is_side || set.side == FaceSide::none) continue;
+        std::string side = to_string(set.side);
+        std::ranges::replace(side, ' ', '_');
+        if (set.name != std::string(name) + "_" + side) continue;
+        chosen[set.surface] = 1;
+        found = true;
+    }
+    return found;
+}
+
+/// Surfaces of the mesh by names between commas. A name may have commas itself: the longest one that is there counts.
 Result<std::vector<std::uint8_t>> named_surfaces(const VolumeMesh& mesh, std::string_view names) {
     std::vector<std::uint8_t> chosen(mesh->surfaces.size(), 0);
     while (!names.empty()) {
-        const std::size_t comma = names.find(',');
-        const std::string_view name = names.substr(0, comma);
-        names = comma == std::string_view::npos ? std::string_view() : names.substr(comma + 1);
-        bool found = false;
-        for (std::size_t s = 0; s < mesh->surfaces.size(); ++s) {
-            if (mesh->surfaces[s] != name) continue;
-            chosen[s] = 1;
-            found = true;
+        std::size_t end = names.size();
+        while (end != std::string_view::npos && end > 0 && !choose(mesh, names.substr(0, end), chosen)) end = names.rfind(',', end - 1);
+        if (end == std::string_view::npos || end == 0) {
+            const std::string_view name = names.substr(0, names.find(','));
+            const std::vector<std::string_view> known(mesh->surfaces.begin(), mesh->surfaces.end());
+            return failure(FailureKind::usage, "F018", {},
+                           "--split: no surface is called " + geomend::quoted(name) + nearest_hint(name, known));
         }
-        for (const auto& set : mesh->face_sets) {
-            const bool is_side = set.name.starts_with(name) && (set.name.size() == name.size() || set.name[name.size()] == '_');
-            if (set.surface == no_index || !is_side || set.side == FaceSide::none) continue;
-            std::string side = to_string(set.side);
-            std::ranges::replace(side, ' ', '_');
-            if (set.name != std::string(name) + "_" + side) continue;
-            chosen[set.surface] = 1;
-            found = true;
-        }
-        if (found) continue;
-        const std::vector<std::string_view> known(mesh->surfaces.begin(), mesh->surfaces.end());
-        return failure(FailureKind::usage, "F018", {},
-                       "--split: no surface is called " + geomend::quoted(name) + nearest_hint(name, known));
+        names.remove_prefix(std::min(end + 1, names.size()));
     }
     return chosen;
 }

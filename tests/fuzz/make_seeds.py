@@ -19,7 +19,7 @@ extensions = {'bgrdecl': '.bgrdecl', 'egrid': '.egrid', 'fegrid': '.fegrid', 'fg
               'cps3_lines': '.cps3lines', 'irap_grid': '.irap', 'irap_grid_binary': '.gri', 'irap_grid_binary_little': '.gri',
               'irap_points': '.irapp', 'irap_polygons': '.pol', 'petrel_points': '.petrelpoints', 'rms_points': '.rmsattr', 'zmap': '.zmap',
               'zmap_implied': '.zmap', 'binary': '.roff', 'text': '.roffasc', 'stl_text': '.stl', 'stl_binary': '.stl', 'obj': '.obj', 'ply_text': '.ply',
-              'ply_little': '.ply', 'ply_big': '.ply', 'off': '.off',
+              'ply_little': '.ply', 'ply_big': '.ply', 'off': '.off', 'smesh': '.smesh', 'medit_binary': '.meshb',
               'abaqus': '.inp', 'parts': '.inp', 'medit': '.mesh', 'nodes': '.node',
               'zmap_lines': '.zmaplines', 'points_table': '.csv', 'ijxyz': '.ijxyz',
               'rms_wells': '.rmswell', 'petrel_path': '.dev', 'path_table': '.dev', 'resinsight_path': '.dev'}

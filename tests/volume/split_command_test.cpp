@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -42,6 +44,78 @@ TEST(MeshSplit, AlongAllSurfacesEachPairIsTwoFacesOfAbaqus) {
     EXPECT_EQ(again.status, 0) << again.err;
     EXPECT_EQ(points_of(folder / "m.vtu"), points_of(folder / "m.inp"));
     EXPECT_GT(report["pairs"].get<std::uint64_t>(), 0u);
+}
+
+/// The sample with a word in place of another, everywhere.
+std::string changed_sample(const std::string& to, const std::vector<std::pair<std::string, std::string>>& words) {
+    std::string text = test::read_file(sample);
+    for (const auto& [word, other] : words) {
+        for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += other.size()) text.replace(at, word.size(), other);
+    }
+    std::ofstream(to) << text;
+    return to;
+}
+
+TEST(MeshSplit, NamesMayHaveCommas) {
+    const TemporaryFolder folder;
+    const std::string model = changed_sample(folder / "comma.ml", {{"TSURF fault", "TSURF f,1"},
+                                                                   {"normal_fault fault", "normal_fault f,1"},
+                                                                   {"SURFACE fault", "SURFACE f,1"},
+                                                                   {"name:fault", "name:f,1"}});
+    const auto status = [&](const std::string& names) {
+        const auto ran = run_geomend({"mesh", model, "-o", folder / "m.vtu", "--json", "--lossy", "--split", names});
+        return ran.status != 0 ? -ran.status : json::parse(ran.out)["split"]["surfaces"].get<int>();
+    };
+    EXPECT_EQ(status("f,1"), 5);
+    EXPECT_GT(status("f,1,H1"), 5);
+    EXPECT_EQ(status("H1,f,1"), status("f,1,H1"));
+    EXPECT_EQ(status("f"), -2);
+    EXPECT_EQ(status("1,f"), -2);
+}
+
+TEST(MeshSplit, AModelWithoutFaultsSaysThatNothingIsSplit) {
+    const TemporaryFolder folder;
+    const std::string model =
+        changed_sample(folder / "plain.ml", {{"normal_fault", "top"}, {"GEOLOGICAL_TYPE normal_fault", "GEOLOGICAL_TYPE top"}});
+    const auto ran = run_geomend({"mesh", model, "-o", folder / "m.vtu", "--lossy", "--split", "faults"});
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.out.find("nothing is split: no surface is a fault"), std::string::npos) << ran.out;
+}
+
+std::string shape_of(const std::string& file) { return test::info(file)["objects"][0]["counts"].dump(); }
+
+TEST(MeshFormats, BinaryMeditHoldsWhatItsTextHolds) {
+    const TemporaryFolder folder;
+    const std::string solid = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.so";
+    const std::string text = folder / "m.mesh", binary = folder / "m.meshb", again = folder / "again.mesh", twice = folder / "twice.meshb";
+    ASSERT_EQ(run_geomend({"convert", solid, "-o", text, "--lossy"}).status, 0);
+    ASSERT_EQ(run_geomend({"convert", solid, "-o", binary, "--lossy"}).status, 0);
+    EXPECT_TRUE(test::read_file(binary).starts_with(std::string("\1\0\0\0", 4)));
+    EXPECT_EQ(run_geomend({"validate", binary}).status, 0);
+    EXPECT_EQ(shape_of(text), shape_of(binary));
+    ASSERT_EQ(run_geomend({"convert", binary, "-o", again, "--lossy"}).status, 0);
+    ASSERT_EQ(run_geomend({"convert", again, "-o", twice, "--lossy"}).status, 0);
+    EXPECT_EQ(shape_of(again), shape_of(binary));
+    EXPECT_EQ(shape_of(twice), shape_of(binary));
+    EXPECT_EQ(run_geomend({"validate", twice}).status, 0);
+}
+
+TEST(MeshFormats, DamagedBinaryMeditIsRefused) {
+    const TemporaryFolder folder;
+    const std::string solid = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.so", binary = folder / "m.meshb";
+    ASSERT_EQ(run_geomend({"convert", solid, "-o", binary, "--lossy"}).status, 0);
+    const std::string whole = test::read_file(binary), damaged = folder / "d.meshb";
+    for (const std::size_t size : {9ul, 100ul, whole.size() / 2, whole.size() - 20}) {
+        std::ofstream(damaged, std::ios::binary) << whole.substr(0, size);
+        EXPECT_EQ(run_geomend({"info", damaged}).status, 3) << size;
+    }
+    for (const std::size_t at : {12ul, 20ul, 24ul, 28ul, 32ul, 36ul, 40ul}) {
+        std::string bytes = whole;
+        bytes[at + 3] = '\x7f';
+        std::ofstream(damaged, std::ios::binary) << bytes;
+        const int status = run_geomend({"info", damaged}).status;
+        EXPECT_TRUE(status == 3 || status == 0) << at << ": " << status;  // a coordinate may be any
+    }
 }
 
 TEST(MeshFormats, WhatTheyHoldOfASoundModelIsReadAsASoundModel) {
