@@ -2,7 +2,9 @@
 #include "exchange/target_names.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <string_view>
 
 #include "base/text_cursor.h"
 
@@ -31,6 +33,24 @@ std::string cut(const std::string& name, std::size_t longest) {
     return name.substr(0, end);
 }
 
+/// How the names of sets on one side of a surface end; what is shortened keeps that.
+constexpr std::array<std::string_view, 4> sides{"_front", "_back", "_hanging_wall", "_footwall"};
+
+std::string_view side_of(std::string_view name) {
+    const auto found =
+        std::ranges::find_if(sides, [&](std::string_view side) { return name.ends_with(side) && name.size() > side.size(); });
+    return found == sides.end() ? std::string_view() : *found;
+}
+
+/// A name with an end behind it, at most so many bytes. The side of a name that has to be shortened stays last.
+std::string fitted(const std::string& name, const std::string& end, std::size_t longest) {
+    if (name.size() + end.size() <= longest) return name + end;
+    const std::string_view side = side_of(name);
+    const std::size_t kept = end.size() + side.size();
+    if (side.empty() || kept >= longest) return cut(name, longest - std::min(longest, end.size())) + end;
+    return cut(name.substr(0, name.size() - side.size()), longest - kept) + end + std::string(side);
+}
+
 class Namer {
 public:
     Namer(Naming naming, std::size_t longest) : words_(naming == Naming::words), longest_(longest) {}
@@ -44,11 +64,8 @@ public:
     std::string changed(const std::string& name) {
         const std::string whole = words_ ? as_word(name) : name.empty() ? "unnamed" : name;
         const std::size_t longest = longest_ == 0 ? std::string::npos : longest_;
-        std::string candidate = cut(whole, longest);
-        for (std::size_t n = 2; !used_.insert(key(candidate)).second; ++n) {
-            const std::string end = "_" + std::to_string(n);
-            candidate = cut(whole, longest == std::string::npos ? longest : longest - std::min(longest, end.size())) + end;
-        }
+        std::string candidate = fitted(whole, "", longest);
+        for (std::size_t n = 2; !used_.insert(key(candidate)).second; ++n) candidate = fitted(whole, "_" + std::to_string(n), longest);
         return candidate;
     }
 

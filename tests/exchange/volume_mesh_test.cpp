@@ -173,6 +173,12 @@ TEST(Prepare, NamesAreWordsShortEnoughAndStayApart) {
               (Map{{"Top", "Top"}, {"a b", "a_b_2"}, {"a_b", "a_b"}, {"TOP", "TOP_2"}, {"7", "N_7"}}));
     EXPECT_EQ(target_names({"eastern", "easterly", "east", "east"}, Naming::words, 5),
               (Map{{"eastern", "easte"}, {"easterly", "eas_2"}, {"east", "east"}}));
+    // Sets on the two sides of a surface keep their side.
+    EXPECT_EQ(
+        target_names({"a_long_fault_name_hanging_wall", "a_long_fault_name_footwall", "a_long_fault_nick_footwall"}, Naming::words, 20),
+        (Map{{"a_long_fault_name_hanging_wall", "a_long__hanging_wall"},
+             {"a_long_fault_name_footwall", "a_long_faul_footwall"},
+             {"a_long_fault_nick_footwall", "a_long_fa_2_footwall"}}));
     EXPECT_EQ(target_names({"Gr\xc3\xbcn", "a b", ""}, Naming::texts, 3), (Map{{"Gr\xc3\xbcn", "Gr"}, {"a b", "a b"}, {"", "unn"}}));
 }
 
