@@ -162,6 +162,24 @@ std::uint32_t split_edge(EdgeMesh& mesh, std::uint32_t h, const Vec3& place) {
     return v;
 }
 
+std::uint32_t split_face(EdgeMesh& mesh, std::uint32_t triangle, const Vec3& place) {
+    const std::uint32_t h = 3 * triangle;
+    const std::uint32_t a = mesh.corners[h], b = mesh.corners[h + 1], c = mesh.corners[h + 2];
+    const std::uint32_t beyond_bc = mesh.twins[h + 1], beyond_ca = mesh.twins[h + 2];
+    const std::uint32_t v = new_vertex(mesh, place);
+    const std::uint32_t second = 3 * new_triangle(mesh, b, c, v), third = 3 * new_triangle(mesh, c, a, v);
+    mesh.corners[h + 2] = v;
+    join(mesh, second, beyond_bc);
+    join(mesh, third, beyond_ca);
+    join(mesh, h + 1, second + 2);
+    join(mesh, second + 1, third + 2);
+    join(mesh, third + 1, h + 2);
+    if (mesh.leaving[b] == h + 1) mesh.leaving[b] = second;
+    if (mesh.leaving[c] == h + 2) mesh.leaving[c] = third;
+    mesh.leaving[v] = h + 2;
+    return v;
+}
+
 bool can_flip(const EdgeMesh& mesh, std::uint32_t h) {
     const std::uint32_t back = mesh.twins[h];
     if (back == no_index) return false;

@@ -73,6 +73,9 @@ Result<FannedMesh> fanned_mesh(std::span<const Vec3> places, std::span<const std
 /// in new ones
 std::uint32_t split_edge(EdgeMesh& mesh, std::uint32_t h, const Vec3& place);
 
+/// Puts a vertex inside of a triangle, which becomes three. \return the vertex
+std::uint32_t split_face(EdgeMesh& mesh, std::uint32_t triangle, const Vec3& place);
+
 /// Whether an edge can be turned: it is no border, and its tips have no edge between them.
 bool can_flip(const EdgeMesh& mesh, std::uint32_t h);
 /// The edge runs between its two tips afterwards; it keeps its number. \pre can_flip()

@@ -79,13 +79,6 @@ bool remove_old(WorkSurface& work, std::uint32_t v) {
     return try_collapse(work, edges[0], v, true) || try_collapse(work, edges[1], v, true);
 }
 
-/// Cosine by sine of the angle at c.
-double cotangent(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 u = minus(a, c), v = minus(b, c), n = cross(u, v);
-    const double sine = std::sqrt(dot(n, n));
-    return sine > 0 ? dot(u, v) / sine : HUGE_VAL;
-}
-
 /// Whether an edge is better turned: the angles that face it are more than a straight one together, and nothing folds.
 bool should_flip(const EdgeMesh& mesh, std::uint32_t h) {
     const std::uint32_t g = mesh.twins[h];

@@ -111,7 +111,7 @@ bool LinePlan::force(std::uint32_t vertex) {
 
 bool LinePlan::keep(std::uint32_t line) { return !std::exchange(lines_[line].kept, true); }
 
-bool LinePlan::sample(std::uint32_t line, const VertexSizes& sizes, double max_distance) {
+bool LinePlan::sample(std::uint32_t line, const VertexSizes& sizes, double max_distance, const Pattern* pattern) {
     Plan& plan = lines_[line];
     const auto& vertices = brep_.lines[line].vertices;
     std::vector<LineSample> samples;
@@ -127,7 +127,8 @@ bool LinePlan::sample(std::uint32_t line, const VertexSizes& sizes, double max_d
         rules.max_distance = max_distance;
         rules.fewest = plan.fewest;
         rules.stays = plan.forced;
-        samples = sample_line(plan.points, {own, most, sizes.growth, sizes.limit}, rules);
+        const VertexSizes at{own, most, sizes.growth, sizes.limit};
+        samples = pattern != nullptr ? pattern->on_line(line, plan.points, rules) : sample_line(plan.points, at, rules);
     }
     if (std::ranges::equal(samples, plan.samples, {}, {}, &Named::sample)) return false;
     for (const VertexId v : vertices) {

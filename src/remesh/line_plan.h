@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/brep.h"
-#include "remesh/sample_line.h"
+#include "remesh/pattern.h"
 
 namespace geomend::remeshing {
 
@@ -49,8 +49,9 @@ public:
     bool keep(std::uint32_t line);
     bool kept(std::uint32_t line) const { return lines_[line].kept; }
 
-    /// Samples a line anew. \param sizes of the model's vertices \return whether anything changed
-    bool sample(std::uint32_t line, const VertexSizes& sizes, double max_distance);
+    /// Samples a line anew. \param sizes of the model's vertices \param pattern takes the place of them where it is given
+    /// \return whether anything changed
+    bool sample(std::uint32_t line, const VertexSizes& sizes, double max_distance, const Pattern* pattern = nullptr);
     /// Lowers the sizes at the vertices of a line to those of its new edges.
     void limit(std::uint32_t line, double least, std::span<double> sizes) const;
 

@@ -137,6 +137,7 @@ Result<void> Rounds::check_number() {
 }
 
 void Rounds::plan_lines() {
+    if (options_.pattern != nullptr) return;  // sizes are lowered only where it does not follow the surfaces
     grade(brep_, options_.growth, sizes_);
     for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) lines_.sample(l, vertex_sizes(), allowed_);
     limit_by_width(brep_, lines_, options_.size / 8, sizes_);
@@ -149,7 +150,7 @@ void Rounds::sample_lines() {
     for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) {
         if (line_is_due_[l] == 0) continue;
         line_is_due_[l] = 0;
-        if (lines_.sample(l, vertex_sizes(), allowed_)) changed[l] = 1;
+        if (lines_.sample(l, vertex_sizes(), allowed_, options_.pattern)) changed[l] = 1;
     }
     for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) {
         for (const auto& use : brep_.surfaces[s].lines) {
@@ -168,7 +169,8 @@ void Rounds::remesh_surfaces() {
         const std::uint32_t s = due[i];
         if (stopped()) return;
         surfaces_[s] = is_kept_[s] != 0 ? surface_as_it_was(brep_, s)
-                                        : remeshed_surface(brep_, s, lines_, vertex_sizes(), {allowed_, bridges_[s], options_.monitor});
+                                        : remeshed_surface(brep_, s, lines_, vertex_sizes(),
+                                                           {allowed_, options_.pattern, options_.size, bridges_[s], options_.monitor});
     });
 }
 
@@ -205,7 +207,7 @@ void Rounds::lower_around(std::uint32_t surface, std::uint32_t triangle, std::ve
 }
 
 void Rounds::take_sizes(std::vector<double> lowered) {
-    grade(brep_, options_.growth, lowered);
+    if (options_.pattern == nullptr) grade(brep_, options_.growth, lowered);
     const auto is_less = [&](VertexId v) { return lowered[v.value] < 0.9 * sizes_[v.value]; };
     for (std::uint32_t l = 0; l < brep_.lines.size(); ++l) {
         if (std::ranges::any_of(brep_.lines[l].vertices, is_less)) line_is_due_[l] = 1;

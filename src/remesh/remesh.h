@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "model/brep.h"
 #include "model/loss.h"
+#include "remesh/pattern.h"
 #include "remesh/size_rules.h"
 #include "remesh/triangle_quality.h"
 
@@ -20,7 +21,8 @@ struct RemeshOptions {
     std::vector<std::pair<std::string, double>> size_of;  ///< of interfaces or surfaces by name
     std::vector<SizeRule> size_by;                        ///< distances, curvature, properties
     double growth = 0.3;                                  ///< sizes grow by no more than this share of the way
-    double max_distance = 0;  ///< between new and old surfaces; 0: a tenth of the size, 1/200 of the model at most
+    double max_distance = 0;           ///< between new and old surfaces; 0: a tenth of the size, 1/200 of the model at most
+    const Pattern* pattern = nullptr;  ///< where new vertices lie, in place of even spacing by sizes
     std::uint64_t most_triangles = 20'000'000;
     const Monitor* monitor = nullptr;
 };

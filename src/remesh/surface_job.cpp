@@ -265,7 +265,8 @@ NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePla
     if (std::string why = fit_lines(*reference, lines, work, nodes, made.stuck); !why.empty()) return keep(std::move(why));
     work.most_triangles = most_triangles(*reference, work);
     work.monitor = rules.monitor;
-    remesh_isotropic(work, {});
+    if (rules.pattern != nullptr) remesh_to_pattern(work, *rules.pattern, s, rules.size);
+    else remesh_isotropic(work, {});
     if (work.stopped()) return keep("stopped");
     if (work.mesh.triangle_count() >= work.most_triangles)
         return keep("its triangles are too narrow for the size: it would have very many");

@@ -36,6 +36,8 @@ struct NewSurface {
 
 struct SurfaceRules {
     double max_distance = 0;
+    const Pattern* pattern = nullptr;                         ///< what takes the place of even triangles, where it is given
+    double size = 0;                                          ///< below which vertices of a surface as it was stay with a pattern
     std::span<const std::array<std::uint32_t, 2>> bridges{};  ///< names of vertices between which no inner edge may run
     const Monitor* monitor = nullptr;
 };

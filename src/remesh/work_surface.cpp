@@ -42,8 +42,10 @@ WorkSurface work_surface(const EdgeMesh& reference, const VertexSizes& sizes) {
     return work;
 }
 
-std::uint32_t add_on_edge(WorkSurface& work, std::uint32_t h, const Vec3& place, const SurfacePoint& at, VertexKind kind) {
-    const std::uint32_t v = split_edge(work.mesh, h, place);
+namespace {
+
+/// States what a new vertex is.
+void describe(WorkSurface& work, std::uint32_t v, const SurfacePoint& at, VertexKind kind) {
     if (v == work.kinds.size()) {
         work.sizes.emplace_back();
         work.triangles.emplace_back();
@@ -54,6 +56,19 @@ std::uint32_t add_on_edge(WorkSurface& work, std::uint32_t h, const Vec3& place,
     work.triangles[v] = at.triangle;
     work.kinds[v] = kind;
     work.names[v] = no_index;
+}
+
+}  // namespace
+
+std::uint32_t add_on_edge(WorkSurface& work, std::uint32_t h, const Vec3& place, const SurfacePoint& at, VertexKind kind) {
+    const std::uint32_t v = split_edge(work.mesh, h, place);
+    describe(work, v, at, kind);
+    return v;
+}
+
+std::uint32_t add_in_triangle(WorkSurface& work, std::uint32_t triangle, const Vec3& place, const SurfacePoint& at, VertexKind kind) {
+    const std::uint32_t v = split_face(work.mesh, triangle, place);
+    describe(work, v, at, kind);
     return v;
 }
 
@@ -76,6 +91,12 @@ double shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 normal = cross(u, v);
     const double squares = dot(u, u) + dot(v, v) + dot(w, w);
     return squares > 0 ? 2 * std::sqrt(3.0) * std::sqrt(dot(normal, normal)) / squares : 0;
+}
+
+double cotangent(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 u = minus(a, c), v = minus(b, c), n = cross(u, v);
+    const double sine = std::sqrt(dot(n, n));
+    return sine > 0 ? dot(u, v) / sine : HUGE_VAL;
 }
 
 }  // namespace geomend::remeshing

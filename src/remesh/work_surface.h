@@ -45,6 +45,9 @@ std::uint32_t add_on_edge(WorkSurface& work, std::uint32_t h, const Vec3& place,
 /// Puts a vertex elsewhere on the reference.
 void put_at(WorkSurface& work, std::uint32_t v, const SurfacePoint& at);
 
+/// Puts a vertex inside of a triangle. \param at as of add_on_edge() \return its number
+std::uint32_t add_in_triangle(WorkSurface& work, std::uint32_t triangle, const Vec3& place, const SurfacePoint& at, VertexKind kind);
+
 /// What changes around an edge or a vertex must keep to: triangles face the same way as those that they take the place of.
 struct FoldGuard {
     Vec3 facing{};        ///< sum of the old normals, of twice the area each
@@ -56,5 +59,8 @@ struct FoldGuard {
 
 /// Shape of a triangle: 1 where it is equilateral, 0 where it has no area. It is 4 sqrt(3) area by the sum of the squares of its edges.
 double shape_of(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Cosine by sine of the angle at c.
+double cotangent(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace geomend::remeshing

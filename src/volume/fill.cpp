@@ -21,16 +21,25 @@ struct Rung {
     const char* name;
     std::string switches;
     VertexOrder order;
-    bool has_shapes = false;  ///< and sizes, as asked for
+    bool has_shapes = false;  ///< and sizes, or points, as asked for
+    bool has_points = false;
 };
 
 /// The volume of a regular tetrahedron.
 double volume_of_edge(double edge) { return edge * edge * edge / (6 * std::sqrt(2.0)); }
 
-std::vector<Rung> rungs_for(const RegionFacets& facets, const FillOptions& options) {
+std::vector<Rung> rungs_for(const RegionFacets& facets, const FillOptions& options, bool with_points) {
     const double edge = options.size > 0 ? options.size : facets.median_edge;
     const std::string most = edge > 0 ? "a" + number_text(volume_of_edge(edge)) : std::string();
     std::vector<Rung> rungs;
+    if (with_points) {
+        // O0: flat cells between those of a lattice stay, which TetGen would else remove together with the lattice's own.
+        const std::string all = options.improve ? "QpYMT1e-14" : "QpYMT1e-14O0/0", later = all + "i";
+        // Inserted later, points crash TetGen more often than when they are there from the start.
+        rungs.push_back({"tetgen pY, points from the start", all, {}, true, true});
+        rungs.push_back({"tetgen pY, points inserted", later, {}, true, true});
+        rungs.push_back({"tetgen pY, points inserted, shuffled", later, {1}, true, true});
+    }
     if (options.ratio > 0) {
         const std::string good = "QpYMT1e-14q" + number_text(options.ratio) + most;
         rungs.push_back({"tetgen pYqa", good, {}, true});
@@ -61,10 +70,13 @@ Improvement improve_proven(const RegionFacets& facets, RegionCells& region, cons
 OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, FilledRegion& report) {
     OneRegion result;
     const auto begin = std::chrono::steady_clock::now();
+    const bool with_points = static_cast<bool>(options.points);
+    const std::vector<Vec3> points = with_points ? options.points(facets) : std::vector<Vec3>();
     std::string too_slow;  // the switches of a try that ran out of time: another order of vertices takes no less
-    for (const Rung& rung : rungs_for(facets, options)) {
+    for (const Rung& rung : rungs_for(facets, options, with_points)) {
         if (rung.switches == too_slow) continue;
-        auto all = tetrahedra_of(facets, rung.switches, rung.order, options.limits, options.monitor);
+        const std::span<const Vec3> inside = rung.has_points ? points : std::span<const Vec3>();
+        auto all = tetrahedra_of(facets, inside, rung.switches, rung.order, options.limits, options.monitor);
         if (!all && all.why().kind == FailureKind::cancelled) {
             result.stopped = all.why();
             return result;
@@ -79,7 +91,7 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
             continue;
         }
         report.rung = rung.name;
-        report.as_asked = rung.has_shapes || !(options.ratio > 0);
+        report.as_asked = rung.has_shapes || (!(options.ratio > 0) && !with_points);
         result.cells = std::move(*cells);
         break;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,10 @@ struct FillOptions {
     double size = 0;      ///< edges of cells inside, as far as surfaces allow; 0: the median edge of the triangles around each region
     double ratio = 1.4;   ///< most radius of the sphere around a cell by its shortest edge, as far as surfaces allow; 0: any
     bool improve = true;  ///< whether bad cells are worked on when a region is filled
-    ChildLimits limits;   ///< for each try
+    /// Vertices that a region should have inside, on no facet of it, and no others but what is needed: shapes and sizes are theirs.
+    /// Where cells are not improved, flat ones between points of a lattice stay.
+    std::function<std::vector<Vec3>(const RegionFacets&)> points;
+    ChildLimits limits;  ///< for each try
     const Monitor* monitor = nullptr;
 };
 

@@ -20,7 +20,7 @@ Result<SurfacePoints> wanted_points(const RegionFacets& facets, const FillOption
     constexpr std::array tries = {Try{"QpYMT1e-14", 0}, Try{"QpYMT1e-14", 1}, Try{"QpYMT1e-14", 2},
                                   Try{"QpMT1e-14", 0},  Try{"QpMT1e-14", 1},  Try{"QpMT1e-14", 2}};
     for (const Try& one : tries) {
-        auto all = tetrahedra_of(facets, one.switches, {one.shuffle}, options.limits, options.monitor);
+        auto all = tetrahedra_of(facets, {}, one.switches, {one.shuffle}, options.limits, options.monitor);
         if (!all && all.why().kind == FailureKind::cancelled) return std::move(all).why();
         if (!all) continue;
         SurfacePoints points = points_on_facets(facets, *all);

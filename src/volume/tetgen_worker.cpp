@@ -16,13 +16,16 @@ namespace geomend::volumes {
 
 namespace {
 
-void fill_input(const WorkerFacets& facets, tetgenio& in) {
+void take_points(std::span<const Vec3> points, tetgenio& in) {
     in.firstnumber = 0;
-    in.numberofpoints = static_cast<int>(facets.positions.size());
-    in.pointlist = new REAL[3 * facets.positions.size()];
-    for (std::size_t i = 0; i < facets.positions.size(); ++i) {
-        for (std::size_t k = 0; k < 3; ++k) in.pointlist[3 * i + k] = facets.positions[i][k];
+    in.numberofpoints = static_cast<int>(points.size());
+    in.pointlist = new REAL[3 * points.size()];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) in.pointlist[3 * i + k] = points[i][k];
     }
+}
+
+void fill_input(const WorkerFacets& facets, tetgenio& in) {
     in.numberoffacets = static_cast<int>(facets.triangles.size());
     in.facetlist = new tetgenio::facet[facets.triangles.size()];
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
@@ -93,9 +96,13 @@ int tetrahedra_worker(const std::vector<std::string>& arguments) {
         tetgenbehavior behaviour;
         std::string switches = arguments[0];
         if (!behaviour.parse_commandline(switches.data())) return 1;
-        tetgenio in, out;
+        tetgenio in, added, out;
         fill_input(*facets, in);
-        ::tetrahedralize(&behaviour, &in, &out);
+        std::vector<Vec3> points = facets->positions;
+        if (behaviour.insertaddpoints != 0) take_points(facets->points, added);
+        else points.insert(points.end(), facets->points.begin(), facets->points.end());
+        take_points(points, in);
+        ::tetrahedralize(&behaviour, &in, &out, behaviour.insertaddpoints != 0 ? &added : nullptr);
         return write_whole(result, worker_answer(taken(out, facets->positions.size()))) ? 0 : 1;
     } catch (int number) {
         std::fprintf(stderr, "\n%s", reason(number));

@@ -4,6 +4,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -53,6 +55,19 @@ std::vector<std::uint32_t> ordered(std::size_t count, VertexOrder order) {
     return vertices;
 }
 
+/// A point near others, of so few digits that differences to it are exact: near the origin TetGen's lengths keep their digits, and what
+/// it finds to be the right way out is so in map coordinates, too, however flat.
+Vec3 round_origin(std::span<const Vec3> points) {
+    Vec3 origin{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto by_axis = [k](const Vec3& p, const Vec3& q) { return p[k] < q[k]; };
+        const double low = (*std::ranges::min_element(points, by_axis))[k], high = (*std::ranges::max_element(points, by_axis))[k];
+        const double unit = high > low ? std::exp2(std::ceil(std::log2(high - low))) : 0;
+        origin[k] = unit > 0 ? unit * std::round((low + high) / 2 / unit) : low;
+    }
+    return origin;
+}
+
 std::string last_line(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     return text.substr(text.rfind('\n') + 1);
@@ -77,10 +92,9 @@ Failure failure_of(const WorkerEnd& end, const ChildLimits& limits) {
 
 }  // namespace
 
-Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const std::string& switches, VertexOrder order, const ChildLimits& limits,
-                                 const Monitor* monitor) {
-    // Near the origin TetGen's lengths keep their digits.
-    const Vec3 origin = facets.positions.front();
+Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, std::span<const Vec3> points, const std::string& switches, VertexOrder order,
+                                 const ChildLimits& limits, const Monitor* monitor) {
+    const Vec3 origin = round_origin(facets.positions);
     const auto vertices = ordered(facets.positions.size(), order);
     std::vector<Vec3> positions;
     std::vector<std::uint32_t> number(vertices.size());
@@ -90,7 +104,9 @@ Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const std::string& 
     }
     std::vector<Triangle> triangles = facets.triangles;
     for (Triangle& t : triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
-    const MemoryFile file(worker_question(positions, triangles));
+    std::vector<Vec3> more(points.begin(), points.end());
+    for (Vec3& p : more) p = minus(p, origin);
+    const MemoryFile file(worker_question(positions, triangles, more));
     if (!file.ok()) return failure(FailureKind::limit, "F023", {}, "not enough memory for what TetGen is to fill");
     WorkerJob job;
     job.command = limits.program.empty() ? std::vector<std::string>{this_program()} : limits.program;

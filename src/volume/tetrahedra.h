@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,11 +32,12 @@ struct VertexOrder {
 };
 
 /// All tetrahedra that TetGen makes of the facets, outside of the region too where facets close there. `switches` as of tetgen(1);
-/// with Y facets stay as they are.
+/// with Y facets stay as they are. \param points vertices besides those of the facets, inside of the region or outside, on no facet;
+/// their numbers, where cells use them, follow those of the facets' vertices. With the switch i they are inserted when the facets are in.
 /// Failure (limit) where the child ran out of time (F023), crashed, ran out of memory or gave up (F026); the message says which. Cost: that
 /// of a process.
-Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const std::string& switches, VertexOrder order, const ChildLimits& limits,
-                                 const Monitor* monitor);
+Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, std::span<const Vec3> points, const std::string& switches, VertexOrder order,
+                                 const ChildLimits& limits, const Monitor* monitor);
 
 /// The first argument of a child process, by which main() knows it.
 inline constexpr const char* worker_word = "--tetrahedra-worker";

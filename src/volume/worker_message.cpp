@@ -50,11 +50,25 @@ bool are_below(std::span<const Second> all, std::size_t count) {
 
 }  // namespace
 
-std::string worker_question(std::span<const Vec3> positions, std::span<const Triangle> triangles) { return message(positions, triangles); }
+std::string worker_question(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::span<const Vec3> points) {
+    std::vector<Vec3> all(positions.begin(), positions.end());
+    all.insert(all.end(), points.begin(), points.end());
+    const std::uint64_t known = positions.size();
+    std::string bytes(sizeof known, '\0');
+    std::memcpy(bytes.data(), &known, sizeof known);
+    return bytes + message<Triangle>(all, triangles);
+}
 
 std::optional<WorkerFacets> worker_facets(std::string_view bytes) {
     WorkerFacets facets;
-    if (!parts(bytes, facets.positions, facets.triangles)) return std::nullopt;
+    std::uint64_t known = 0;
+    if (bytes.size() < sizeof known) return std::nullopt;
+    std::memcpy(&known, bytes.data(), sizeof known);
+    bytes.remove_prefix(sizeof known);
+    if (!parts(bytes, facets.positions, facets.triangles) || known > facets.positions.size()) return std::nullopt;
+    facets.points.assign(facets.positions.begin() + static_cast<std::ptrdiff_t>(known), facets.positions.end());
+    facets.positions.resize(known);
+    if (!are_finite(facets.points)) return std::nullopt;
     if (!are_finite(facets.positions) || !are_below<Triangle>(facets.triangles, facets.positions.size())) return std::nullopt;
     return facets;
 }

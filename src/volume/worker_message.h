@@ -18,9 +18,10 @@ namespace geomend::volumes {
 struct WorkerFacets {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
+    std::vector<Vec3> points;  ///< that are to be vertices of cells, too
 };
 
-std::string worker_question(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+std::string worker_question(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::span<const Vec3> points);
 /// Nothing where sizes or vertex numbers do not fit.
 std::optional<WorkerFacets> worker_facets(std::string_view bytes);
 

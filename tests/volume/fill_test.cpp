@@ -134,6 +134,26 @@ TEST(Fill, ASmallerSizeMakesMoreCells) {
     EXPECT_EQ(fill_regions(model, options())->regions[0].rung, "tetgen pYqa");
 }
 
+TEST(Fill, PointsThatAreAskedForAreVerticesOfCells) {
+    std::vector<Vec3> asked;
+    for (int i = 1; i < 8; ++i) {
+        for (int j = 1; j < 8; ++j) {
+            for (int k = 1; k < 8; ++k) asked.push_back({1.25 * i + 1e-5 * (i * j % 3), 1.25 * j + 1e-5 * (j * k % 5), 1.25 * k});
+        }
+    }
+    FillOptions o = options();
+    o.improve = false;
+    o.points = [&](const RegionFacets&) { return asked; };
+    const auto filled = fill_regions(model_of({fine_cube(8)}), o);
+    ASSERT_TRUE(filled && filled->regions[0].filled());
+    EXPECT_TRUE(filled->regions[0].as_asked);
+    EXPECT_GE(filled->regions[0].new_vertices, asked.size());
+    EXPECT_NEAR(filled->regions[0].volume, 1000, 1e-6);
+    std::set<Vec3> vertices;
+    for (const Vec3& p : filled->brep.vertices) vertices.insert(p);
+    EXPECT_TRUE(std::ranges::all_of(asked, [&](const Vec3& p) { return vertices.contains(p); }));
+}
+
 TEST(Fill, AFaultThatEndsInsideIsAFaceOfCellsOnBothSides) {
     Surface box = named("box", FeatureRole::boundary), fault = named("fault", FeatureRole::fault);
     add_box(box, {0, 0, 0}, {10, 10, 10});

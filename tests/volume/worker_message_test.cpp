@@ -38,12 +38,14 @@ RC_GTEST_PROP(WorkerMessage, DamagedAnswersAreRefusedOrInRange, ()) {
 TEST(WorkerMessage, QuestionsAreReadAsTheyWereAsked) {
     const std::vector<Vec3> positions = {{0, 0, 0}, {1e9 + 0.1, 0, 0}, {0, 1, -1e-300}};
     const std::vector<Triangle> triangles = {{0, 1, 2}};
-    const auto read = worker_facets(worker_question(positions, triangles));
+    const std::vector<Vec3> points = {{4, 5, 6}};
+    const auto read = worker_facets(worker_question(positions, triangles, points));
     ASSERT_TRUE(read.has_value());
+    EXPECT_EQ(read->points, points);
     EXPECT_EQ(read->positions, positions);
     EXPECT_EQ(read->triangles, triangles);
     const std::vector<Triangle> beyond = {{0, 1, 3}};
-    EXPECT_FALSE(worker_facets(worker_question(positions, beyond)).has_value());
+    EXPECT_FALSE(worker_facets(worker_question(positions, beyond, points)).has_value());
 }
 
 }  // namespace
