@@ -20,7 +20,7 @@ namespace {
 
 struct MeshOptions : CommonOptions {
     std::vector<std::string> inputs;
-    std::string output, split = "none", method = "keep", cells = "tet";
+    std::string output, split = "none", method, cells = "tet";
     double size = 0, ratio = 1.4, seconds = 120, megabytes = 0, max_distance = 0;
     SizeArguments sizes;
     bool lossy = false, recombine = false;
@@ -76,15 +76,17 @@ ExitStatus run(const MeshOptions& o) {
     auto options = format_options(o.options);
     if (!options) return report(options.why());
     if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
-    if (o.method == "isotropic" && !(o.size > 0))
+    const bool hexes = o.recombine || o.cells != "tet";
+    const std::string method = !o.method.empty() ? o.method : hexes && !o.recombine ? "lattice" : "keep";
+    if (method == "isotropic" && !(o.size > 0))
         return report(failure(FailureKind::usage, "F018", {}, "--method isotropic needs --size, the length that edges should have"));
-    if (o.method == "keep" && o.max_distance > 0)
-        return report(failure(FailureKind::usage, "F018", {}, "--max-distance is for --method isotropic: surfaces are kept as they are"));
-    if (o.recombine && (o.method != "keep" || o.size > 0))
+    if (method == "keep" && o.max_distance > 0)
+        return report(failure(FailureKind::usage, "F018", {}, "--max-distance is for new triangles: surfaces are kept as they are"));
+    if (o.recombine && (method != "keep" || o.size > 0))
         return report(
             failure(FailureKind::usage, "F018", {}, "--recombine takes the tetrahedra as they are: --size and --method do not go with it"));
-    if (o.method == "keep" && !(o.sizes.size_of.empty() && o.sizes.size_by.empty()))
-        return report(failure(FailureKind::usage, "F018", {}, "--size-of and --size-by are for --method isotropic: surfaces are kept"));
+    if (method != "isotropic" && !(o.sizes.size_of.empty() && o.sizes.size_by.empty()))
+        return report(failure(FailureKind::usage, "F018", {}, "--size-of and --size-by are for --method isotropic"));
     remeshing::RemeshOptions sizes;
     if (auto taken = take_sizes(o.sizes, sizes); !taken) return report(taken.why());
     const ThreadBudget budget(o.threads);
@@ -100,15 +102,18 @@ ExitStatus run(const MeshOptions& o) {
     request.fill.limits.seconds = o.seconds;
     request.fill.limits.memory_bytes = o.megabytes > 0 && o.megabytes < 1e12 ? static_cast<std::uint64_t>(o.megabytes * 1e6) : 0;
     request.fill.monitor = &monitor;
-    if (o.method == "isotropic") {
+    request.on_lattice = method == "lattice" || (hexes && !o.recombine);
+    request.remesh_on_lattice = method == "lattice";
+    if (method != "keep") {
         request.remesh.emplace(std::move(sizes));
         request.remesh->size = o.size;
         request.remesh->max_distance = o.max_distance;
         request.remesh->monitor = &monitor;
     }
     request.fills = !o.recombine;
-    if (o.recombine || o.cells == "hex-dominant") {
+    if (hexes) {
         request.recombine.emplace();
+        request.recombine->thin_only = o.cells == "hybrid";
         request.recombine->monitor = &monitor;
     }
     const auto made = mesh(request);
@@ -142,14 +147,16 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
         ->type_name("L")
         ->check(is_positive_length());
     command
-        ->add_option("--method", o->method,
-                     "What becomes of surfaces: keep (default) leaves them as they are; isotropic gives them new triangles of --size first")
+        ->add_option(
+            "--method", o->method,
+            "What becomes of surfaces: keep (default) leaves them as they are; isotropic gives them new triangles of --size first; "
+            "lattice (default for hex-dominant) makes halves of squares of them that agree with cells inside")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"keep", "isotropic"}));
+        ->check(CLI::IsMember({"keep", "isotropic", "lattice"}));
     command
         ->add_option("--max-distance", o->max_distance,
-                     "Largest distance between new and old surfaces with --method isotropic (default: a tenth of the size, 1/200 of the "
-                     "model at most)")
+                     "Largest distance between new and old surfaces with --method isotropic or lattice (default: a tenth of the size, "
+                     "1/200 of the model at most)")
         ->type_name("L")
         ->check(is_positive_length());
     add_size_options(*command, o->sizes);
@@ -158,9 +165,10 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
         ->check(is_length());
     command
         ->add_option("--cells", o->cells,
-                     "Cells that are wanted: tet (default), or hex-dominant: hexahedra where tetrahedra make some, and prisms and pyramids")
+                     "Cells that are wanted: tet (default); hex-dominant: hexahedra where tetrahedra make some, and prisms and pyramids; "
+                     "hybrid: prisms and pyramids in parts that are thin for their size")
         ->type_name("CELLS")
-        ->check(CLI::IsMember({"tet", "hex-dominant"}));
+        ->check(CLI::IsMember({"tet", "hex-dominant", "hybrid"}));
     command->add_flag("--recombine", o->recombine, "Fill nothing: make hexahedra of the tetrahedra of the inputs");
     command->add_option("--split", o->split, "Double the points along surfaces: none (default), faults, all, or names between commas")
         ->type_name("WHICH");

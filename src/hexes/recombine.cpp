@@ -88,10 +88,12 @@ Result<VolumeMesh> recombine(const VolumeMesh& mesh, const RecombineOptions& opt
     if (tets.tets.empty()) return failure(FailureKind::cannot_hold, "F021", {}, "there are no tetrahedra to make hexahedra of");
     report.tetrahedra = tets.tets.size();
     const QuadTable quads(tets, options.least_quality);
-    const Candidates hexahedra = find_hexahedra(tets, quads, {options.least_quality, {}, options.monitor});
+    const SearchOptions search{options.least_quality, {}, options.monitor};
+    const Candidates hexahedra = options.thin_only ? thin_cells(tets, quads, search, report.thin) : find_hexahedra(tets, quads, search);
     report.candidates = hexahedra.size();
     const Conflicts conflicts(hexahedra, tets.tets.size());
     std::vector<double> weights = hexahedra.quality;
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] += hexahedra.types[i] == CellType::wedge ? 1 : 0;
     auto made = assemble(mesh, tets, closed(tets, conflicts, weights, options, report));
     if (made) measure(*made, report);
     return made;

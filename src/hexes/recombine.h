@@ -10,11 +10,13 @@
 #include "base/result.h"
 #include "hexes/closing.h"
 #include "hexes/selection.h"
+#include "hexes/thin_cells.h"
 #include "model/volume_mesh.h"
 
 namespace geomend::hexes {
 
 struct RecombineOptions {
+    bool thin_only = false;      ///< prisms and pyramids in parts that are thin for their size, and nothing else: see thin_cells()
     double least_quality = 0.3;  ///< scaled Jacobian of every hexahedron; also of prisms
     Closing closing = Closing::open;
     const Monitor* monitor = nullptr;
@@ -33,6 +35,7 @@ struct RecombineReport {
     std::uint64_t candidates = 0;  ///< hexahedra
     std::uint64_t selected = 0;    ///< of them
     ClosingCounts closing;
+    ThinCounts thin;                                     ///< where only thin parts were asked for
     std::vector<TypeShare> shares;                       ///< by region, then type
     double least_jacobian = 1;                           ///< scaled, of hexahedra
     std::array<std::uint64_t, 10> jacobian_by_tenths{};  ///< how many hexahedra

@@ -6,6 +6,8 @@
 
 #include "base/wording.h"
 #include "exchange/model_from_brep.h"
+#include "hexes/lattice.h"
+#include "hexes/sampling.h"
 #include "pipeline/command_options.h"
 #include "pipeline/json_parts.h"
 #include "pipeline/recombine_cells.h"
@@ -90,12 +92,19 @@ void list_face_sets(const BrepData& brep, MeshReport& report) {
     }
 }
 
-/// New triangles for the surfaces that bound regions.
-Result<void> remesh_before(Dataset& dataset, const Format& target, const MeshRequest& request, MeshReport& report) {
+/// New triangles for the surfaces that bound regions. \param lattices on which their vertices lie, or none
+Result<void> remesh_before(Dataset& dataset, const Format& target, const MeshRequest& request, const hexes::RegionLattices* lattices,
+                           MeshReport& report) {
     RemeshRequest first;
     first.files = request.files;
     first.checks = request.checks;
     first.remesh = *request.remesh;
+    std::optional<remeshing::Pattern> pattern;
+    if (lattices != nullptr && request.remesh_on_lattice) {
+        pattern = hexes::lattice_pattern(*lattices);
+        first.remesh.pattern = &*pattern;
+        if (!(first.remesh.size > 0)) first.remesh.size = lattices->common.least_step();
+    }
     return remesh(dataset, target, first, report.remeshed.emplace());
 }
 
@@ -124,12 +133,25 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& req
     if (!errors) return std::move(errors).why();
     report.errors = std::move(*errors);
     if (!report.errors.empty()) return cannot_fill(request.files.inputs.front(), "the model has errors");
+    std::optional<hexes::RegionLattices> lattices;
+    if (request.on_lattice) {
+        auto model = model_to_fill(dataset, request);
+        if (!model) return std::move(model).why();
+        auto facets = volumes::facets_of_regions(*model);
+        if (!facets) return std::move(facets).why();
+        lattices = hexes::region_lattices(*model->brep, *facets, hexes::lattice_of(*model->brep, request.fill.size));
+    }
     if (request.remesh) {
-        if (auto remeshed = remesh_before(dataset, target, request, report); !remeshed) return remeshed;
+        if (auto remeshed = remesh_before(dataset, target, request, lattices ? &*lattices : nullptr, report); !remeshed) return remeshed;
     }
     auto model = model_to_fill(dataset, request);
     if (!model) return std::move(model).why();
-    auto filled = volumes::fill_dividing_surfaces(*model->brep, model->found, request.fill);
+    volumes::FillOptions how = request.fill;
+    if (lattices) {
+        how.points = [&](const volumes::RegionFacets& facets) { return hexes::points_inside(facets, lattices->at(facets.region)); };
+        how.improve = request.recombine && request.recombine->thin_only;  // else it would move points off their lattice
+    }
+    auto filled = volumes::fill_dividing_surfaces(*model->brep, model->found, how);
     if (!filled) return std::move(filled).why();
     report.regions = std::move(filled->regions);
     report.surface_vertices = filled->surface_vertices;

@@ -19,8 +19,10 @@ struct MeshRequest {
     ConvertRequest files;
     validators::CheckOptions checks;  ///< by which the model is judged before it is filled
     volumes::FillOptions fill;
-    std::string split = "none";                        ///< along which surfaces, see split_mesh()
-    std::optional<remeshing::RemeshOptions> remesh;    ///< new triangles before regions are filled
+    std::string split = "none";                      ///< along which surfaces, see split_mesh()
+    std::optional<remeshing::RemeshOptions> remesh;  ///< new triangles before regions are filled
+    /// Vertices inside of regions, and those of new triangles if there are any, are points of a lattice with the size of cells.
+    bool on_lattice = false, remesh_on_lattice = false;
     std::optional<hexes::RecombineOptions> recombine;  ///< hexahedra of the tetrahedra
     bool fills = true;                                 ///< false: the tetrahedra that are recombined are those of the inputs
 };

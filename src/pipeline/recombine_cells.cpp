@@ -51,9 +51,14 @@ Result<VolumeMesh> recombine_cells(Dataset& dataset, const hexes::RecombineOptio
 }
 
 Json recombined_json(const hexes::RecombineReport& report) {
-    return {{"tetrahedra", report.tetrahedra}, {"candidates", report.candidates},     {"selected", report.selected},
-            {"quads", report.closing.quads},   {"absorbed", report.closing.absorbed}, {"pyramids", report.closing.pyramids},
-            {"opened", report.closing.opened}, {"split", report.closing.split},       {"folded", report.folded}};
+    const hexes::ThinCounts& t = report.thin;
+    Json thin{{"triangles", t.triangles}, {"prisms", t.prisms},       {"pyramids", t.pyramids},   {"tetrahedra", t.tetrahedra},
+              {"ignored", t.ignored},     {"undefined", t.undefined}, {"unmatched", t.unmatched}, {"invalid", t.invalid}};
+    Json all{{"tetrahedra", report.tetrahedra}, {"candidates", report.candidates},     {"selected", report.selected},
+             {"quads", report.closing.quads},   {"absorbed", report.closing.absorbed}, {"pyramids", report.closing.pyramids},
+             {"opened", report.closing.opened}, {"split", report.closing.split},       {"folded", report.folded}};
+    if (t.triangles > 0) all["thin"] = std::move(thin);
+    return all;
 }
 
 Json shares_json(const hexes::RecombineReport& report) {
@@ -76,6 +81,12 @@ std::string recombined_text(const hexes::RecombineReport& report) {
     }
     if (report.count_of(CellType::hexahedron) > 0)
         text += "  least scaled Jacobian of a hexahedron " + rounded(report.least_jacobian) + '\n';
+    const hexes::ThinCounts& t = report.thin;
+    if (t.triangles > 0)
+        text += "  thin parts: of " + counted(t.triangles, "side", "sides") + " of triangles " + std::to_string(t.prisms) +
+                " are of prisms, " + std::to_string(t.pyramids) + " of pyramids, " + std::to_string(t.tetrahedra) +
+                " of tetrahedra; filled by tetrahedra: " + std::to_string(t.undefined) + " without counterpart, " +
+                std::to_string(t.unmatched) + " not matched, " + std::to_string(t.invalid) + " invalid\n";
     return text;
 }
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hexes/layers.h"
+#include "model/brep.h"
+#include "volume/region_facets.h"
+
+namespace geomend::hexes {
+
+/// Points at even steps along three directions at right angles; in regions between a base and a top as many along the third one in each
+/// column, whatever its height.
+struct Lattice {
+    Vec3 origin{};
+    std::array<Vec3, 3> axes{};            ///< of length 1
+    Vec3 steps{};                          ///< above 0; with layers their height for the third
+    std::shared_ptr<const Layers> layers;  ///< none: even steps
+    double base_step = 0;                  ///< with layers the step in which they are given
+
+    /// In steps along the axes from the origin, and layers.
+    Vec3 coordinates(const Vec3& p) const;
+    Vec3 place(const Vec3& coordinates) const;
+    double least_step() const;
+};
+
+/// The directions at right angles that the normals of a model's surfaces follow best: those of a box's sides, however it is turned.
+/// They are named so that they are close to x, y and z. Cost: linear in triangles.
+std::array<Vec3, 3> main_axes(const BrepData& brep);
+
+/// The lattice along the main axes that parts the model's extent along each of them into equal steps near `size`.
+/// \param size 0: the median edge of the triangles, by area
+Lattice lattice_of(const BrepData& brep, double size);
+
+/// The lattice of a region: with layer coordinates where it has a base and a top all over, else the one given. Cost: as of points_inside().
+Lattice lattice_of_region(const volumes::RegionFacets& facets, const Lattice& lattice);
+
+/// Those points of a lattice that lie in a region and no nearer to its facets than `clear` of the least step, in the order of their
+/// coordinates. They are moved by a ten-millionth of a step, so that no eight of them lie on a sphere.
+/// Cost: n log n in facets and points.
+std::vector<Vec3> points_inside(const volumes::RegionFacets& facets, const Lattice& lattice, double clear = 0.4999);
+
+}  // namespace geomend::hexes

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "hexes/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "base/parallel.h"
+#include "base/vectors.h"
+
+namespace geomend::hexes {
+
+namespace {
+
+using remeshing::EdgeMesh;
+using remeshing::LineRules;
+using remeshing::LineSample;
+using remeshing::SurfacePoint;
+
+constexpr double clear = 0.4999;  // of the least step, from borders
+constexpr double apart = 0.45;    // of it, between points
+
+double length_of(const Vec3& d) { return std::sqrt(dot(d, d)); }
+
+std::size_t greatest(const Vec3& v) { return static_cast<std::size_t>(std::ranges::max_element(v) - v.begin()); }
+
+/// Whole numbers from a to b, in that order, without the ends.
+template <class Visit>
+void visit_between(double a, double b, const Visit& visit) {
+    if (a < b) {
+        for (double k = std::floor(a) + 1; k < b; ++k) visit(k);
+    } else {
+        for (double k = std::ceil(a) - 1; k > b; --k) visit(k);
+    }
+}
+
+/// A polyline with its way from the first point.
+class Polyline {
+public:
+    explicit Polyline(std::span<const Vec3> points) : points_(points), way_(points.size(), 0) {
+        for (std::size_t i = 1; i < points.size(); ++i) way_[i] = way_[i - 1] + length_of(minus(points[i], points[i - 1]));
+    }
+    double way(const LineSample& s) const {
+        return s.share == 0 ? way_[s.segment] : way_[s.segment] + s.share * (way_[s.segment + 1] - way_[s.segment]);
+    }
+    LineSample at(double way) const {
+        auto i = static_cast<std::size_t>(std::ranges::upper_bound(way_, way) - way_.begin());
+        i = std::clamp<std::size_t>(i, 1, points_.size() - 1) - 1;
+        const double length = way_[i + 1] - way_[i];
+        const double share = length > 0 ? (way - way_[i]) / length : 0;
+        return share >= 1 ? LineSample{static_cast<std::uint32_t>(i + 1), 0}
+                          : LineSample{static_cast<std::uint32_t>(i), std::max(share, 0.0)};
+    }
+    std::size_t size() const { return points_.size(); }
+
+private:
+    std::span<const Vec3> points_;
+    std::vector<double> way_;
+};
+
+/// Crossings with the planes of the lattice, in order.
+std::vector<LineSample> crossings_of(const Lattice& lattice, std::span<const Vec3> points) {
+    std::vector<Vec3> at;
+    for (const Vec3& p : points) at.push_back(lattice.coordinates(p));
+    Vec3 run{};
+    for (std::size_t i = 1; i < at.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) run[k] += std::abs(at[i][k] - at[i - 1][k]) * lattice.steps[k];
+    }
+    const std::size_t most = greatest(run);
+    std::vector<LineSample> all;
+    for (std::uint32_t i = 0; i + 1 < at.size(); ++i) {
+        Vec3 own;
+        for (std::size_t k = 0; k < 3; ++k) own[k] = std::abs(at[i + 1][k] - at[i][k]) * lattice.steps[k];
+        const double length = length_of(own);
+        const std::size_t axis = own[most] >= 0.5 * length ? most : greatest(own);
+        const double a = at[i][axis], b = at[i + 1][axis];
+        if (i > 0 && a == std::round(a)) all.push_back({i, 0});
+        visit_between(a, b, [&](double k) { all.push_back({i, (k - a) / (b - a)}); });
+    }
+    return all;
+}
+
+/// The point of a piece of the polyline that is farthest from the straight edge between two samples.
+std::pair<double, std::uint32_t> farthest(std::span<const Vec3> points, const LineSample& from, const LineSample& to) {
+    const Vec3 a = remeshing::place_of(points, from), b = remeshing::place_of(points, to), d = minus(b, a);
+    const double square = dot(d, d);
+    std::pair<double, std::uint32_t> most{0, no_index};
+    for (std::uint32_t i = from.segment + 1; i <= to.segment && i < points.size(); ++i) {
+        if (i == to.segment && to.share == 0) break;
+        const Vec3 p = minus(points[i], a);
+        const double along = square > 0 ? std::clamp(dot(p, d) / square, 0.0, 1.0) : 0;
+        const double distance = length_of(minus(p, times(along, d)));
+        if (distance > most.first) most = {distance, i};
+    }
+    return most;
+}
+
+/// Adds points of the polyline until the samples from one to another are near enough.
+void add_near(std::span<const Vec3> points, const LineSample& from, const LineSample& to, double allowed, std::vector<LineSample>& all) {
+    const auto [distance, i] = farthest(points, from, to);
+    if (distance > allowed) {
+        add_near(points, from, {i, 0}, allowed, all);
+        add_near(points, {i, 0}, to, allowed, all);
+    } else {
+        all.push_back(to);
+    }
+}
+
+/// Buckets of space in which points and edges are found.
+template <class Thing>
+class Buckets {
+public:
+    explicit Buckets(double side) : side_(side) {}
+
+    void add(const Vec3& low, const Vec3& high, const Thing& thing) {
+        visit(low, high, [&](std::vector<Thing>& bucket) { bucket.push_back(thing); });
+    }
+    const std::vector<Thing>& at(const Vec3& p) const {
+        static const std::vector<Thing> none;
+        const auto found = buckets_.find(key(number(p[0]), number(p[1]), number(p[2])));
+        return found == buckets_.end() ? none : found->second;
+    }
+
+private:
+    double side_;
+    std::unordered_map<std::uint64_t, std::vector<Thing>> buckets_;
+
+    std::int64_t number(double x) const { return static_cast<std::int64_t>(std::floor(x / side_)); }
+    static std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) {
+        constexpr std::uint64_t mask = (1u << 21) - 1;
+        return (static_cast<std::uint64_t>(i) & mask) << 42 | (static_cast<std::uint64_t>(j) & mask) << 21 |
+               (static_cast<std::uint64_t>(k) & mask);
+    }
+    template <class Visit>
+    void visit(const Vec3& low, const Vec3& high, const Visit& visit) {
+        for (std::int64_t i = number(low[0]); i <= number(high[0]); ++i) {
+            for (std::int64_t j = number(low[1]); j <= number(high[1]); ++j) {
+                for (std::int64_t k = number(low[2]); k <= number(high[2]); ++k) visit(buckets_[key(i, j, k)]);
+            }
+        }
+    }
+};
+
+/// Space that is taken by borders of a surface and by points.
+class Taken {
+public:
+    Taken(const EdgeMesh& surface, double step) : step_(step), origin_(surface.places.front()), edges_(step), points_(step) {
+        for (std::uint32_t h = 0; h < surface.corners.size(); ++h) {
+            if (surface.twins[h] != no_index) continue;
+            // Long edges in pieces, so that few buckets hold them.
+            const Vec3 a = minus(surface.places[surface.from(h)], origin_),
+                       d = minus(surface.places[surface.to(h)], surface.places[surface.from(h)]);
+            const double pieces = std::max(1.0, std::ceil(length_of(d) / step));
+            for (double k = 0; k < pieces; ++k) {
+                const Edge edge{plus(a, times(k / pieces, d)), plus(a, times((k + 1) / pieces, d))};
+                const auto [low, high] = box_of(edge.from, edge.to, clear * step);
+                edges_.add(low, high, edge);
+            }
+        }
+    }
+    void add(const Vec3& place) {
+        const Vec3 p = minus(place, origin_);
+        const auto [low, high] = box_of(p, p, apart * step_);
+        points_.add(low, high, p);
+    }
+    bool is_free(const Vec3& place) const {
+        const Vec3 p = minus(place, origin_);
+        for (const Edge& edge : edges_.at(p)) {
+            const Vec3 d = minus(edge.to, edge.from), q = minus(p, edge.from);
+            const double square = dot(d, d);
+            const double along = square > 0 ? std::clamp(dot(q, d) / square, 0.0, 1.0) : 0;
+            if (length_of(minus(q, times(along, d))) < clear * step_) return false;
+        }
+        return std::ranges::all_of(points_.at(p), [&](const Vec3& other) { return length_of(minus(p, other)) >= apart * step_; });
+    }
+
+private:
+    struct Edge {
+        Vec3 from, to;
+    };
+    double step_;
+    Vec3 origin_;
+    Buckets<Edge> edges_;
+    Buckets<Vec3> points_;
+
+    static std::pair<Vec3, Vec3> box_of(const Vec3& a, const Vec3& b, double margin) {
+        Vec3 low, high;
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(a[k], b[k]) - margin;
+            high[k] = std::max(a[k], b[k]) + margin;
+        }
+        return {low, high};
+    }
+};
+
+/// Calls visit(weights) for each line of the lattice along an axis that crosses a triangle or touches it.
+template <class Visit>
+void visit_crossings(const std::array<Vec3, 3>& at, std::size_t axis, const Visit& visit) {
+    constexpr double slack = 1e-9;
+    const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const auto low = [&](std::size_t k) { return std::ceil(std::min({at[0][k], at[1][k], at[2][k]}) - slack); };
+    const auto high = [&](std::size_t k) { return std::floor(std::max({at[0][k], at[1][k], at[2][k]}) + slack); };
+    const double whole = (at[1][a] - at[0][a]) * (at[2][b] - at[0][b]) - (at[1][b] - at[0][b]) * (at[2][a] - at[0][a]);
+    if (whole == 0) return;
+    for (double i = low(a); i <= high(a); ++i) {
+        for (double j = low(b); j <= high(b); ++j) {
+            Weights weights{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 &p = at[(k + 1) % 3], &q = at[(k + 2) % 3];
+                weights[k] = ((q[a] - p[a]) * (j - p[b]) - (q[b] - p[b]) * (i - p[a])) / whole;
+            }
+            if (std::ranges::any_of(weights, [&](double w) { return w < -slack; })) continue;
+            double sum = 0;
+            for (double& w : weights) sum += w = std::max(w, 0.0);
+            for (double& w : weights) w /= sum;
+            visit(weights);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<LineSample> lattice_line(const Lattice& lattice, std::span<const Vec3> points, const LineRules& rules) {
+    const Polyline line(points);
+    const double step = lattice.least_step();
+    std::vector<LineSample> stays;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        if (i == 0 || i + 1 == points.size() || (!rules.stays.empty() && rules.stays[i] != 0)) stays.push_back({i, 0});
+    }
+    const auto crossings = crossings_of(lattice, points);
+    std::vector<LineSample> spaced{stays.front()};
+    auto next = crossings.begin();
+    const auto part_gap = [&](const LineSample& to) {
+        const double from = line.way(spaced.back()), gap = line.way(to) - from;
+        const double parts = std::round(gap / step);
+        for (double k = 1; gap > 1.5 * step && k < parts; ++k) spaced.push_back(line.at(from + k * gap / parts));
+        spaced.push_back(to);
+    };
+    for (std::size_t s = 1; s < stays.size(); ++s) {
+        const double end = line.way(stays[s]);
+        for (; next != crossings.end() && line.way(*next) < end; ++next) {
+            const double way = line.way(*next);
+            if (way - line.way(spaced.back()) >= clear * step && end - way >= clear * step) part_gap(*next);
+        }
+        part_gap(stays[s]);
+    }
+    while (spaced.size() <= rules.fewest && line.way(spaced.back()) > 0) {  // the longest gap in two
+        std::size_t longest = 0;
+        for (std::size_t k = 1; k + 1 < spaced.size(); ++k) {
+            if (line.way(spaced[k + 1]) - line.way(spaced[k]) > line.way(spaced[longest + 1]) - line.way(spaced[longest])) longest = k;
+        }
+        const double middle = (line.way(spaced[longest]) + line.way(spaced[longest + 1])) / 2;
+        spaced.insert(spaced.begin() + static_cast<std::ptrdiff_t>(longest) + 1, line.at(middle));
+    }
+    std::vector<LineSample> all{spaced.front()};
+    for (std::size_t k = 1; k < spaced.size(); ++k) add_near(points, spaced[k - 1], spaced[k], rules.max_distance, all);
+    return all;
+}
+
+std::vector<SurfacePoint> lattice_surface(const Lattice& lattice, const EdgeMesh& surface, std::span<const Vec3> taken) {
+    std::vector<SurfacePoint> points;
+    if (surface.places.empty()) return points;
+    std::vector<Vec3> at;
+    for (const Vec3& p : surface.places) at.push_back(lattice.coordinates(p));
+    const auto corners = [&](std::uint32_t t) {
+        const std::size_t c = 3 * std::size_t{t};
+        return std::array<Vec3, 3>{at[surface.corners[c]], at[surface.corners[c + 1]], at[surface.corners[c + 2]]};
+    };
+    // Areas that triangles show along each axis.
+    const auto shown = [&](std::uint32_t t) {
+        const auto p = corners(t);
+        const Vec3 n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+        const Vec3& s = lattice.steps;
+        return Vec3{std::abs(n[0]) * s[1] * s[2], std::abs(n[1]) * s[2] * s[0], std::abs(n[2]) * s[0] * s[1]};
+    };
+    Vec3 sum{};
+    for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
+        if (const Vec3 own = shown(t); length_of(own) > 0) {
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += own[k] * own[k] / length_of(own);
+        }
+    }
+    const std::size_t most = greatest(sum);
+    Taken space(surface, lattice.least_step());
+    for (const Vec3& p : taken) space.add(p);
+    for (const bool steep : {false, true}) {
+        for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
+            const Vec3 own = shown(t);
+            if ((own[most] < 0.5 * length_of(own)) != steep) continue;
+            visit_crossings(corners(t), steep ? greatest(own) : most, [&](const Weights& weights) {
+                const SurfacePoint point = remeshing::point_at(surface, t, weights);
+                if (!space.is_free(point.place)) return;
+                space.add(point.place);
+                points.push_back(point);
+            });
+        }
+    }
+    return points;
+}
+
+RegionLattices region_lattices(const BrepData& brep, std::span<const volumes::RegionFacets> regions, const Lattice& common) {
+    RegionLattices made;
+    made.common = common;
+    made.of_region.assign(brep.regions.size(), common);
+    made.of_surface.assign(brep.surfaces.size(), no_index);
+    made.of_line.assign(brep.lines.size(), no_index);
+    parallel_for_each_index(regions.size(), [&](std::size_t r) {
+        if (regions[r].region < brep.regions.size()) made.of_region[regions[r].region] = lattice_of_region(regions[r], common);
+    });
+    for (const volumes::RegionFacets& facets : regions) {
+        if (facets.region >= brep.regions.size() || !made.of_region[facets.region].layers) continue;
+        for (const std::uint32_t s : facets.surfaces) made.of_surface[s] = std::min(made.of_surface[s], facets.region);
+    }
+    for (std::size_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (const auto& use : brep.surfaces[s].lines)
+            made.of_line[use.line.value] = std::min(made.of_line[use.line.value], made.of_surface[s]);
+    }
+    return made;
+}
+
+remeshing::Pattern lattice_pattern(const RegionLattices& lattices) {
+    remeshing::Pattern pattern;
+    pattern.on_line = [&](std::uint32_t line, std::span<const Vec3> points, const LineRules& rules) {
+        return lattice_line(lattices.at(line < lattices.of_line.size() ? lattices.of_line[line] : no_index), points, rules);
+    };
+    pattern.on_surface = [&](std::uint32_t surface, const EdgeMesh& mesh, std::span<const Vec3> taken) {
+        return lattice_surface(lattices.at(surface < lattices.of_surface.size() ? lattices.of_surface[surface] : no_index), mesh, taken);
+    };
+    pattern.is_better = [&](std::uint32_t surface, const Vec3& from, const Vec3& to) {
+        const Lattice& lattice = lattices.at(surface < lattices.of_surface.size() ? lattices.of_surface[surface] : no_index);
+        const Vec3 d = minus(lattice.coordinates(to), lattice.coordinates(from));
+        const Vec3 along{std::abs(d[0]), std::abs(d[1]), std::abs(d[2])};
+        const auto least = static_cast<std::size_t>(std::ranges::min_element(along) - along.begin());
+        return d[(least + 1) % 3] * d[(least + 2) % 3] > 0;
+    };
+    return pattern;
+}
+
+}  // namespace geomend::hexes
