@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <mutex>
 
 #include "base/number_text.h"
@@ -174,6 +175,34 @@ ExitStatus print_about(const std::string& text, const std::string& output, bool 
     if (output != "-") return print_beside(text, is_written ? output : std::string());
     std::fputs(text.c_str(), stderr);
     return ExitStatus::done;
+}
+
+namespace {
+
+// Also where one of them is not there yet.
+bool is_same_file(const std::string& a, const std::string& b) {
+    std::error_code none;
+    if (a == b || std::filesystem::equivalent(a, b, none)) return true;
+    return std::filesystem::weakly_canonical(a, none) == std::filesystem::weakly_canonical(b, none);
+}
+
+}  // namespace
+
+Result<void> keep_places_apart(const std::vector<std::string>& beside, std::vector<std::string> taken, const std::string& purpose) {
+    for (const std::string& file : beside) {
+        std::error_code none;
+        const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+        if (!folder.empty() && !std::filesystem::is_directory(folder, none))
+            return failure(FailureKind::unwritable, "F020", {file}, "there is no folder '" + folder.string() + "'");
+        if (file.empty() || (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none))) continue;
+        for (const std::string& other : taken) {
+            if (other.empty() || !is_same_file(file, other)) continue;
+            return failure(FailureKind::usage, "F018", {},
+                           file + " is named twice: as " + other + ", and for " + purpose + "; give it a name of its own");
+        }
+        taken.push_back(file);
+    }
+    return {};
 }
 
 std::optional<Failure> json_in_the_way(bool json, const std::string& output) {

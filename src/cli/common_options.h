@@ -72,6 +72,11 @@ ExitStatus print(const std::string& text);
 ExitStatus print_beside(const std::string& text, const std::string& output);
 /// What a command says of its output, which may itself go to standard output: the text goes to standard error then.
 ExitStatus print_about(const std::string& text, const std::string& output, bool is_written);
+/// Refuses what would be written over an input or over another output of the same run (F018), or into a folder that is not there (F020).
+/// Devices and pipes may be named twice; empty names are none.
+/// \param beside what is written, in its order  \param taken inputs, and outputs that are not in `beside`
+/// \param purpose what `beside` is for, as "a report"
+Result<void> keep_places_apart(const std::vector<std::string>& beside, std::vector<std::string> taken, const std::string& purpose);
 /// Refuses --json (F018) where the output goes to standard output.
 std::optional<Failure> json_in_the_way(bool json, const std::string& output);
 

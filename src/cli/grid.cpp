@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "base/number_text.h"
@@ -163,7 +165,32 @@ Result<void> write_pictures(const GridCommand& o, GridMade& made) {
     return all ? write_whole(o.page, grid_page(page)) : Result<void>();
 }
 
+/// What is written beside the grid, under names made of its own: the deck, values and includes.
+std::vector<std::string> companions_of(const GridCommand& o) {
+    if (o.output == "-") return {};
+    std::vector<std::string> names;
+    const std::filesystem::path path(o.output);
+    const auto with = [&](const std::string& ending) { return (path.parent_path() / (path.stem().string() + ending)).string(); };
+    if (std::ranges::any_of(o.options, [](const std::string& option) { return option == "deck=yes"; })) names.push_back(with(".DATA"));
+    names.push_back(with(".properties.grdecl"));
+    names.push_back(with(".include.grdecl"));
+    return names;
+}
+
+/// No file that is read or written is written over.
+Result<void> check_places(const GridCommand& o) {
+    std::vector<std::string> read = o.inputs;
+    read.insert(read.end(), o.properties_of.begin(), o.properties_of.end());
+    read.push_back(o.area);
+    read.push_back(o.pillars_of);
+    if (auto beside = keep_places_apart(companions_of(o), read, "what is written beside the grid"); !beside) return beside;
+    std::vector<std::string> taken = companions_of(o);
+    taken.insert(taken.end(), read.begin(), read.end());
+    return keep_places_apart({o.output, o.map, o.section, o.page}, std::move(taken), "the grid, a picture or a page");
+}
+
 ExitStatus run(const GridCommand& o) {
+    if (auto places = check_places(o); !places) return report(places.why());
     if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
     auto request = request_of(o);
     if (!request) return report(request.why());

@@ -134,31 +134,13 @@ Result<RepairRequest> request_of(const RepairOptions& o, const Monitor& monitor)
     return request;
 }
 
-bool is_same_file(const std::string& a, const std::string& b) {
-    std::error_code none;
-    return a == b || std::filesystem::equivalent(a, b, none);
-}
-
-// What is written beside the result must be neither an input nor the result. Devices and pipes may be named twice.
+// What is written beside the result must be neither an input nor the result.
 Result<void> check_places(const RepairOptions& o) {
-    std::vector<std::string> beside = o.reports;
-    if (!o.write_recipe.empty()) beside.push_back(o.write_recipe);
-    std::vector<std::string> taken = o.inputs;
+    std::vector<std::string> beside = o.reports, taken = o.inputs;
+    beside.push_back(o.write_recipe);
     taken.push_back(o.output);
-    if (!o.recipe.empty()) taken.push_back(o.recipe);
-    for (const std::string& file : beside) {
-        std::error_code none;
-        const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-        if (!folder.empty() && !std::filesystem::is_directory(folder, none))
-            return failure(FailureKind::unwritable, "F020", {file}, "there is no folder '" + folder.string() + "'");
-        if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) continue;
-        for (const std::string& other : taken) {
-            if (!is_same_file(file, other)) continue;
-            return failure(FailureKind::usage, "F018", {},
-                           file + " is named twice: as " + other + ", and for a report or recipe; give it a name of its own");
-        }
-    }
-    return {};
+    taken.push_back(o.recipe);
+    return keep_places_apart(beside, std::move(taken), "a report or recipe");
 }
 
 // With --report FILE.html the model is drawn before and after; with --debris what was left out is written, and what the findings

@@ -7,6 +7,7 @@
 #include <initializer_list>
 
 #include "base/number_text.h"
+#include "base/text_cursor.h"
 #include "base/wording.h"
 #include "formats/grdecl/keywords.h"
 #include "grid/cell_geometry.h"
@@ -137,13 +138,42 @@ std::string properties(const CornerPointGrid& grid) {
     return block("EQUALS", constant) + block("COPY", copied) + block("MULTIPLY", changed);
 }
 
-/// Gives active cells without a value one; how many there were comes back.
+/// How the properties of a deck are called elsewhere, in capital letters.
+struct OtherName {
+    std::string_view name, keyword;
+};
+constexpr std::array other_names{OtherName{"POROSITY", "PORO"},       OtherName{"PHI", "PORO"},   OtherName{"PHIT", "PORO"},
+                                 OtherName{"PHIE", "PORO"},           OtherName{"PERM", "PERMX"}, OtherName{"PERMEABILITY", "PERMX"},
+                                 OtherName{"PERMEABILITYX", "PERMX"}, OtherName{"KX", "PERMX"},   OtherName{"KH", "PERMX"}};
+
+/// Porosity and permeability under other names become those that the deck needs.
+void rename_needed(CornerPointGrid& grid, std::vector<std::string>& notes) {
+    for (const OtherName& other : other_names) {
+        if (has(grid, std::string(other.keyword))) continue;
+        for (Attribute& a : grid.info.attributes) {
+            if (a.location != AttributeLocation::cell || !same_word(a.name, other.name) || a.components != 1) continue;
+            notes.push_back(geomend::quoted(a.name) + " is " + std::string(other.keyword) + " in the deck");
+            a.name = other.keyword;
+            break;
+        }
+    }
+}
+
+/// Whether a simulator takes a value of a keyword.
+bool is_possible(std::string_view keyword, double value) {
+    if (keyword == "PORO" || keyword == "NTG") return value >= 0 && value <= 1;
+    if (keyword.starts_with("PERM")) return value >= 0 && value < 1e20;
+    return !keyword.starts_with("MULT") || (value >= 0 && value < 1e20);
+}
+
+/// Gives active cells without a value, or with one that cannot be, another one; how many there were comes back.
 std::uint64_t fill_missing(const CornerPointGrid& grid, double value, Attribute& a) {
     auto* values = std::get_if<std::vector<double>>(&a.values);
-    if (values == nullptr || !a.no_data) return 0;
+    if (values == nullptr) return 0;
     std::uint64_t filled = 0;
     for (std::size_t c = 0; c < values->size(); ++c) {
-        if (!grid.is_active(c) || !is_no_data(a, (*values)[c])) continue;
+        const bool is_there = !(a.no_data && is_no_data(a, (*values)[c]));
+        if (!grid.is_active(c) || (is_there && is_possible(a.name, (*values)[c]))) continue;
         (*values)[c] = value;
         ++filled;
     }
@@ -154,6 +184,19 @@ std::uint64_t fill_missing(const CornerPointGrid& grid, double value, Attribute&
 
 std::vector<std::string> fit_for_deck(CornerPointGrid& grid) {
     std::vector<std::string> notes;
+    rename_needed(grid, notes);
+    for (const char* keyword : {"NTG", "MULTX", "MULTY", "MULTZ", "MULTPV"}) {
+        for (Attribute& a : grid.info.attributes) {
+            if (a.name != keyword || a.location != AttributeLocation::cell) continue;
+            if (const std::uint64_t n = fill_missing(grid, 1, a); n > 0)
+                notes.push_back(geomend::quoted(a.name) + " has no value, or one that cannot be, in " +
+                                counted(n, "active cell", "active cells") + ": the deck has 1 there");
+        }
+    }
+    for (const NeededProperty& p : needed) {
+        if (!has(grid, p.name) && !has(grid, p.like))
+            notes.push_back("there is no " + std::string(p.name) + " among the properties: the deck has " + number_text(p.value));
+    }
     std::erase_if(grid.info.attributes, [&](const Attribute& a) {
         const auto keyword = grdecl::cell_keyword(a.name);
         if (!keyword || keyword->section != grdecl::Section::regions) return false;
@@ -164,8 +207,8 @@ std::vector<std::string> fit_for_deck(CornerPointGrid& grid) {
         for (Attribute& a : grid.info.attributes) {
             if (a.name != p.name || a.location != AttributeLocation::cell) continue;
             if (const std::uint64_t n = fill_missing(grid, p.value, a); n > 0)
-                notes.push_back(geomend::quoted(a.name) + " has no value in " + counted(n, "active cell", "active cells") +
-                                ": the deck has " + number_text(p.value) + " there");
+                notes.push_back(geomend::quoted(a.name) + " has no value, or one that cannot be, in " +
+                                counted(n, "active cell", "active cells") + ": the deck has " + number_text(p.value) + " there");
         }
     }
     return notes;

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/text_cursor.h"
 #include "base/wording.h"
 #include "grid/map_axes.h"
 
@@ -45,7 +46,8 @@ Result<gridding::SampledProperties> add_properties(const PropertyRequest& reques
     if (!sampled) return std::move(sampled).why();
     for (std::size_t a = 0; a < sampled->attributes.size();) {
         const std::string name = sampled->attributes[a].name;
-        if (find_attribute(grid.info.attributes, name, AttributeLocation::cell) == nullptr) {
+        // ACTNUM is no property among others: which cells take part is the grid's own.
+        if (!same_word(name, "ACTNUM") && find_attribute(grid.info.attributes, name, AttributeLocation::cell) == nullptr) {
             ++a;
             continue;
         }

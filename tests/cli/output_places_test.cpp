@@ -94,5 +94,34 @@ TEST_F(OutputDoor, AFormatOfSeveralFilesDoesNotGoIntoAStream) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 2) << "the input and the pipe";
 }
 
+// A picture or a deck over the model that is read would be the end of it.
+TEST(OutputPlaces, AGridWritesNothingOverWhatItReadsOrWrites) {
+    const TemporaryFolder folder;
+    const auto at = [&](const std::string& name) { return (folder / name).string(); };
+    const std::string samples = std::string(GEOMEND_SOURCE_DIR) + "/samples/";
+    fs::copy_file(samples + "layered_box.ml", at("box.ml"));
+    fs::copy_file(samples + "layered_box.so", at("box.DATA"));
+    const std::string model = read_file(at("box.ml"));
+    const std::vector<std::vector<std::string>> refused{
+        {"-o", at("a.grdecl"), "--map", at("box.ml")},
+        {"-o", at("a.grdecl"), "--section", at("box.ml")},
+        {"-o", at("box.grdecl"), "--properties-of", at("box.DATA"), "--option", "deck=yes"},
+        {"-o", at("a.grdecl"), "--map", at("a.grdecl")},
+        {"-o", at("a.grdecl"), "--report", at("a.properties.grdecl")},
+        {"-o", at("a.egrid"), "--map", at("a.include.grdecl")},
+        {"-o", at("a.grdecl"), "--map", at("p.png"), "--section", (folder / "." / "p.png").string()},
+    };
+    for (std::vector<std::string> words : refused) {
+        words.insert(words.begin(), {"grid", at("box.ml"), "--cells", "4x4"});
+        const ProgramRun run = run_geomend(words);
+        EXPECT_EQ(run.status, 2) << words[5] << run.err;
+        EXPECT_NE(run.err.find("is named twice"), std::string::npos) << run.err;
+    }
+    const ProgramRun nowhere = run_geomend({"grid", at("box.ml"), "--cells", "4x4", "-o", at("a.grdecl"), "--map", at("none/p.png")});
+    EXPECT_EQ(nowhere.status, 4) << nowhere.err;
+    EXPECT_EQ(read_file(at("box.ml")), model);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 2) << "nothing but the inputs";
+}
+
 }  // namespace
 }  // namespace geomend::test

@@ -286,5 +286,26 @@ TEST(Grid, ReekIsMetByItsMaps) {
     EXPECT_EQ(run_geomend({"validate", out}).status, 0);
 }
 
+TEST(GridCommand, ADeckTakesPorosityAndPermeabilityUnderTheirNamesElsewhere) {
+    const TemporaryFolder folder;
+    const std::string samples = std::string(GEOMEND_SOURCE_DIR) + "/samples/";
+    const std::string box = samples + "layered_box.ml", solid = samples + "layered_box.so";
+    const auto grid = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"grid", box, "--cells", "8x8", "-o", (folder / "g.grdecl").string(), "--option", "deck=yes"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_geomend(words);
+    };
+    const ProgramRun sampled = grid({"--properties-of", solid});
+    ASSERT_EQ(sampled.status, 0) << sampled.err;
+    EXPECT_NE(sampled.out.find("'porosity' is PORO in the deck"), std::string::npos) << sampled.out;
+    const std::string deck = read_file(folder / "g.DATA");
+    EXPECT_EQ(deck.find("PORO 0.2"), std::string::npos);
+    EXPECT_NE(deck.find("PERMX PERMZ"), std::string::npos) << "across layers it is a share of PERMX";
+    const ProgramRun bare = grid({});
+    ASSERT_EQ(bare.status, 0) << bare.err;
+    EXPECT_NE(bare.out.find("there is no PORO among the properties: the deck has 0.2"), std::string::npos) << bare.out;
+    EXPECT_NE(read_file(folder / "g.DATA").find("PORO 0.2"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace geomend
