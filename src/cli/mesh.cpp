@@ -127,7 +127,13 @@ ExitStatus run(const MeshOptions& o) {
         const std::string text = region_lines(*made, o.verbose, o.split);
         status = worse(status, print_about(text, o.output, made->is_written));
     }
-    if (!made->errors.empty()) std::fputs("geomend: the model has errors: nothing was written; geomend repair may mend them\n", stderr);
+    if (made->remeshed && !made->remeshed->why_not.empty())
+        std::fprintf(stderr,
+                     "geomend: with new triangles the model would not be the same: %s; nothing was written; try another --size or "
+                     "--max-distance, or --method keep\n",
+                     made->remeshed->why_not.c_str());
+    else if (!made->errors.empty())
+        std::fputs("geomend: the model has errors: nothing was written; geomend repair may mend them\n", stderr);
     else if (status == ExitStatus::limit)
         std::fputs("geomend: not all regions could be filled within --time-limit and --memory-limit: nothing was written\n", stderr);
     else if (!made->is_written) std::fputs("geomend: not all regions could be filled: nothing was written\n", stderr);

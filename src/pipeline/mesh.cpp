@@ -142,7 +142,9 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& req
         lattices = hexes::region_lattices(*model->brep, *facets, hexes::lattice_of(*model->brep, request.fill.size));
     }
     if (request.remesh) {
-        if (auto remeshed = remesh_before(dataset, target, request, lattices ? &*lattices : nullptr, report); !remeshed) return remeshed;
+        auto remeshed = remesh_before(dataset, target, request, lattices ? &*lattices : nullptr, report);
+        if (!remeshed && report.remeshed && !report.remeshed->why_not.empty()) report.errors = report.remeshed->errors;
+        if (!remeshed) return remeshed;
     }
     auto model = model_to_fill(dataset, request);
     if (!model) return std::move(model).why();
@@ -183,7 +185,9 @@ Result<MeshReport> mesh(const MeshRequest& request) {
     bool judged = false;
     auto converted = convert(request.files, [&](Dataset& dataset, const Format& target) {
         auto done = make_cells(dataset, target, request, report);
-        judged = !report.errors.empty() || (!done && std::ranges::any_of(report.regions, [](const auto& r) { return !r.filled(); }));
+        const bool worse_anew = !done && report.remeshed && !report.remeshed->why_not.empty();
+        judged = !report.errors.empty() || worse_anew ||
+                 (!done && std::ranges::any_of(report.regions, [](const auto& r) { return !r.filled(); }));
         return done;
     });
     if (!converted) {

@@ -295,16 +295,16 @@ TEST(GridCommand, ADeckTakesPorosityAndPermeabilityUnderTheirNamesElsewhere) {
         words.insert(words.end(), more.begin(), more.end());
         return run_geomend(words);
     };
-    const ProgramRun sampled = grid({"--properties-of", solid});
+    const auto sampled = grid({"--properties-of", solid});
     ASSERT_EQ(sampled.status, 0) << sampled.err;
     EXPECT_NE(sampled.out.find("'porosity' is PORO in the deck"), std::string::npos) << sampled.out;
-    const std::string deck = read_file(folder / "g.DATA");
+    const std::string deck = test::read_file(folder / "g.DATA");
     EXPECT_EQ(deck.find("PORO 0.2"), std::string::npos);
     EXPECT_NE(deck.find("PERMX PERMZ"), std::string::npos) << "across layers it is a share of PERMX";
-    const ProgramRun bare = grid({});
+    const auto bare = grid({});
     ASSERT_EQ(bare.status, 0) << bare.err;
     EXPECT_NE(bare.out.find("there is no PORO among the properties: the deck has 0.2"), std::string::npos) << bare.out;
-    EXPECT_NE(read_file(folder / "g.DATA").find("PORO 0.2"), std::string::npos);
+    EXPECT_NE(test::read_file(folder / "g.DATA").find("PORO 0.2"), std::string::npos);
 }
 
 }  // namespace
