@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/vectors.h"
 #include "base/wording.h"
 #include "repair/surface_steps.h"
 
@@ -16,57 +17,75 @@ namespace {
 
 using Bounds = std::array<Vec3, 2>;  // low, high
 
-Bounds bounds_of_patch(const TriangleSoup& soup, std::uint32_t patch) {
-    Bounds b{Vec3{INFINITY, INFINITY, INFINITY}, Vec3{-INFINITY, -INFINITY, -INFINITY}};
+/// All patches of one name.
+struct Interface {
+    Bounds bounds{Vec3{INFINITY, INFINITY, INFINITY}, Vec3{-INFINITY, -INFINITY, -INFINITY}};
+    bool is_horizon = true, is_fault = false;  ///< by role; neither: it is not said
+    double area = 0, area_in_plan = 0;
+};
+
+bool has_fault_role(FeatureRole role) { return role == FeatureRole::fault || role == FeatureRole::fracture; }
+
+std::map<std::string, Interface> interfaces_of(const SurfaceModel& model) {
+    const TriangleSoup& soup = model.model.soup;
+    std::map<std::string, Interface> all;
     for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-        if (soup.patches[t] != patch) continue;
-        for (const std::uint32_t v : soup.triangles[t]) {
+        const auto& patch = model.model.patches[soup.patches[t]];
+        Interface& own = all[patch.interface_name];
+        own.is_horizon = own.is_horizon && patch.role != FeatureRole::unknown && !has_fault_role(patch.role);
+        own.is_fault = own.is_fault || has_fault_role(patch.role);
+        const auto at = [&](std::size_t k) -> const Vec3& { return soup.vertices[soup.triangles[t][k]]; };
+        for (std::size_t corner = 0; corner < 3; ++corner) {
             for (std::size_t k = 0; k < 3; ++k) {
-                b[0][k] = std::min(b[0][k], soup.vertices[v][k]);
-                b[1][k] = std::max(b[1][k], soup.vertices[v][k]);
+                own.bounds[0][k] = std::min(own.bounds[0][k], at(corner)[k]);
+                own.bounds[1][k] = std::max(own.bounds[1][k], at(corner)[k]);
             }
         }
+        const Vec3 normal = cross(minus(at(1), at(0)), minus(at(2), at(0)));
+        own.area += 0.5 * std::sqrt(dot(normal, normal));
+        own.area_in_plan += 0.5 * std::abs(normal[2]);
     }
-    return b;
+    return all;
 }
 
-bool may_be_a_layer(FeatureRole role) { return role != FeatureRole::fault && role != FeatureRole::fracture; }
-
-/// The bounds of each interface, all its patches together.
-std::map<std::string, std::pair<Bounds, bool>> bounds_of_interfaces(const SurfaceModel& model) {
-    std::map<std::string, std::pair<Bounds, bool>> all;
-    for (std::uint32_t p = 0; p < model.model.patches.size(); ++p) {
-        const auto& patch = model.model.patches[p];
-        const Bounds b = bounds_of_patch(model.model.soup, p);
-        auto [at, is_new] = all.try_emplace(patch.interface_name, b, may_be_a_layer(patch.role));
-        for (std::size_t k = 0; k < 3 && !is_new; ++k) {
-            at->second.first[0][k] = std::min(at->second.first[0][k], b[0][k]);
-            at->second.first[1][k] = std::max(at->second.first[1][k], b[1][k]);
+Bounds bounds_of(const std::map<std::string, Interface>& interfaces) {
+    Bounds all = Interface{}.bounds;
+    for (const auto& [name, one] : interfaces) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            all[0][k] = std::min(all[0][k], one.bounds[0][k]);
+            all[1][k] = std::max(all[1][k], one.bounds[1][k]);
         }
     }
     return all;
 }
 
-/// What all widely spread surfaces that are no faults reach across, in plan, a hundredth less on each side; in height all there is
-/// and a tenth more on each side.
+/// Whether a surface is spread over a model as a layer is: over half of it along both axes, and, where its role is not said, flatter
+/// than steep: a long fault is none.
+bool is_spread_as_a_layer(const Interface& one, const Bounds& all) {
+    if (one.is_fault || (!one.is_horizon && one.area_in_plan < 0.7 * one.area)) return false;
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (one.bounds[1][k] - one.bounds[0][k] < 0.5 * (all[1][k] - all[0][k])) return false;
+    }
+    return true;
+}
+
+/// What all widely spread layers reach across, in plan, a hundredth less on each side, or, without any, all there is; in height all
+/// there is and a tenth more on each side.
 Bounds automatic(const SurfaceModel& model) {
-    const auto interfaces = bounds_of_interfaces(model);
-    Bounds all{Vec3{INFINITY, INFINITY, INFINITY}, Vec3{-INFINITY, -INFINITY, -INFINITY}};
-    for (const auto& [name, entry] : interfaces) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            all[0][k] = std::min(all[0][k], entry.first[0][k]);
-            all[1][k] = std::max(all[1][k], entry.first[1][k]);
+    const auto interfaces = interfaces_of(model);
+    const Bounds all = bounds_of(interfaces);
+    Bounds box = all;
+    bool has_layers = false;
+    for (const auto& [name, one] : interfaces) {
+        if (!is_spread_as_a_layer(one, all)) continue;
+        has_layers = true;
+        for (std::size_t k = 0; k < 2; ++k) {
+            box[0][k] = std::max(box[0][k], one.bounds[0][k]);
+            box[1][k] = std::min(box[1][k], one.bounds[1][k]);
         }
     }
-    Bounds box = all;
     for (std::size_t k = 0; k < 2; ++k) {
-        for (const auto& [name, entry] : interfaces) {
-            const double width = entry.first[1][k] - entry.first[0][k];
-            if (!entry.second || width < 0.5 * (all[1][k] - all[0][k])) continue;
-            box[0][k] = std::max(box[0][k], entry.first[0][k]);
-            box[1][k] = std::min(box[1][k], entry.first[1][k]);
-        }
-        const double inset = 0.01 * (box[1][k] - box[0][k]);
+        const double inset = (has_layers ? 0.01 : -0.01) * (box[1][k] - box[0][k]);
         box[0][k] += inset;
         box[1][k] -= inset;
     }
@@ -78,13 +97,7 @@ Bounds automatic(const SurfaceModel& model) {
 
 /// Failure (usage) where a box lies beside all surfaces.
 Result<void> meets_surfaces(const SurfaceModel& model, const Bounds& box) {
-    Bounds all{Vec3{INFINITY, INFINITY, INFINITY}, Vec3{-INFINITY, -INFINITY, -INFINITY}};
-    for (const auto& [name, entry] : bounds_of_interfaces(model)) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            all[0][k] = std::min(all[0][k], entry.first[0][k]);
-            all[1][k] = std::max(all[1][k], entry.first[1][k]);
-        }
-    }
+    const Bounds all = bounds_of(interfaces_of(model));
     for (std::size_t k = 0; k < 3; ++k) {
         if (box[0][k] <= all[1][k] && all[0][k] <= box[1][k]) continue;
         const std::string axis(1, "xyz"[k]);

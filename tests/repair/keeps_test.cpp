@@ -164,6 +164,16 @@ TEST(Box, WhatIsCutInItIsMendedByTheToleranceOfTheWhole) {
     }
 }
 
+// Steep surfaces whose role is not said are no layers that a box could end at, however long they are.
+TEST(Box, AroundFaultsAloneItHoldsAllOfThem) {
+    const TemporaryFolder folder;
+    Sheet first{"first", {0, 0, 0}, {100, 90, 0}, {0, 0, 10}, 6, "", {}};
+    Sheet second{"second", {60, -30, 0}, {-20, 40, 0}, {0, 0, 10}, 4, "", {}};
+    const auto j = repaired(folder, tsurf_text(first) + tsurf_text(second), {"--box", "auto"}, 0);
+    EXPECT_NE(j["steps"].dump().find("x -1 .. 101, y -31.2 .. 91.2"), std::string::npos) << j["steps"].dump();
+    EXPECT_EQ(j["report"]["files"][0]["counts"]["warning"], 0) << "nothing lies outside: " << j.dump();
+}
+
 TEST(Tails, WhatPartsRegionsStaysHoweverLargeTheGapGivenIs) {
     const TemporaryFolder folder;
     // A fault across the box, sticking out of it, and a horizon on one side of it that sticks through.
