@@ -64,7 +64,7 @@ public:
             if (is_facet(q.behind[0]) || is_facet(q.behind[1])) ++pending_[q.diagonal()];
         }
         for (std::uint32_t q = 0; q < quads_.size(); ++q) settle(q);
-        for (std::uint32_t q = 0; q < quads_.size(); ++q) close_quad(q, how);
+        for (const std::uint32_t q : hardest_first(how)) close_quad(q, how);
         return finish();
     }
 
@@ -165,6 +165,28 @@ private:
         if (q.is_done) return;
         const bool has_fan = how == Closing::open && is_facet(q.behind[0]) && is_facet(q.behind[1]) && find_fan(q);
         if (!has_fan || (!make_pyramid(number) && !open(number))) give_up(number);
+    }
+
+    /// Quadrangles that are not done, those first where there is the least room behind.
+    std::vector<std::uint32_t> hardest_first(Closing how) {
+        std::vector<std::pair<double, std::uint32_t>> order;
+        for (std::uint32_t number = 0; number < quads_.size(); ++number) {
+            const Quad& q = quads_[number];
+            if (q.is_done) continue;
+            const bool has_fan = how == Closing::open && is_facet(q.behind[0]) && is_facet(q.behind[1]) && find_fan(q);
+            order.emplace_back(has_fan ? place_behind(q).quality : 0, number);
+        }
+        std::ranges::sort(order);
+        std::vector<std::uint32_t> numbers;
+        for (const auto& [room, number] : order) numbers.push_back(number);
+        return numbers;
+    }
+
+    /// \pre the fan is that of the quadrangle
+    ApexPlace place_behind(const Quad& q) const {
+        std::vector<Vec3> chain;
+        for (const std::uint32_t v : chain_) chain.push_back(positions_[v]);
+        return place_for_apex({points(q), chain});
     }
 
     void done(std::uint32_t number) {
@@ -313,10 +335,7 @@ private:
     }
 
     bool open(std::uint32_t number) {
-        const std::array<Vec3, 4> p = points(quads_[number]);
-        std::vector<Vec3> chain;
-        for (const std::uint32_t v : chain_) chain.push_back(positions_[v]);
-        const ApexPlace place = place_for_apex({p, chain});
+        const ApexPlace place = place_behind(quads_[number]);
         if (!(place.quality > 1e-5)) return false;
         const Quad& q = quads_[number];
         const auto apex = static_cast<std::uint32_t>(positions_.size());

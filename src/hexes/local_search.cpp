@@ -111,18 +111,18 @@ std::vector<std::uint32_t> search_selection(const Conflicts& conflicts, std::spa
     std::int64_t best_total = s.total();
     std::iota(all.begin(), all.end(), 0u);
     Random random(how.seed);
-    const double heat = count > 0 ? how.heat * 0x1p40 / count : 0;
     constexpr std::uint64_t stretch = 1 << 16;
     for (std::uint64_t step = 0; step < how.steps && count > 0; step += stretch) {
         if (how.monitor != nullptr && how.monitor->stopped()) break;
         const double done = static_cast<double>(step) / static_cast<double>(how.steps);
         if (how.monitor != nullptr) how.monitor->progress("selection", done);
-        const double now = heat * std::pow(0.01, done);
+        const double now = how.heat * std::pow(0.01, done);
         for (std::uint64_t k = 0; k < std::min(stretch, how.steps - step); ++k) {
             const std::uint32_t i = random.below(count);
             if (s.has(i) || s.weight(i) == 0) continue;
             const std::int64_t gain = s.gain(i);
-            if (gain > 0 || static_cast<double>(gain) > now * std::log(random.part())) s.take(i, nullptr);
+            const double part = static_cast<double>(gain) / static_cast<double>(s.weight(i));
+            if (part > 0 || (part > -8 * now && part > now * std::log(random.part()))) s.take(i, nullptr);
         }
     }
     climb(s, all);

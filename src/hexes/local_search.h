@@ -12,7 +12,7 @@ namespace geomend::hexes {
 
 struct LocalSearch {
     std::uint64_t steps = 0;  ///< how many candidates are tried; 200 for each is much, 20 little
-    double heat = 0.25;       ///< losses that are accepted in the beginning, by the mean weight; they sink to a hundredth of that
+    double heat = 0.3;        ///< losses that are accepted in the beginning, by the weight of the candidate; they sink to a hundredth
     std::uint32_t seed = 1;
     const Monitor* monitor = nullptr;
 };

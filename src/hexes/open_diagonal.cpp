@@ -98,20 +98,39 @@ void try_deepest(const Fan& fan, ApexPlace& best) {
 
 }  // namespace
 
-ApexPlace place_for_apex(const Fan& fan) {
+namespace {
+
+/// Some places above the middle of the quadrangle.
+void try_above(const Fan& fan, double enough, ApexPlace& best) {
     const auto& q = fan.quad;
-    const Vec3 middle = times(0.25, plus(plus(q[0], q[1]), plus(q[2], q[3])));
     const Vec3 normal = cross(minus(q[2], q[0]), minus(q[3], q[1]));
-    const double area = std::sqrt(dot(normal, normal));
-    const double size = std::sqrt(area);
-    ApexPlace best{middle, -1};
-    for (const double height : {0.5, 0.25, 0.12, 0.06, 0.03, 0.01}) {
+    const double area = std::sqrt(dot(normal, normal)), size = std::sqrt(area);
+    const Vec3 middle = times(0.25, plus(plus(q[0], q[1]), plus(q[2], q[3])));
+    for (const double height : {0.03, 0.06, 0.12, 0.25, 0.5}) {
+        if (best.quality > enough) return;
         if (area > 0) try_place(fan, plus(middle, times(height * size / area, normal)), best);
         for (std::size_t i = 1; i + 1 < fan.chain.size(); ++i)
             try_place(fan, plus(middle, times(height, minus(fan.chain[i], middle))), best);
     }
+}
+
+}  // namespace
+
+bool has_place_for_apex(const Fan& fan) {
+    ApexPlace best{{}, -1};
+    try_above(fan, 1e-5, best);
+    if (best.quality <= 1e-5) try_deepest(fan, best);
+    return best.quality > 1e-5;
+}
+
+ApexPlace place_for_apex(const Fan& fan) {
+    const auto& q = fan.quad;
+    const Vec3 across = minus(q[2], q[0]);
+    const double size = std::sqrt(dot(across, across));
+    ApexPlace best{q[0], -1};
+    try_above(fan, 2, best);
     if (best.quality <= 0) try_deepest(fan, best);
-    // Downhill steps along the axes, halved where none leads on.
+    // Uphill steps along the axes, halved where none leads on.
     double step = 0.1 * size;
     for (int round = 0; round < 24; ++round) {
         const ApexPlace before = best;

@@ -2,10 +2,15 @@
 #include "hexes/recombine.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "geometry/cell_volume.h"
 #include "hexes/assemble_mesh.h"
+#include "hexes/closable.h"
 #include "hexes/jacobian.h"
+#include "hexes/local_search.h"
+#include "hexes/smooth.h"
 
 namespace geomend::hexes {
 
@@ -45,18 +50,58 @@ void measure(const VolumeMesh& mesh, RecombineReport& report) {
     }
 }
 
-/// Selects and closes; what cannot be closed without a loss is not selected again.
-MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::vector<double>& weights, const RecombineOptions& options,
-                 RecombineReport& report) {
-    constexpr int rounds = 12;
+/// By volume for the most part: the shape counts where candidates are about as large, and what has to have another one beside it
+/// counts less.
+std::vector<double> weights_of(const TetMesh& tets, const Candidates& candidates) {
+    std::vector<double> weights(candidates.size());
+    const std::vector<std::uint8_t> unclosable = count_unclosable(tets, candidates);
+    constexpr double each = 0.5;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] = candidates.volume[i] * (2 + candidates.quality[i]) * std::pow(each, unclosable[i]);
+    return weights;
+}
+
+double volume_of(const Candidates& candidates, const std::vector<std::uint32_t>& selected) {
+    double sum = 0;
+    for (const std::uint32_t i : selected) sum += candidates.volume[i];
+    return sum;
+}
+
+double volume_of(const TetMesh& m) {
+    double sum = 0;
+    for (const auto& t : m.tets) sum += tetrahedron_volume(m.positions[t[0]], m.positions[t[1]], m.positions[t[2]], m.positions[t[3]]);
+    return sum;
+}
+
+std::vector<std::uint32_t> without(const std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some) {
+    std::vector<std::uint32_t> left;
+    std::ranges::set_difference(all, some, std::back_inserter(left));
+    return left;
+}
+
+/// Selects and closes. What cannot be closed without a loss is not selected again, and the search goes on from what is left; in the
+/// last rounds nothing new is taken.
+MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<const double> order, std::vector<double> weights,
+                 const RecombineOptions& options, RecombineReport& report) {
+    constexpr int rounds = 24, searching_rounds = 8;
+    LocalSearch search;
+    search.steps = options.steps != 0 ? options.steps : std::min<std::uint64_t>(1000 * conflicts.size(), 200'000'000);
+    search.monitor = options.monitor;
+    std::vector<std::uint32_t> selected = select_greedily(conflicts, order, Greedy::weight);
+    // Where all is hexahedra there is nothing to gain.
+    if (options.thin_only || volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * volume_of(tets)) search.steps = 0;
+    selected = search_selection(conflicts, weights, selected, search);
+    search.heat = 0.02;
+    search.steps /= 20;
     for (int round = 1;; ++round) {
-        const std::vector<std::uint32_t> selected = select_greedily(conflicts, weights, Greedy::weight);
         std::vector<std::uint32_t> failed;
         report.closing = {};
         report.selected = selected.size();
         MixedMesh mesh = close(tets, conflicts.candidates(), selected, options.closing, report.closing, failed);
         if (failed.empty() || options.closing == Closing::split || round == rounds) return mesh;
         for (const std::uint32_t i : failed) weights[i] = 0;
+        selected = without(selected, failed);
+        if (round < searching_rounds) selected = search_selection(conflicts, weights, selected, search);
     }
 }
 
@@ -92,9 +137,13 @@ Result<VolumeMesh> recombine(const VolumeMesh& mesh, const RecombineOptions& opt
     const Candidates hexahedra = options.thin_only ? thin_cells(tets, quads, search, report.thin) : find_hexahedra(tets, quads, search);
     report.candidates = hexahedra.size();
     const Conflicts conflicts(hexahedra, tets.tets.size());
-    std::vector<double> weights = hexahedra.quality;
-    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] += hexahedra.types[i] == CellType::wedge ? 1 : 0;
-    auto made = assemble(mesh, tets, closed(tets, conflicts, weights, options, report));
+    // In thin parts prisms come first, in the order of their shapes; else a long search is worth its time.
+    std::vector<double> order = hexahedra.quality, weights = options.thin_only ? std::vector<double>() : weights_of(tets, hexahedra);
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] += hexahedra.types[i] == CellType::wedge ? 1 : 0;
+    if (options.thin_only) weights = order;
+    MixedMesh mixed = closed(tets, conflicts, order, std::move(weights), options, report);
+    if (options.passes > 0) report.moves = smooth(mixed, fixed_vertices(tets), options.least_quality, options.passes);
+    auto made = assemble(mesh, tets, std::move(mixed));
     if (made) measure(*made, report);
     return made;
 }

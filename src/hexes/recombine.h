@@ -18,7 +18,9 @@ namespace geomend::hexes {
 struct RecombineOptions {
     bool thin_only = false;      ///< prisms and pyramids in parts that are thin for their size, and nothing else: see thin_cells()
     double least_quality = 0.3;  ///< scaled Jacobian of every hexahedron; also of prisms
+    std::uint64_t steps = 0;     ///< of the local search; 0: 1000 for each candidate, 200 million at most
     Closing closing = Closing::open;
+    int passes = 5;  ///< of smoothing
     const Monitor* monitor = nullptr;
 };
 
@@ -36,6 +38,7 @@ struct RecombineReport {
     std::uint64_t selected = 0;    ///< of them
     ClosingCounts closing;
     ThinCounts thin;                                     ///< where only thin parts were asked for
+    std::uint64_t moves = 0;                             ///< of vertices, by which the worst cell around became better
     std::vector<TypeShare> shares;                       ///< by region, then type
     double least_jacobian = 1;                           ///< scaled, of hexahedra
     std::array<std::uint64_t, 10> jacobian_by_tenths{};  ///< how many hexahedra

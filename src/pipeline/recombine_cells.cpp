@@ -56,7 +56,8 @@ Json recombined_json(const hexes::RecombineReport& report) {
               {"ignored", t.ignored},     {"undefined", t.undefined}, {"unmatched", t.unmatched}, {"invalid", t.invalid}};
     Json all{{"tetrahedra", report.tetrahedra}, {"candidates", report.candidates},     {"selected", report.selected},
              {"quads", report.closing.quads},   {"absorbed", report.closing.absorbed}, {"pyramids", report.closing.pyramids},
-             {"opened", report.closing.opened}, {"split", report.closing.split},       {"folded", report.folded}};
+             {"opened", report.closing.opened}, {"split", report.closing.split},       {"moves", report.moves},
+             {"folded", report.folded}};
     if (t.triangles > 0) all["thin"] = std::move(thin);
     return all;
 }
