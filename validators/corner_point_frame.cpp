@@ -75,6 +75,7 @@ void check_map_axes(const GridScope& scope, std::vector<Finding>& findings) {
                 " is not a unit that simulators know (METRES, FEET, CM)";
     };
     tell_unit(grid.map_unit, "MAPUNITS");
+    if (grid::metres(grid.info.crs.axis_units[0]) == 0) tell_unit(grid.info.crs.axis_units[0], "the axes (GRIDUNIT)");
     if (!grid.map_axes) {
         if (!what.empty()) findings.push_back(grid_finding(scope, "C13", std::move(what)));
         return;

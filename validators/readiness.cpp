@@ -25,6 +25,7 @@ constexpr std::array flow_burdens = {
     TargetBurden{"F145", "it assumes other sizes for these cells, or stops"},
     TargetBurden{"F146", "it stops there, or ignores the record", true},
     TargetBurden{"F147", "it stops there", true},
+    TargetBurden{"F148", "it ignores that part"},
     TargetBurden{"F149", "it stops there", true},
     TargetBurden{"C17", "each part is simulated by itself, with no flow between them"},
 };

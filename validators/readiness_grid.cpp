@@ -135,9 +135,9 @@ void check_region_multipliers(const CornerPointGrid& grid, std::vector<Finding>&
 
 void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& findings) {
     if (grid.host)
-        return findings.push_back(about(grid, "S09",
+        return findings.push_back(about(grid, "S12",
                                         "this grid refines " + (grid.host->grid.empty() ? "the main grid" : "'" + grid.host->grid + "'") +
-                                            ": OPM Flow does not support local grid refinements"));
+                                            ": OPM Flow ignores local grid refinements, and runs the cells of their hosts"));
     if (grid.porosity != CornerPointGrid::Porosity::single)
         findings.push_back(about(grid, "S09", "the grid has dual porosity, which OPM Flow does not support"));
     if (!misfit(grid).empty()) return;

@@ -122,6 +122,20 @@ bool fits_cells(const Array& array, const CellOrder& order) {
     return array.count == order.active() || array.count == order.total();
 }
 
+bool is_cell_property(std::string_view name) {
+    return is_one_of(name, {"PORO",   "NTG",    "PERMX",  "PERMY",  "PERMZ",  "PORV",    "DX",      "DY",      "DZ",     "DEPTH", "TOPS",
+                            "MULTX",  "MULTX-", "MULTY",  "MULTY-", "MULTZ",  "MULTZ-",  "MULTPV",  "TRANX",   "TRANY",  "TRANZ", "SATNUM",
+                            "PVTNUM", "EQLNUM", "FIPNUM", "ENDNUM", "IMBNUM", "FLUXNUM", "MULTNUM", "OPERNUM", "ROCKNUM"});
+}
+
+Failure wrong_cell_count(const ArrayFile& file, const Array& array, const CellOrder& order) {
+    const std::string active =
+        order.active() == order.total() ? std::string() : " (or " + std::to_string(order.active()) + ", those of active cells)";
+    return unreadable("F008", place_of(file, array),
+                      "expected " + std::to_string(order.total()) + " values of '" + array.name + "'" + active + ", found " +
+                          std::to_string(array.count));
+}
+
 Result<void> take_cell_array(const ArrayFile& file, const Array& array, const CellOrder& order, const std::string& name,
                              CornerPointGrid& grid, std::vector<Finding>& findings) {
     const Target to{file, array, order, grid, findings};

@@ -32,6 +32,12 @@ CellOrder cell_order(const CornerPointGrid& grid);
 /// Whether an array is long enough for one value per cell (all or the active ones) and of a type that cells have.
 bool fits_cells(const Array& array, const CellOrder& order);
 
+/// Whether a name is always that of values of cells (PORO, PERMX, SATNUM, ...): any other count is an error of the file.
+bool is_cell_property(std::string_view name);
+
+/// Failure F008: an array has neither a value for each cell nor one for each active cell.
+Failure wrong_cell_count(const ArrayFile& file, const Array& array, const CellOrder& order);
+
 /// Reads an array of one value per cell, all or the active ones, into attributes of the grid: one, or two where there
 /// are two porosities. Values that are not finite become no-data, with one finding.
 /// \pre fits_cells

@@ -11,6 +11,7 @@ namespace geomend::eclipse {
 namespace {
 
 constexpr std::size_t most_values = std::size_t{1} << 28;
+constexpr std::size_t most_names = 20;  // of arrays, in one sentence
 
 /// Adds values as text, runs of equal ones as N*v; equal means the same bits.
 template <class T, class Same, class Put>
@@ -158,6 +159,26 @@ std::string_view kept_name(std::string_view text) {
     std::string_view name = text.substr(1, 8);
     while (name.ends_with(' ')) name.remove_suffix(1);
     return name;
+}
+
+std::vector<Loss> losses_of_arrays(const Dataset& dataset) {
+    std::vector<Loss> losses;
+    for (const Object& object : dataset.objects) {
+        const ObjectInfo& info = info_of(object);
+        std::string names;
+        std::uint64_t count = 0;
+        for (const Annotation& a : info.annotations) {
+            if (a.key != array_key && a.key != init_key && a.key != deck_key) continue;
+            const std::string_view name = kept_name(a.value);
+            if (name.empty() || name.ends_with("HEAD") || ++count > most_names) continue;
+            names.append(count == 1 ? "" : ", ").append(name);
+        }
+        if (count > most_names) names += ", ...";
+        if (count > 0)
+            add_loss(losses, {LossClass::identity, info.name, (count == 1 ? "array " : "arrays ") + names,
+                              "values that are not of cells stay in Eclipse files", count});
+    }
+    return losses;
 }
 
 const std::string* find_kept(const std::vector<Annotation>& annotations, std::string_view key, std::string_view name) {

@@ -8,7 +8,7 @@
 
 #include "formats/eclipse/array_writer.h"
 #include "formats/eclipse/arrays.h"
-#include "model/object_info.h"
+#include "model/dataset.h"
 
 // Arrays that are not of the grid (heads, tables, unknown ones) are kept as text for the way back: annotations with
 // the kind of file as key, and the value "NAME TYPE COUNT v v 3*v ...", text between quotes, equal values in a row as N*v.
@@ -24,6 +24,10 @@ Result<Annotation> kept_array(const ArrayFile& file, const Array& array, std::st
 
 /// The array with a name among annotations, as its text; nullptr where there is none.
 const std::string* find_kept(const std::vector<Annotation>& annotations, std::string_view key, std::string_view name);
+
+/// What formats of other families do not take along of them, heads apart: a loss of identity for each grid. Linear in the
+/// annotations.
+std::vector<Loss> losses_of_arrays(const Dataset& dataset);
 
 /// Name of the array that a text is of.
 std::string_view kept_name(std::string_view text);

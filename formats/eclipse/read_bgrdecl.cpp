@@ -6,6 +6,7 @@
 #include "formats/eclipse/cell_arrays.h"
 #include "formats/eclipse/grid_arrays.h"
 #include "formats/eclipse/kept_arrays.h"
+#include "formats/eclipse/property_file.h"
 #include "formats/eclipse/read_egrid.h"
 
 namespace geomend::eclipse {
@@ -63,6 +64,9 @@ Result<CornerPointGrid> bare_grid(const ArrayFile& file, GridParts&& parts) {
     return std::move(grid);
 }
 
+/// In a file that holds nothing but properties.
+bool may_be_property(const Array& array) { return array.count > 0 && array.type != ArrayType::message && !is_no_cell_array(array.name); }
+
 void tell_unknown(const ArrayFile& file, const std::vector<const Array*>& unknown, std::vector<Finding>& findings) {
     if (unknown.empty()) return;
     Finding f =
@@ -116,6 +120,7 @@ Result<Dataset> read_bgrdecl(const Input& input, const ReadOptions& options) {
             if (auto done = take_cell_array(*file, *array, order, array->name, *grid, data.findings); !done) return done.why();
             continue;
         }
+        if (is_cell_property(array->name) || (bare && may_be_property(*array))) return wrong_cell_count(*file, *array, order);
         auto kept = kept_array(*file, *array, deck_key);
         if (!kept) return kept.why();
         grid->info.annotations.push_back(std::move(*kept));

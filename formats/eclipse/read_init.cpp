@@ -36,6 +36,7 @@ Result<void> take_part(const ArrayFile& file, const PropertyPart& part, const Re
             if (auto done = take_cell_array(file, array, place->order, array.name, grid, grids.findings); !done) return done;
             continue;
         }
+        if (is_cell_property(array.name)) return wrong_cell_count(file, array, place->order);
         const auto taken = take_transmissibilities(file, array, grid);
         if (!taken) return taken.why();
         if (*taken) continue;

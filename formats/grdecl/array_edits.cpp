@@ -123,15 +123,64 @@ void apply_scalar(Edit& e, std::string_view keyword, const CellBox& where, CellA
 /// Arrays that simulators compute before section EDIT changes them.
 bool is_computed(std::string_view name) { return name == "PORV" || name == "TRANX" || name == "TRANY" || name == "TRANZ"; }
 
+using EditKind = CornerPointGrid::EditOperation::Kind;
+constexpr std::size_t most_operations = 100'000;
+
 /// Values that are computed later change likewise, also where the array is stated for some of the cells.
 void note_operation(Edit& e, std::string_view keyword, double value) {
-    using Operation = CornerPointGrid::EditOperation;
-    if (!is_computed(e.name(0)) || keyword == "EQUALS" || e.g.grid.edit_operations.size() >= 100'000) return;
-    const auto kind = keyword == "ADD"        ? Operation::Kind::add
-                      : keyword == "MINVALUE" ? Operation::Kind::at_least
-                      : keyword == "MAXVALUE" ? Operation::Kind::at_most
-                                              : Operation::Kind::multiply;
+    if (!is_computed(e.name(0)) || keyword == "EQUALS" || e.g.grid.edit_operations.size() >= most_operations) return;
+    const auto kind = keyword == "ADD"        ? EditKind::add
+                      : keyword == "MINVALUE" ? EditKind::at_least
+                      : keyword == "MAXVALUE" ? EditKind::at_most
+                                              : EditKind::multiply;
     e.g.grid.edit_operations.push_back({e.name(0), kind, value, e.box.first, e.box.last});
+}
+
+/// The cells of a region as few boxes: runs along I, those that are alike in following rows or layers together.
+std::vector<CellBox> boxes_of_region(const Dims& d, const CellArray& regions, std::int64_t region) {
+    std::vector<CellBox> all, above;  // above: the boxes of the layer before
+    for (std::uint32_t k = 0; k < d[2]; ++k) {
+        std::vector<CellBox> own;
+        for (std::uint32_t j = 0; j < d[1]; ++j) {
+            const std::size_t row = d[0] * (j + std::size_t{d[1]} * k);
+            for (std::uint32_t i = 0; i < d[0]; ++i) {
+                if (value_at(regions, row + i) != static_cast<double>(region)) continue;
+                const std::uint32_t first = i;
+                while (i + 1 < d[0] && value_at(regions, row + i + 1) == static_cast<double>(region)) ++i;
+                const auto same = std::ranges::find_if(
+                    own, [&](const CellBox& b) { return b.first[0] == first && b.last[0] == i && b.last[1] + 1 == j; });
+                if (same != own.end()) same->last[1] = j;
+                else own.push_back({{first, j, k}, {i, j, k}});
+            }
+        }
+        for (CellBox& box : own) {
+            const auto same = std::ranges::find_if(above, [&](const CellBox& b) {
+                return b.first[0] == box.first[0] && b.last[0] == box.last[0] && b.first[1] == box.first[1] && b.last[1] == box.last[1];
+            });
+            if (same == above.end()) continue;
+            box.first[2] = same->first[2];
+            above.erase(same);
+        }
+        all.insert(all.end(), above.begin(), above.end());
+        above = std::move(own);
+        if (all.size() > most_operations) break;
+    }
+    all.insert(all.end(), above.begin(), above.end());
+    return all;
+}
+
+/// The same for pore volumes in the cells of a region or a box, in steps. False where there are too many boxes.
+bool note_pore_steps(Edit& e, const std::vector<CellBox>& boxes, std::initializer_list<std::pair<EditKind, double>> steps) {
+    auto& operations = e.g.grid.edit_operations;
+    if (operations.size() + boxes.size() * steps.size() > most_operations) {
+        e.result.applied = false;
+        e.result.missing = "PORV";
+        return false;
+    }
+    for (const auto& [kind, value] : steps) {
+        for (const CellBox& box : boxes) operations.push_back({"PORV", kind, value, box.first, box.last});
+    }
+    return true;
 }
 
 void scalar_in_box(Edit& e, std::string_view keyword) {
@@ -155,10 +204,16 @@ void copy_in_box(Edit& e) {
 }
 
 /// The array of region numbers that a letter (M, F, O) names.
+/// All cells are of region 1 of MULTNUM where that is not there, as OPM Flow takes it.
 CellArray* regions_of(Edit& e, std::size_t i, const char* usual = "MULTNUM") {
     const std::string word = e.record.given(i) ? upper_case(trimmed(e.record.text(i))) : usual;
     const std::string array = word == "F" ? "FLUXNUM" : word == "O" ? "OPERNUM" : word == "M" ? "MULTNUM" : word;
     CellArray* a = e.g.find(array);
+    if (a == nullptr && array == "MULTNUM" && cells_of(*e.g.dims) <= e.room) {
+        e.room -= cells_of(*e.g.dims);
+        e.g.arrays.push_back({array, std::vector<std::int32_t>(static_cast<std::size_t>(cells_of(*e.g.dims)), 1), Section::grid});
+        a = &e.g.arrays.back();
+    }
     if (a == nullptr || a->values.index() != 1) {
         e.result.applied = false;
         e.result.missing = array;
@@ -173,6 +228,11 @@ void scalar_in_region(Edit& e, std::string_view keyword) {
     if (e.fail(need_real(e.in, e.record, 1, "a value", value))) return;
     if (e.fail(need_whole(e.in, e.record, 2, "a region", region))) return;
     if (regions_of(e, 3) == nullptr) return;
+    if (e.name(0) == "PORV" && keyword != "EQUALREG") {
+        const auto kind = keyword == "ADDREG" ? EditKind::add : EditKind::multiply;
+        if (!note_pore_steps(e, boxes_of_region(*e.g.dims, *regions_of(e, 3), region), {{kind, value}})) return;
+        if (e.g.find("PORV") == nullptr) return;  // it is noted
+    }
     CellArray* a = keyword == "EQUALREG" ? e.made(0, nullptr) : e.existing(0);
     if (a == nullptr) return;
     const CellBox all{{0, 0, 0}, {(*e.g.dims)[0] - 1, (*e.g.dims)[1] - 1, (*e.g.dims)[2] - 1}};
@@ -220,6 +280,20 @@ Operation operation_of(std::string_view word) {
     return row == rows.end() ? nullptr : row->apply;
 }
 
+/// Pore volumes that are computed later, as a function of themselves. True where that is all there is to do.
+bool operates_on_pores(Edit& e, std::size_t i, const std::string& word, const CellBox& box, const CellArray* only, std::int64_t region,
+                       double a, double b) {
+    if (e.name(0) != "PORV" || e.name(i + 1) != "PORV") return false;
+    const auto boxes = only == nullptr ? std::vector<CellBox>{box} : boxes_of_region(*e.g.dims, *only, region);
+    bool noted = false;
+    if (word == "MULTX") noted = note_pore_steps(e, boxes, {{EditKind::multiply, a}});
+    else if (word == "ADDX") noted = note_pore_steps(e, boxes, {{EditKind::add, a}});
+    else if (word == "MAXLIM") noted = note_pore_steps(e, boxes, {{EditKind::at_most, a}});
+    else if (word == "MINLIM") noted = note_pore_steps(e, boxes, {{EditKind::at_least, a}});
+    else if (word == "MULTA") noted = note_pore_steps(e, boxes, {{EditKind::multiply, a}, {EditKind::add, b}});
+    return noted && e.g.find("PORV") == nullptr;
+}
+
 /// An operation, its source and its two numbers from item `i` on, in the cells of a box, or those of them in a region.
 void operate_in(Edit& e, std::size_t i, const CellBox& box, const CellArray* only, std::int64_t region) {
     const std::string word = upper_case(trimmed(e.record.text(i)));
@@ -231,6 +305,7 @@ void operate_in(Edit& e, std::size_t i, const CellBox& box, const CellArray* onl
     }
     double a = 0, b = 0;
     if (e.fail(take_real(e.in, e.record, i + 2, "a number", a)) || e.fail(take_real(e.in, e.record, i + 3, "a number", b))) return;
+    if (operates_on_pores(e, i, word, box, only, region, a, b)) return;
     if (e.existing(i + 1) == nullptr) return;
     const std::string regions = only == nullptr ? std::string() : only->name;
     CellArray* target = e.made(0, e.g.find(e.name(i + 1)));
@@ -291,8 +366,13 @@ void note_words(const Edit& e, const EditWords& words, std::vector<Finding>& fin
     const std::string changed = look(words.changed, "an array of ");
     static_cast<void>(look(words.first, "a word of "));
     const std::string source = look(words.second, "an array of ");
-    if (words.keyword == "OPERATE" && !source.empty() && !flow_operates_on(source))
-        note_flow_stops(findings, e.in.location(e.record.begin), "OPERATE reads " + source);
+    const bool reads = words.keyword.starts_with("OPERATE");
+    if (reads && !source.empty() && !flow_operates_on(source))
+        note_flow_stops(findings, e.in.location(e.record.begin), std::string(words.keyword) + " reads " + source);
+    const bool of_region = words.keyword.ends_with("REG") || words.keyword == "OPERATER";
+    const std::string target = e.record.given(0) ? e.name(0) : std::string();
+    if (target.starts_with("TRAN") && is_computed(target) && (reads || (of_region && words.keyword != "COPYREG")))
+        note_flow_stops(findings, e.in.location(e.record.begin), std::string(words.keyword) + " changes " + target);
     const std::string regions = look(words.regions, "the kind of regions of ");
     if (!changed.empty() && !flow_operates_on(changed))
         note_flow_stops(findings, e.in.location(e.record.begin), std::string(words.keyword) + " changes " + changed);
@@ -302,12 +382,24 @@ void note_words(const Edit& e, const EditWords& words, std::vector<Finding>& fin
 
 }  // namespace
 
+bool has_pore_volumes(const GridText& g) {
+    return std::ranges::any_of(g.arrays, [](const CellArray& a) { return a.name == "PORV"; }) ||
+           std::ranges::any_of(g.grid.edit_operations, [](const auto& op) { return op.array == "PORV"; });
+}
+
 bool is_edit(std::string_view keyword) { return std::ranges::find(edits, keyword) != edits.end(); }
 
 EditResult apply_edit(const Scanner& in, std::string_view keyword, const Record& record, GridText& g, CellBox& box, Section section,
                       std::uint64_t& room, std::vector<Finding>& findings) {
     Edit e{in, record, g, box, section, room, {}};
     note_words(e, words_of_edit(keyword), findings);
+    const std::string changed = record.given(keyword.starts_with("COPY") ? 1 : 0) ? e.name(keyword.starts_with("COPY") ? 1 : 0) : "";
+    if (section == Section::edit && changed == "MULTPV" && has_pore_volumes(g)) {
+        e.result.without_effect = "MULTPV that stands after what changes PORV changes no pore volume";
+    } else if (keyword.starts_with("COPY") && changed.starts_with("TRAN") && is_computed(changed)) {
+        e.result.without_effect = "a copy to " + changed + " changes nothing in OPM Flow";
+    }
+    if (!e.result.without_effect.empty()) return std::move(e.result);
     if (keyword == "COPY") copy_in_box(e);
     else if (keyword == "OPERATE") operate(e);
     else if (keyword == "OPERATER") operate_in_region(e);

@@ -136,9 +136,13 @@ OptionalFailure read_list(Scanner& in, std::string_view keyword, std::vector<Fin
 
 struct EditResult {
     OptionalFailure trouble;
-    bool applied = true;  ///< false: an array that it needs is not there
-    std::string missing;  ///< that array
+    bool applied = true;              ///< false: an array that it needs is not there
+    std::string missing;              ///< that array
+    std::string without_effect = {};  ///< why it is not applied although all is there; empty: it is
 };
+
+/// Whether PORV is stated or changed: simulators have computed pore volumes then, and what comes after does not enter.
+bool has_pore_volumes(const GridText& g);
 
 /// Whether a keyword is an operation on arrays (EQUALS, COPY, MULTIREG, OPERATE, ...).
 bool is_edit(std::string_view keyword);

@@ -3,6 +3,7 @@
 
 #include "base/text_cursor.h"
 #include "formats/grdecl/deck_reader.h"
+#include "formats/grdecl/flow_words.h"
 
 namespace geomend::grdecl {
 
@@ -109,12 +110,17 @@ Failure DeckReader::array_failure(const ArrayScan& scan, std::string_view name, 
         case ArrayStatus::bad_repeat:
             return unreadable("F012", at, "expected a repeat count (a whole number from 1) before '*'" + of + ", found " + token);
         case ArrayStatus::malformed: {
-            const std::string plain = item.substr(0, item.find_first_of(" \t\r\n,"));
+            // The name of a file goes on behind a '/', where the numbers end.
+            const std::string_view rest = scan.at == nullptr
+                                              ? std::string_view()
+                                              : text_between(scan.at, scan.at + std::min<std::ptrdiff_t>(200, in().end() - scan.at));
+            const std::string plain(rest.substr(0, rest.find_first_of(" \t\r\n,")));
             const bool word = scan.at != nullptr && is_keyword(item.substr(0, item.find_first_of(" \t\r\n,/")));
             if (is_file_name(plain))
                 return unreadable("F005", at,
-                                  "expected a number" + of + ", found " + token + ", which looks like the name of a file: INCLUDE '" +
-                                      unquoted(plain) + "' / takes the text of a file in");
+                                  "expected a number" + of + ", found " + shown(plain) +
+                                      ", which looks like the name of a file: INCLUDE '" + unquoted(plain) +
+                                      "' / takes the text of a file in");
             return unreadable("F005", at, "expected a number" + of + (word ? ", or the '/' that ends it" : "") + ", found " + token);
         }
         case ArrayStatus::ok:
@@ -244,6 +250,11 @@ OptionalFailure DeckReader::cell_array(std::string_view name, bool whole) {
     std::vector<double> values;
     const char* at = in().skip() ? in().at() : word_at_;
     if (auto failed = numbers(name, box.count(), true, values, is_block_size(name), half)) return failed;
+    if (name == "MULTPV" && section_ == Section::edit && has_pore_volumes(grid())) {
+        note_without_effect(at, "MULTPV that stands after what changes PORV changes no pore volume");
+        keep_array(word_at_, in().at());
+        return {};
+    }
     if (is_block_size(name)) {
         if (auto failed = block_sizes(name, box, at, values)) return failed;
     }
@@ -301,8 +312,8 @@ OptionalFailure DeckReader::store(std::string_view name, std::vector<T>&& values
         array = &g.arrays.back();
     }
     auto& target = std::get<std::vector<T>>(array->values);
-    // Multipliers of connections in EDIT act beside those of GRID; that of pore volumes takes their place.
-    const bool also = section_ == Section::edit && array->section != Section::edit && name.starts_with("MULT") && name != "MULTPV";
+    // Each multiplier of connections in EDIT acts beside those before it; that of pore volumes takes their place.
+    const bool also = section_ == Section::edit && std::is_same_v<T, double> && name.starts_with("MULT") && name != "MULTPV";
     const Dims& d = *g.dims;
     std::size_t next = 0;
     for (std::size_t k = box.first[2]; k <= box.last[2]; ++k) {
@@ -337,6 +348,18 @@ OptionalFailure DeckReader::unknown(const char* begin, const std::string& name) 
     return keep(begin, name, false);
 }
 
+/// Whether unknown numbers that do not fit are a property all the same: in a file of properties alone, whose grid is
+/// that of an option, where they have repeats or are many. Nothing more of the keyword may follow them.
+bool DeckReader::is_short_property(const std::string& name, std::string_view text, std::uint64_t count) {
+    if (grid().dims_stated || !texts_.empty() || flow_reads(name)) return false;
+    if (text.find('*') == std::string_view::npos && count < 8) return false;
+    const char* start = in().at();
+    in().after_slash(text.data() + text.size());
+    const bool more = in().data_follows(false, is_known);
+    in().jump(start);
+    return !more;
+}
+
 bool DeckReader::unknown_numbers(const std::string& name, OptionalFailure& failed) {
     const char* start = in().at();
     const char* slash = find_slash(start, in().end());
@@ -359,6 +382,11 @@ bool DeckReader::unknown_numbers(const std::string& name, OptionalFailure& faile
     const std::uint64_t cells = box_.value_or(whole_grid()).count();
     std::vector<double> values;
     const ArrayScan count = read_numbers(text, 0, values, options_->monitor);
+    if (count.status == ArrayStatus::ok && count.count != cells && is_short_property(name, text, count.count)) {
+        failed = unreadable("F008", where(slash),
+                            "expected " + std::to_string(cells) + " values of " + name + ", found " + std::to_string(count.count));
+        return true;
+    }
     if (count.status != ArrayStatus::ok || count.count != cells || cells > room_) return false;
     room_ -= cells;
     // One value a cell, but more records after it: a table then, and not a property.

@@ -282,16 +282,39 @@ OptionalFailure DeckReader::edits() {
         if (stopped()) return failure(FailureKind::cancelled, "F022", {input_->name()}, "reading was stopped");
         EditResult result = apply_edit(in(), keyword, record, grid(), box, section_, room_, findings_);
         if (result.trouble) return std::move(result.trouble);
-        if (result.applied) return {};
-        if (not_applied_++ == 0) {
+        if (result.applied && result.without_effect.empty()) return {};
+        if (!result.without_effect.empty()) {
+            note_without_effect(record.begin, result.without_effect);
+        } else if (not_applied_++ == 0) {
             first_not_applied_ = where(record.begin);
             missing_array_ = result.missing;
         }
+        if (result.missing == "FLUXNUM" || result.missing == "OPERNUM")
+            note_flow_stops(findings_, where(record.begin), keyword + " needs " + result.missing + ", which is not there");
         const std::string text =
             keyword + "\n " + std::string(record.begin, static_cast<std::size_t>(record.slash - record.begin)) + "/\n/";
         keep_text(text.data(), text.data() + text.size());
         return {};
     });
+}
+
+/// What has no effect is kept as text: a deck that is written has it at its place again.
+void DeckReader::note_without_effect(const char* at, const std::string& why) {
+    const std::string message = why + ": it is kept as text, not applied";
+    const auto same = std::ranges::find_if(findings_, [&](const Finding& f) { return f.code == "F148" && f.message == message; });
+    if (same != findings_.end()) ++same->count;
+    else findings_.push_back(finding("F148", where(at), message, 1));
+}
+
+/// An array without effect, in its box.
+void DeckReader::keep_array(const char* begin, const char* end) {
+    std::string text(begin, static_cast<std::size_t>(end - begin));
+    if (box_) {
+        std::string box = "BOX\n";
+        for (std::size_t a = 0; a < 3; ++a) box += ' ' + std::to_string(box_->first[a] + 1) + ' ' + std::to_string(box_->last[a] + 1);
+        text = box + " /\n" + text + "\nENDBOX";
+    }
+    keep_text(text.data(), text.data() + text.size());
 }
 
 OptionalFailure DeckReader::carfin() {

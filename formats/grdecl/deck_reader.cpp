@@ -215,6 +215,8 @@ OptionalFailure DeckReader::section_text() {
         ended_ = is_end_line(text);
         if (next != Section::none || ended_) break;
         if (std::string unknown = words.unknown_in(text); !unknown.empty() && !probing_ && !in_companion_) note_unread(line, unknown);
+        if (std::string fault = words.fault_in(text); !fault.empty() && !probing_ && scheduled_faults_.size() < 100'000)
+            scheduled_faults_.emplace_back(std::move(fault), where(line));
         line = stop == end ? end : stop + 1;
     }
     if (!probing_) texts_.back().second.append(begin, line);

@@ -86,6 +86,9 @@ private:
     bool find_dims_ahead();
     OptionalFailure cell_array(std::string_view name, bool whole);
     OptionalFailure unknown(const char* begin, const std::string& name);
+    void note_without_effect(const char* at, const std::string& why);
+    void keep_array(const char* begin, const char* end);
+    bool is_short_property(const std::string& name, std::string_view text, std::uint64_t count);
     bool unknown_numbers(const std::string& name, OptionalFailure& failed);
     bool unknown_words(const std::string& name);
     bool unknown_below_remark(const std::string& name, OptionalFailure& failed);  // line_remarks.cpp
@@ -106,6 +109,7 @@ private:
     // deck_result.cpp
     Result<Dataset> finish();
     void dims_from_boxes();
+    void look_up_scheduled_faults();
 
     Scanner& in() { return frames_.back().scanner; }
     const Scanner& in() const { return frames_.back().scanner; }
@@ -145,6 +149,7 @@ private:
     std::vector<std::string> unknown_;  ///< keywords that were kept, for F102
     Location first_unknown_;
     std::uint64_t unknown_count_ = 0;
+    std::vector<std::pair<std::string, Location>> scheduled_faults_;  ///< of MULTFLT in SCHEDULE
     std::uint64_t stray_slashes_ = 0;
     Location first_stray_slash_;
     std::uint64_t remarks_ = 0;  ///< behind keywords on their lines

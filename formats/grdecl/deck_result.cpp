@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <set>
 
 #include "base/text_cursor.h"
 #include "formats/drop.h"
 #include "formats/grdecl/companions.h"
 #include "formats/grdecl/deck_reader.h"
+#include "formats/grdecl/flow_words.h"
 
 namespace geomend::grdecl {
 
@@ -32,8 +34,21 @@ void DeckReader::dims_from_boxes() {
     grid().dims = dims;
 }
 
+/// MULTFLT of SCHEDULE names faults that have to be there; names with patterns are left alone.
+void DeckReader::look_up_scheduled_faults() {
+    std::set<std::string, std::less<>> stated;
+    for (const auto& fault : grid().grid.faults) {
+        if (!fault.boxes.empty()) stated.insert(fault.name);
+    }
+    for (const auto& [name, at] : scheduled_faults_) {
+        if (stated.contains(name) || name.find_first_of("*?[") != std::string::npos) continue;
+        note_flow_stops(findings_, at, "MULTFLT names the fault " + shown(name) + ", which no record of FAULTS states");
+    }
+}
+
 Result<Dataset> DeckReader::finish() {
     current_ = 0;
+    look_up_scheduled_faults();
     Dataset dataset;
     dataset.format = "grdecl";
     const bool deck = std::ranges::any_of(texts_, [](const auto& t) { return t.first == Section::runspec; });

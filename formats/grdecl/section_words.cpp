@@ -48,4 +48,17 @@ std::string SectionWords::unknown_in(std::string_view line) {
     return is_known ? std::string() : word;
 }
 
+std::string SectionWords::fault_in(std::string_view line) {
+    if (section_ != Section::schedule) return {};
+    const std::string_view text = trimmed(without_remark(line));
+    if (text.empty()) return {};
+    if (!in_faults_ || text[0] == '/') {
+        in_faults_ = !in_faults_ && upper_case(text) == "MULTFLT";
+        return {};
+    }
+    const bool quoted = text[0] == '\'' || text[0] == '"';
+    const std::string_view rest = quoted ? text.substr(1) : text;
+    return std::string(trimmed(rest.substr(0, quoted ? rest.find(text[0]) : rest.find_first_of(" \t/"))));
+}
+
 }  // namespace geomend::grdecl

@@ -18,9 +18,13 @@ public:
     /// \return the keyword, in upper case; empty where there is none, or a known one
     std::string unknown_in(std::string_view line);
 
+    /// The fault that a record of MULTFLT names in this line of SCHEDULE; empty where there is none.
+    std::string fault_in(std::string_view line);
+
 private:
     Section section_;
-    bool may_begin_ = true;  ///< a keyword may stand in the next line
+    bool may_begin_ = true;   ///< a keyword may stand in the next line
+    bool in_faults_ = false;  ///< a list of MULTFLT is open
 };
 
 }  // namespace geomend::grdecl

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/eclipse/kept_arrays.h"
 #include "formats/grdecl/kept_text.h"
 #include "grid/pore_volume.h"
 
@@ -49,6 +50,9 @@ void complete_pore_volumes(Dataset& dataset) {
 }
 
 void list_text_losses(Dataset& dataset, const Format& target) {
+    if (target.family != "eclipse") {
+        for (Loss& loss : eclipse::losses_of_arrays(dataset)) add_loss(dataset.losses, std::move(loss));
+    }
     if (target.deck) return;
     for (Loss& loss : grdecl::losses_of_text(dataset)) add_loss(dataset.losses, std::move(loss));
 }

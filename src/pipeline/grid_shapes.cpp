@@ -63,6 +63,25 @@ void lose_round_sides(const CornerPointGrid& grid, std::span<const double> volum
          "their sides are arcs, and those of the cells written are straight between the same pillars");
 }
 
+// Where pillars are pinched so that faces warp, cells with fewer corners have not quite the volume of the grid's cell.
+void lose_pinched_volume(const CornerPointGrid& grid, const grid::Cells& cells, std::vector<Loss>& losses) {
+    double own = 0, written = 0;
+    std::uint64_t count = 0;
+    for (std::size_t c = 0; c < cells.source.size(); ++c) {
+        if (cells.mesh.types[c] == CellType::hexahedron) continue;
+        const auto [i, j, k] = grid.ijk(cells.source[c]);
+        const double before = std::abs(grid::cell_volume(grid, i, j, k)), after = std::abs(cell_volume(cells.mesh, c));
+        if (std::abs(before - after) <= 1e-6 * std::max(before, after)) continue;
+        own += before;
+        written += after;
+        ++count;
+    }
+    if (count == 0) return;
+    lose(losses, LossClass::identity, grid,
+         "volume of pinched cells with warped faces: " + number_text(own) + " becomes " + number_text(written),
+         "wedges, pyramids, tetrahedra and polyhedra stand for them, whose faces between the same corners are others", count);
+}
+
 // Cells with the same value of an attribute become an entity of that name.
 Result<void> group_by(const std::string& name, const CornerPointGrid& grid, CellMesh& mesh) {
     const Attribute* values = find_attribute(mesh.info.attributes, name, AttributeLocation::cell);
@@ -173,6 +192,7 @@ Result<void> shape_grids(Dataset& dataset, const Format& target, const FormatOpt
         grid::Cells cells = conformal ? grid::take_conforming_cells(*grid) : grid::plain_cells(*grid);
         list_losses(*grid, cells, dataset.losses);
         lose_round_sides(*grid, volumes, cells.mesh, dataset.losses);
+        if (!conformal && !grid->cylindrical) lose_pinched_volume(*grid, cells, dataset.losses);
         if (conformal) tell_volumes(grid->info.name, volumes, cells, regions, dataset.findings);
         if (!regions.empty()) {
             if (auto grouped = group_by(std::string(regions), *grid, cells.mesh); !grouped) return grouped;

@@ -165,4 +165,19 @@ TEST(WhatIsDropped, HorizonsWithSurplusTextAreRefused) {
     }
 }
 
+TEST(VolumesLeftOut, OfPinchedCellsWithWarpedFacesAreListed) {
+    const TemporaryFolder folder;
+    const std::string head =
+        "SPECGRID\n 1 1 1 1 F /\nCOORD\n 0 0 0 0 0 100 100 0 0 100 0 100 0 100 0 0 100 100 100 100 0 100 100 100 /\nZCORN\n 4*10 ";
+    const auto told = [&](const std::string& bottom) {
+        write_file(folder / "grid.grdecl", head + bottom + " /\n");
+        const ProgramRun run = run_geomend({"convert", (folder / "grid.grdecl").string(), "-o", (folder / "o.vtu").string()});
+        EXPECT_EQ(run.status, 0) << run.err;
+        return run.err;
+    };
+    EXPECT_NE(told("20 10 10 10").find("volume of pinched cells with warped faces: 25000 becomes 33333"), std::string::npos);
+    EXPECT_EQ(told("20 20 10 10").find("volume of"), std::string::npos);  // a wedge, exactly
+    EXPECT_EQ(told("20 20 20 20").find("volume of"), std::string::npos);
+}
+
 }  // namespace geomend::test

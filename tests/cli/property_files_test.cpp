@@ -48,7 +48,29 @@ TEST(BinaryPropertyFile, TakesTheNumbersOfCellsFromAnOption) {
     EXPECT_EQ(without.status, 3);
     EXPECT_NE(without.err.find("dims=NX,NY,NZ"), std::string::npos) << without.err;
     const ProgramRun other = run_geomend({"validate", file, "--option", "dims=4,3,3"});
-    EXPECT_NE(other.out.find("F102"), std::string::npos) << other.out;  // the array is not one of that grid
+    EXPECT_NE((other.out + other.err).find("expected 36 values of 'COND', found 24 [F008]"), std::string::npos) << other.out << other.err;
+}
+
+TEST(PropertyFile, OfOneArrayWithAnotherCountIsNotReadAsIfItHadNone) {
+    const TemporaryFolder folder;
+    write_file(folder / "short.bgrdecl", array_of("COND", 20));
+    write_file(folder / "facies.grdecl", "FACIES\n 10*1 2 /\n");
+    for (const auto& [file, found] : {std::pair{"short.bgrdecl", "20"}, std::pair{"facies.grdecl", "11"}}) {
+        const ProgramRun run = run_geomend({"info", (folder / file).string(), "--option", "dims=4,3,2"});
+        EXPECT_EQ(run.status, 3) << file;
+        EXPECT_NE(run.err.find("expected 24 values of"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find(std::string("found ") + found + " [F008]"), std::string::npos) << run.err;
+    }
+}
+
+TEST(PropertyFile, UnknownNumbersOfAGridsOwnFileAreALossWhereOnlyDecksHoldThem) {
+    const TemporaryFolder folder;
+    write_file(folder / "grid.grdecl",
+               "SPECGRID\n 1 1 1 1 F /\nCOORD\n 0 0 0 0 0 10 1 0 0 1 0 10 0 1 0 0 1 10 1 1 0 1 1 10 /\nZCORN\n 4*0 4*10 /\n"
+               "WONDER\n 3*7 /\n");
+    const ProgramRun run = run_geomend({"convert", (folder / "grid.grdecl").string(), "-o", (folder / "o.vtu").string()});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.err.find("lost (identity): grid: numbers of the unknown keyword WONDER"), std::string::npos) << run.err;
 }
 
 }  // namespace geomend::test

@@ -6,6 +6,7 @@
 #include "eclipse_testing.h"
 #include "formats/eclipse/array_writer.h"
 #include "formats/eclipse/arrays.h"
+#include "formats/eclipse/kept_arrays.h"
 #include "support/corner_point_samples.h"
 
 namespace geomend::test {
@@ -95,6 +96,29 @@ TEST(ReadEgrid, WrongArraysAreRefusedWithTheirPlace) {
         cube.end = false;
         EXPECT_EQ(code(cube), "F004");
     }
+}
+
+TEST(ReadInit, APropertyWithNeitherAllNorTheActiveCellsIsRefused) {
+    const auto init = [](std::size_t count, const char* name) {
+        return bytes_of([&](ArrayWriter& w) {
+            std::vector<std::int32_t> intehead = head({}, 100);
+            intehead[8] = 2, intehead[9] = 2, intehead[10] = 1, intehead[11] = 3;
+            w.integers("INTEHEAD", intehead);
+            w.floats("PORV", std::vector<float>{1, 0, 1, 1});
+            w.floats(name, std::vector<float>(count, 0.5F));
+        });
+    };
+    EXPECT_EQ(code_of(read_bytes(init(3, "PORO"), "init", "memory.INIT")), "");
+    EXPECT_EQ(code_of(read_bytes(init(4, "PORO"), "init", "memory.INIT")), "");
+    const auto data = read_bytes(init(2, "PORO"), "init", "memory.INIT");
+    EXPECT_EQ(code_of(data), "F008");
+    EXPECT_NE(data.why().error.message.find("expected 4 values of 'PORO' (or 3, those of active cells), found 2"), std::string::npos)
+        << data.why().error.message;
+    const auto kept = read_bytes(init(2, "WONDER"), "init", "memory.INIT");
+    ASSERT_TRUE(kept.ok());
+    const auto losses = eclipse::losses_of_arrays(*kept);
+    ASSERT_EQ(losses.size(), 1u);
+    EXPECT_EQ(losses[0].what, "array WONDER");
 }
 
 TEST(ReadEgrid, NonFiniteCoordinatesAreRefusedAtTheirOffset) {

@@ -199,6 +199,14 @@ TEST(Checks, C12TellsWhenOnlyTheMapIsMirrored) {
     EXPECT_EQ(codes_of(grid), Codes{});
 }
 
+TEST(Checks, C13KnowsTheUnitsOfTheAxes) {
+    CornerPointGrid grid = brick_grid(2, 1, 1);
+    grid.info.crs.axis_units.fill("METRES");
+    EXPECT_EQ(codes_of(grid), Codes{});
+    grid.info.crs.axis_units.fill("FURLONGS");
+    EXPECT_EQ(codes_of(grid), Codes{"C13 warning"});
+}
+
 TEST(Checks, C13WantsMapAxesThatSpanAPlaneAndTheirUnit) {
     CornerPointGrid grid = brick_grid(1, 1, 1);
     grid.map_axes = {0, 10, 0, 0, 10, 0};
