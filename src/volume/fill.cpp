@@ -57,9 +57,10 @@ struct OneRegion {
 };
 
 /// Improves the cells of a region, and keeps that where they still fill it as they did.
-Improvement improve_proven(const RegionFacets& facets, RegionCells& region, const Monitor* monitor) {
+Improvement improve_proven(const RegionFacets& facets, RegionCells& region, const FillOptions& options) {
     RegionCells better = region;
-    const Improvement done = improve(facets, better, monitor);
+    const Improvement done = options.improve ? improve(facets, better, options.monitor) : remove_flat_cells(facets, better);
+    if (done.flips + done.moves == 0) return done;
     measure(facets, better);
     if (better.least_dihedral < region.least_dihedral || !(std::abs(better.volume - facets.volume) <= 1e-9 * std::abs(facets.volume)))
         return {};
@@ -95,7 +96,7 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
         result.cells = std::move(*cells);
         break;
     }
-    if (report.filled() && options.improve) report.improvement = improve_proven(facets, result.cells, options.monitor);
+    if (report.filled()) report.improvement = improve_proven(facets, result.cells, options);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report.cells = result.cells.cells.size();
     report.new_vertices = result.cells.new_vertices.size();

@@ -260,6 +260,19 @@ public:
         done.bad_after = count_bad();
     }
 
+    /// Cells that lie flat on two facets go, with the edge that they have beside these.
+    void remove_flats() {
+        constexpr double flat_sine = 1e-6;
+        for (std::uint32_t c = 0; c < mesh_.size(); ++c) {
+            if (!mesh_.is_there(c) || mesh_.sine_of(c) >= flat_sine || facets_of(mesh_.at(c)) < 2) continue;
+            const Cell cell = mesh_.at(c);
+            bool gone = false;
+            for (std::size_t i = 0; i < 4 && !gone; ++i) {
+                for (std::size_t j = i + 1; j < 4 && !gone; ++j) gone = remove_edge(cell[i], cell[j]);
+            }
+        }
+    }
+
     Cells& cells() { return mesh_; }
     Improvement done;
 
@@ -271,6 +284,12 @@ private:
     std::uint64_t count_bad() const {
         std::uint64_t count = 0;
         for (std::uint32_t c = 0; c < mesh_.size(); ++c) count += mesh_.is_there(c) && mesh_.sine_of(c) < bad_sine ? 1 : 0;
+        return count;
+    }
+
+    std::size_t facets_of(const Cell& cell) const {
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < 4; ++k) count += fixed_.has_face({cell[(k + 1) % 4], cell[(k + 2) % 4], cell[(k + 3) % 4]}) ? 1 : 0;
         return count;
     }
 
@@ -381,6 +400,13 @@ private:
 };
 
 }  // namespace
+
+Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region) {
+    Improver improver(facets, region);
+    improver.remove_flats();
+    improver.cells().put_back(facets, region);
+    return improver.done;
+}
 
 Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor) {
     Improver improver(facets, region);

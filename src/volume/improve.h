@@ -22,4 +22,8 @@ struct Improvement {
 /// filled as by G. Klincsek (1980); A. Botella (2016), 2.6.4, for moves that make no cell around worse.
 Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor);
 
+/// Removes cells that are flat on two facets, by the one edge inside that they have: where a surface is even all four vertices of a cell
+/// may lie in it. Others stay as they are. Cost: linear, and as the cells around these.
+Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region);
+
 }  // namespace geomend::volumes

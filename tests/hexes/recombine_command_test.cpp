@@ -3,15 +3,11 @@
 
 #include <map>
 
-#include "hexes/lattice_meshes.h"
-#include "hexes/recombine.h"
-#include "pipeline/load.h"
-#include "pipeline/mesh_output.h"
 #include "support/program.h"
 #include "support/real_data.h"
 #include "support/temporary_folder.h"
 
-// Hexahedra as a user makes them, and real meshes of hexahedra that come back from tetrahedra.
+// Hexahedra as a user makes them.
 
 namespace geomend {
 namespace {
@@ -49,58 +45,6 @@ TEST(RecombineCommand, WhatDoesNotGoTogetherIsRefused) {
     const TemporaryFolder folder;
     EXPECT_EQ(run_geomend({"mesh", "--recombine", "a.vtu", "-o", folder / "b.vtu", "--size", "5"}).status, 2);
     EXPECT_EQ(run_geomend({"mesh", "a.vtu", "-o", folder / "b.vtu", "--cells", "cubes"}).status, 2);
-}
-
-/// Cuts a hexahedron from its corner of least rank: neighbours cut a common face along the same diagonal.
-void cut_at_least(const std::array<std::uint32_t, 8>& c, const std::vector<std::uint32_t>& rank, test::Tets& tets) {
-    const auto less = [&](std::uint32_t a, std::uint32_t b) { return rank[a] < rank[b]; };
-    const std::uint32_t from = *std::ranges::min_element(c, less);
-    for (const LocalFace& face : faces_of(CellType::hexahedron)) {
-        std::array<std::uint32_t, 4> v{};
-        for (std::size_t k = 0; k < 4; ++k) v[k] = c[face.corners()[k]];
-        if (std::ranges::find(v, from) != v.end()) continue;
-        std::ranges::rotate(v, std::ranges::min_element(v, less));
-        tets.push_back({v[0], v[2], v[1], from});
-        tets.push_back({v[0], v[3], v[2], from});
-    }
-}
-
-TEST(RecombineCommand, RealMeshesOfHexahedraComeBackWhole) {
-    bool any = false;
-    for (const auto& [name, count] : {std::pair{"vtk/Domain_Mesh_FaultModel.vtu", 6000u}, {"vtk/faultMesh.vtu", 17980u}}) {
-        const auto file = test::real_data(name);
-        if (!file) continue;
-        any = true;
-        const LoadOptions options;
-        auto dataset = load(file->string(), options);
-        ASSERT_TRUE(dataset) << name;
-        std::vector<Loss> losses;
-        const auto mesh = volume_mesh_in(*dataset, losses);
-        ASSERT_TRUE(mesh) << name << ' ' << mesh.why().error.message;
-        std::vector<std::uint32_t> rank((*mesh)->vertices.size());
-        for (std::uint32_t v = 0; v < rank.size(); ++v) rank[v] = v * 2654435761u;
-        test::Tets tets;
-        std::uint32_t hexahedra = 0;
-        for (const auto& block : (*mesh)->blocks) {
-            if (block.type != CellType::hexahedron) continue;
-            for (std::uint32_t c = block.first; c < block.first + block.count; ++c) {
-                std::array<std::uint32_t, 8> corners{};
-                std::ranges::copy((*mesh)->nodes_of(c), corners.begin());
-                cut_at_least(corners, rank, tets);
-                ++hexahedra;
-            }
-        }
-        EXPECT_EQ(hexahedra, count) << name;
-        const auto cut = VolumeMesh::make(test::mesh_data((*mesh)->vertices, tets));
-        ASSERT_TRUE(cut) << name << ' ' << cut.why().error.message;
-        hexes::RecombineReport report;
-        hexes::RecombineOptions how;
-        how.least_quality = 0.01;
-        ASSERT_TRUE(hexes::recombine(*cut, how, report)) << name;
-        EXPECT_EQ(report.count_of(CellType::hexahedron), hexahedra) << name;
-        EXPECT_NEAR(report.volume_share_of(CellType::hexahedron), 1, 1e-12) << name;
-    }
-    if (!any) GTEST_SKIP() << "no real data";
 }
 
 TEST(RecombineCommand, TetrahedraOfARealModelBecomeHexahedraThatConform) {

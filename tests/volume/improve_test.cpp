@@ -154,5 +154,28 @@ RC_GTEST_PROP(Improve, CellsFillTheSameRegionAroundTheSameFacetsAndTheWorstGetsN
     RC_ASSERT(again.cells.new_vertices == b.cells.new_vertices);
 }
 
+// The top of a pyramid is even but for rounding, and a cell lies in it across the other diagonal.
+TEST(Improve, ACellThatLiesFlatOnTwoFacetsGoes) {
+    RegionFacets facets;
+    facets.vertices = {0, 1, 2, 3, 4};
+    facets.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, -1e-13}, {0.5, 0.5, -1}};
+    facets.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}};
+    facets.sides.assign(6, behind);
+    facets.surfaces.assign(6, 0);
+    RegionCells region;
+    region.cells = {{0, 1, 2, 3}, {0, 1, 3, 4}, {1, 2, 3, 4}};
+    for (auto& c : region.cells) {
+        const auto at = [&](std::size_t k) { return facets.positions[c[k]]; };
+        if (orientation(at(0), at(1), at(2), at(3)) < 0) std::swap(c[2], c[3]);
+    }
+    const Improvement done = remove_flat_cells(facets, region);
+    EXPECT_EQ(done.flips, 1u);
+    ASSERT_EQ(region.cells.size(), 2u);
+    for (const auto& c : region.cells) {
+        for (const std::uint32_t v : {0u, 2u, 4u}) EXPECT_NE(std::ranges::find(c, v), c.end()) << "the diagonal of the facets";
+    }
+    EXPECT_EQ(remove_flat_cells(facets, region).flips, 0u);
+}
+
 }  // namespace
 }  // namespace geomend::volumes
