@@ -14,6 +14,7 @@ DOOR = "formats/drop.h"
 # Writers list what their format cannot hold; these files hold such lists of writers beside parts of readers, or only those.
 WRITERS = re.compile(r"/(write_|legacy_write|xml_write|[a-z0-9_]*_writ|[a-z0-9_]*_out\.|losses\.|solid_plan|combine|point_table)")
 BOTH = {
+    "formats/eclipse/kept_arrays.cpp",
     "formats/gmsh/geomend_section.cpp",
     "formats/gocad/model3d_write.cpp",
     "formats/grdecl/kept_text.cpp",
