@@ -37,10 +37,12 @@ bool has_free_border(const ModelScope& scope, const BrepData::Surface& surface) 
     return std::ranges::any_of(surface.lines, [&](const auto& use) { return scope.free_lines()[use.line.value] != 0; });
 }
 
+using StatedSides = std::vector<std::array<std::uint32_t, 2>>;
+
 /// The regions that the file's own lists put on the two sides of each surface; none: no_index, the Universe: its own number.
-std::vector<std::array<std::uint32_t, 2>> stated_sides(const ModelScope& scope) {
+StatedSides stated_sides(const ModelScope& scope) {
     const BrepData& brep = scope.brep();
-    std::vector<std::array<std::uint32_t, 2>> stated(brep.surfaces.size(), {no_index, no_index});
+    StatedSides stated(brep.surfaces.size(), {no_index, no_index});
     if (!scope.model().regions_stated) return stated;
     for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
         for (const auto& side : brep.regions[r].sides) stated[side.surface.value][side.front ? 1 : 0] = r;
@@ -91,9 +93,23 @@ ListDifference difference(const std::vector<std::uint32_t>& stated, const std::v
     return d;
 }
 
-/// Where most of the stated sides bound one region that is found by walking along surfaces, the list is what is wrong.
+/// Surfaces that two lists have on their sides, as they should, but that end freely, so that the two regions run into one another.
+std::vector<std::uint32_t> ending_short(const ModelScope& scope, const std::vector<std::uint32_t>& sides, const StatedSides& stated) {
+    const auto& region_of = scope.model().found.region_of_side;
+    std::vector<std::uint32_t> surfaces;
+    for (const std::uint32_t side : sides) {
+        const std::uint32_t s = side / 2;
+        if (stated[s][0] != stated[s][1] && stated[s][0] != no_index && stated[s][1] != no_index &&
+            region_of[side] == region_of[side ^ 1u] && has_free_border(scope, scope.brep().surfaces[s]))
+            surfaces.push_back(s);
+    }
+    return surfaces;
+}
+
+/// Where most of the stated sides bound one region that is found by walking along surfaces, the list is what is wrong; unless a
+/// surface in it ends short.
 void add_list_difference(const ModelScope& scope, const StatedRecords& records, std::uint32_t region,
-                         const std::vector<std::uint32_t>& single, Finding& finding) {
+                         const std::vector<std::uint32_t>& single, const StatedSides& stated, Finding& finding) {
     const auto& found = scope.model().found;
     if (found.region_of_side.empty()) return;
     std::map<std::uint32_t, std::size_t> times;
@@ -103,6 +119,15 @@ void add_list_difference(const ModelScope& scope, const StatedRecords& records, 
     if (times.empty()) return;
     const auto most = std::ranges::max_element(times, {}, [](const auto& entry) { return entry.second; });
     const auto sides = single_sides(found.regions[most->first]);
+    if (const auto short_ones = ending_short(scope, single, stated); !short_ones.empty()) {
+        finding.message += "; " + quoted(scope.brep().surfaces[short_ones[0]].name);
+        if (short_ones.size() > 1) finding.message += " and " + counted(short_ones.size() - 1, "other surface", "other surfaces");
+        finding.message += std::string(short_ones.size() > 1 ? " end" : " ends") + " before the boundary closes";
+        for (const std::uint32_t s : short_ones) {
+            if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, s));
+        }
+        return;
+    }
     if (2 * most->second <= std::max(sides.size(), single.size())) return;
     const ListDifference d = difference(single, sides);
     if (d.missing.empty() && d.foreign.empty()) return;
@@ -117,6 +142,7 @@ void check_region_closed(const ModelScope& scope, std::vector<Finding>& findings
     if (!scope.model().regions_stated) return;
     const BrepData& brep = scope.brep();
     const StatedRecords records(scope);
+    const auto stated = stated_sides(scope);
     for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
         const auto& region = brep.regions[r];
         if (!region.cell_types.empty() || region.volume_known) continue;
@@ -138,7 +164,7 @@ void check_region_closed(const ModelScope& scope, std::vector<Finding>& findings
         finding.element_kind = "line";
         if (finding.count > 0) finding.message += ": it is open along " + counted(finding.count, "line", "lines");
         if (region.sides.empty()) finding.measures = {{"sides", 0}};
-        else add_list_difference(scope, records, r, single, finding);
+        else add_list_difference(scope, records, r, single, stated, finding);
         findings.push_back(std::move(finding));
     }
 }
@@ -209,8 +235,6 @@ std::vector<std::uint32_t> hole_lines(const ModelScope& scope, std::uint32_t reg
     }
     return holes.empty() ? tips : holes;
 }
-
-using StatedSides = std::vector<std::array<std::uint32_t, 2>>;
 
 /// Of surfaces that no list names: the volume that they enclose with others, which are not cut where they meet.
 std::optional<CutVolume> unlisted_volume(const ModelScope& scope, const std::vector<std::uint32_t>& surfaces, const StatedSides& stated) {
@@ -356,15 +380,17 @@ void check_stated_regions(const ModelScope& scope, std::vector<Finding>& finding
         const auto& region = brep.regions[r];
         const auto single = single_sides(region.sides);
         if (single.empty() || bare[r] != 0 || (!region.volume_known && region.cell_types.empty())) continue;
-        if (region.cell_types.empty() && volumes[r] > 1) {
+        if (region.cell_types.empty() && volumes[r].count > 1) {
             Finding finding = finding_of("B13", "region " + quoted(region.name) + " is stated as one, but surfaces inside divide it into " +
-                                                    std::to_string(volumes[r]) + " volumes");
+                                                    std::to_string(volumes[r].count) + " volumes");
             finding.entities.push_back(region_ref(scope, r));
-            finding.count = volumes[r];
+            finding.count = volumes[r].count;
             finding.element_kind = "volume";
-            finding.measures = {{"volumes", static_cast<double>(volumes[r])}};
-            for (const std::uint32_t side : inner_surfaces(region.sides)) {
-                if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, side));
+            finding.measures = {{"volumes", static_cast<double>(volumes[r].count)}};
+            std::vector<std::uint32_t> inside = inner_surfaces(region.sides);
+            inside.insert(inside.end(), volumes[r].unlisted.begin(), volumes[r].unlisted.end());
+            for (const std::uint32_t s : inside) {
+                if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, s));
             }
             findings.push_back(std::move(finding));
             continue;

@@ -96,8 +96,8 @@ Finding outlying_finding(const Object& object, std::span<const topology::Outlyin
     std::string message = (alone ? "point " + std::to_string(number) : std::to_string(outlying.size()) + " points") + " of " +
                           quoted(info_of(object).name) + (alone ? " lies" : " lie") +
                           " far off: " + (alone ? "" : "point " + std::to_string(number) + ", the first, is ") + (alone ? "it is " : "") +
-                          "at " + stated_position(object, p) + ", " + rounded(first.times) +
-                          " times as far from the others as these are from each other";
+                          "at " + stated_position(object, p);
+    if (first.times > 0) message += ", " + rounded(first.times) + " times as far from the others as these are from each other";
     if (usual) message += "; the height looks like no-data";
     message +=
         alone ? "; all else is judged as if it lay between its neighbours" : "; all else is judged as if they lay between their neighbours";

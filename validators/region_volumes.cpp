@@ -137,28 +137,36 @@ std::vector<std::uint8_t> regions_with_bare_facets(const ModelScope& scope) {
     return bare;
 }
 
-std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope) {
+std::vector<RegionVolumes> volumes_of_regions(const ModelScope& scope) {
     const BrepData& brep = scope.brep();
-    std::vector<std::uint32_t> volumes(brep.regions.size(), 0);
+    std::vector<RegionVolumes> volumes(brep.regions.size());
     using Stated = std::pair<std::uint32_t, bool>;  // surface and side
     std::vector<std::set<Stated>> sides(brep.regions.size());
-    bool has_inner = false;
+    std::vector<std::uint8_t> listed(brep.surfaces.size(), 0), has_inner(brep.regions.size(), 0);
+    for (const auto& side : brep.universe) listed[side.surface.value] = 1;
     for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
-        for (const auto& side : brep.regions[r].sides) sides[r].emplace(side.surface.value, side.front);
-        const bool inner = std::ranges::any_of(sides[r], [&](const Stated& s) { return sides[r].contains({s.first, !s.second}); });
-        if (!inner) sides[r].clear();
-        has_inner |= inner;
+        for (const auto& side : brep.regions[r].sides) {
+            sides[r].emplace(side.surface.value, side.front);
+            listed[side.surface.value] = 1;
+        }
+        has_inner[r] = std::ranges::any_of(sides[r], [&](const Stated& s) { return sides[r].contains({s.first, !s.second}); });
     }
-    if (!has_inner) return volumes;
+    const bool all_listed = std::ranges::find(listed, 0) == listed.end();
+    if (all_listed && std::ranges::find(has_inner, 1) == has_inner.end()) return volumes;
 
     const auto count = [&](const topology::FoundRegions& found, const auto& surface_of) {
         for (const auto& volume : found.regions) {
-            for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
-                if (sides[r].empty()) continue;
-                const bool is_inside = std::ranges::all_of(volume, [&](const auto& side) {
-                    return sides[r].contains({surface_of(side.surface.value), side.front});
-                });
-                volumes[r] += is_inside ? 1 : 0;
+            std::set<std::uint32_t> unlisted;
+            std::set<Stated> stated;
+            for (const auto& side : volume) {
+                const std::uint32_t s = surface_of(side.surface.value);
+                if (listed[s] == 0) unlisted.insert(s);
+                else stated.emplace(s, side.front);
+            }
+            for (std::uint32_t r = 0; r < brep.regions.size() && !stated.empty(); ++r) {
+                if (!std::ranges::includes(sides[r], stated)) continue;
+                ++volumes[r].count;
+                volumes[r].unlisted.insert(volumes[r].unlisted.end(), unlisted.begin(), unlisted.end());
             }
         }
     };
@@ -168,6 +176,12 @@ std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope) {
     } else {
         const Pieces pieces = pieces_of_model(scope);
         count(pieces.found, [&](std::uint32_t piece) { return pieces.source[piece]; });
+    }
+    for (std::uint32_t r = 0; r < volumes.size(); ++r) {
+        auto& [number, unlisted] = volumes[r];
+        std::ranges::sort(unlisted);
+        unlisted.erase(std::unique(unlisted.begin(), unlisted.end()), unlisted.end());
+        if (has_inner[r] == 0 && unlisted.empty()) number = 0;
     }
     return volumes;
 }

@@ -14,9 +14,15 @@ namespace geomend::validators {
 /// walking along surfaces then cannot tell it from its neighbours. Cost: n log n in the facets of all cells.
 std::vector<std::uint8_t> regions_with_bare_facets(const ModelScope& scope);
 
-/// Per stated region the number of volumes that its sides enclose when surfaces are cut wherever they meet others, whether or not
-/// the file cuts them there; 0 for regions without a surface inside, which the walk along whole surfaces tells already.
-std::vector<std::uint32_t> volumes_of_regions(const ModelScope& scope);
+/// The volumes of a stated region.
+struct RegionVolumes {
+    std::uint32_t count = 0;              ///< 0: no surface lies inside; the walk along whole surfaces tells already
+    std::vector<std::uint32_t> unlisted;  ///< surfaces in no list that bound them; they ascend
+};
+
+/// Per stated region the volumes that its sides enclose, with surfaces that no list names, when surfaces are cut wherever they meet
+/// others, whether or not the file cuts them there. Cost: as of finding the regions of the model, where surfaces lie inside.
+std::vector<RegionVolumes> volumes_of_regions(const ModelScope& scope);
 
 /// Whether no line runs so through a surface that it falls into pieces. Cost: linear.
 bool surfaces_are_whole(const ModelScope& scope);

@@ -324,6 +324,10 @@ Result<Checked> judge_models(const Dataset& as_read, const CheckOptions& options
     report_outlying(as_read, result.local, result.findings);
     const auto pulled = with_outlying_points_pulled_in(as_read, result.local);
     const Dataset& dataset = pulled ? *pulled : as_read;
+    if (pulled && result.local.largest.diameter == 0) {  // no element is without such a point
+        result.local = lengths_of(dataset, options);
+        result.lengths = result.local.largest;
+    }
     auto models = topology::models_to_judge(dataset, topology::model_sources(dataset, result.local));
     if (!models) return std::move(models).why();
     std::vector<std::unique_ptr<ModelScope>> scopes;

@@ -98,8 +98,14 @@ std::vector<Attribute> PropertyLists::make_attributes(AttributeLocation location
         if (list.empty() || list.size() == per_entry * names.size()) return;
         const bool more = list.size() > per_entry * names.size();
         const auto text = [&] {
-            return std::string(what) + " has " + std::to_string(list.size()) + " entries for " + std::to_string(names.size()) +
-                   " properties";
+            std::string message = std::string(what) + " has " + std::to_string(list.size()) +
+                                  (list.size() == 1 ? " entry for " : " entries for ") + std::to_string(names.size()) + " properties";
+            const std::size_t first = list.size() / per_entry;
+            for (std::size_t i = first; i < std::min(names.size(), first + 3); ++i) {
+                message += (i == first ? ": none for '" : ", '") + names[i] + "'";
+            }
+            if (!more && names.size() > first + 3) message += " and " + std::to_string(names.size() - first - 3) + " more";
+            return message;
         };
         if (more && what != "ESIZES") log.drop("F107", LossClass::identity, "entries of a record", line_, 0, text(), what);
         else log.add(what == "ESIZES" ? "F008" : "F105", line_, 0, text, what);

@@ -36,8 +36,21 @@ bool take_unit(std::string_view line, CoordinateSystem& crs) {
     return true;
 }
 
-/// Where the type of a column ends: at the comma, or at the blank before a name in quotes. npos: there is no type.
+bool is_text_type(std::string_view type) { return same_word(type, "STRING") || same_word(type, "BOOL") || same_word(type, "DATE"); }
+
+bool is_integer_type(std::string_view type) { return same_word(type, "INT") || same_word(type, "INTEGER"); }
+
+bool is_real_type(std::string_view type) { return same_word(type, "FLOAT") || same_word(type, "DOUBLE"); }
+
+/// Where the type of a column ends: at the comma; or at the blank or semicolon behind a known type. npos: there is no type.
 std::size_t end_of_type(std::string_view line) {
+    const std::size_t end = line.find_first_of(" \t;,");
+    if (end == std::string_view::npos) return end;
+    const std::string_view first = line.substr(0, end);
+    if (is_text_type(first) || is_integer_type(first) || is_real_type(first)) {
+        const std::size_t next = line.find_first_not_of(" \t", end);
+        return next != std::string_view::npos && (line[next] == ',' || line[next] == ';') ? next : end;
+    }
     const std::size_t comma = line.find(','), quote = line.find('"');
     if (quote == std::string_view::npos || comma < quote || !line.ends_with('"')) return comma;
     const std::size_t blank = line.find_first_of(" \t");
@@ -58,9 +71,9 @@ std::optional<PointColumn> declared_column(std::string_view line) {
     std::string_view name = trimmed(line.substr(comma + 1));
     if (name.size() >= 2 && name.starts_with('"') && name.ends_with('"')) name = trimmed(name.substr(1, name.size() - 2));
     column.name = name;
-    if (same_word(type, "INT") || same_word(type, "INTEGER")) column.kind = Kind::integer;
-    else if (same_word(type, "FLOAT") || same_word(type, "DOUBLE")) column.kind = Kind::real;
-    else if (same_word(type, "STRING") || same_word(type, "BOOL") || same_word(type, "DATE")) column.kind = Kind::text;
+    if (is_integer_type(type)) column.kind = Kind::integer;
+    else if (is_real_type(type)) column.kind = Kind::real;
+    else if (is_text_type(type)) column.kind = Kind::text;
     else return std::nullopt;
     return column;
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/text_cursor.h"
 #include "base/wording.h"
 #include "formats/drop.h"
@@ -96,7 +97,7 @@ private:
         return {};
     }
 
-    /// Arrays that the file of pieces announces and a piece has not.
+    /// Arrays that the file of pieces announces and a piece has not, or has with another number of components.
     void report_announced_arrays() {
         for (const auto& [section, location] :
              {std::pair{"PPointData", AttributeLocation::point}, std::pair{"PCellData", AttributeLocation::cell}}) {
@@ -105,7 +106,12 @@ private:
             for (const XmlElement* array = doc_.child(*data, "PDataArray"); array != nullptr;
                  array = doc_.child(*data, "PDataArray", array)) {
                 const std::string name = doc_.attribute(*array, "Name");
-                if (!name.empty()) report_announced(name, location, doc_.where(*array));
+                if (name.empty()) continue;
+                report_announced(name, location, doc_.where(*array));
+                std::int64_t components = 1;
+                const std::string stated = doc_.attribute(*array, "NumberOfComponents");
+                if (stated.empty() || parse_integer(stated, components) == NumberStatus::ok)
+                    report_announced_components(name, location, components, doc_.where(*array));
             }
         }
     }
@@ -119,6 +125,23 @@ private:
         notes_.findings.push_back(
             make_finding("F113", "array '" + name + "' is announced, but " + counted(without, "piece does", "pieces do") + " not have it",
                          where, without));
+    }
+
+    void report_announced_components(const std::string& name, AttributeLocation location, std::int64_t announced, const Location& where) {
+        std::uint64_t others = 0;
+        std::uint32_t first = 0;
+        for (const Piece& piece : pieces_) {
+            for (const Attribute& a : piece.attributes) {
+                if (a.name != name || a.location != location || a.components == announced) continue;
+                if (others++ == 0) first = a.components;
+            }
+        }
+        if (others == 0) return;
+        notes_.findings.push_back(make_finding("F113",
+                                               "array '" + name + "' is announced with " + std::to_string(announced) +
+                                                   (announced == 1 ? " component" : " components") + ", but " +
+                                                   counted(others, "piece has ", "pieces have ") + std::to_string(first),
+                                               where, others));
     }
 
     Result<Object> make_object() {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "base/disjoint_sets.h"
 
@@ -13,13 +14,17 @@ namespace geomend::topology {
 
 namespace {
 
-constexpr std::array usual_heights = {999.0, 999.25, 9999.0, 99999.0, 999999.0, 9999900.0, 1e10, 1e15};
+constexpr std::array round_heights = {999.0, 9999.0};  // some models end at such a depth
+constexpr std::array odd_heights = {999.25,   999.99,    9999.25,   9999.99, 32767.0, 32768.0,      99999.0,      99999.99, 999999.0,
+                                    999999.9, 9999900.0, 9999999.0, 1e9,     1e10,    2147483647.0, 2147483648.0, 1e15};
 constexpr double often_from = 9999;  // smaller ones are depths of something more often
 
-bool is_usual(double height) {
+bool is_among(std::span<const double> numbers, double height) {
     const auto z = static_cast<float>(std::abs(height));
-    return z >= 999 && std::ranges::any_of(usual_heights, [&](double usual) { return static_cast<float>(usual) == z; });
+    return z >= 999 && std::ranges::any_of(numbers, [&](double usual) { return static_cast<float>(usual) == z; });
 }
+bool is_odd(double height) { return is_among(odd_heights, height); }
+bool is_usual(double height) { return is_among(round_heights, height) || is_odd(height); }
 
 template <class Visit>
 void each_edge(const std::array<std::uint32_t, 3>& t, const Visit& visit) {
@@ -50,19 +55,29 @@ void mark_usual(const UsedPoints& used, std::uint32_t object, std::vector<Outlyi
         high = std::max(high, used.positions[v][2]);
     }
     if (!(low <= high)) return;
-    std::vector<std::uint32_t> gentle;  // have an edge to others that is not steep
+    std::vector<std::uint32_t> gentle;                                           // have an edge to others that is not steep
+    double steepest = 0, least_steep = std::numeric_limits<double>::infinity();  // of the others' edges, of those to suspects
+    bool upright = false;                                                        // of those to suspects one is
     for (const auto& t : triangles) {
         each_edge(t, [&](std::uint32_t a, std::uint32_t b) {
-            if (!is_usual(used.positions[a][2]) && !is_usual(used.positions[b][2])) return;
+            const bool first = is_usual(used.positions[a][2]), second = is_usual(used.positions[b][2]);
+            if (first && second) return;
             const Vec3 d = minus(used.positions[a], used.positions[b]);
-            if (std::abs(d[2]) > std::hypot(d[0], d[1]) || (is_usual(used.positions[a][2]) && is_usual(used.positions[b][2]))) return;
-            gentle.push_back(is_usual(used.positions[a][2]) ? a : b);
+            const double rise = std::abs(d[2]), way = std::hypot(d[0], d[1]), steepness = rise > 0 ? rise / way : 0;
+            if (!first && !second) {
+                steepest = std::max(steepest, steepness);
+                return;
+            }
+            upright = upright || way == 0;
+            least_steep = std::min(least_steep, steepness);
+            if (rise <= way) gentle.push_back(first ? a : b);
         });
     }
     std::ranges::sort(gentle);
+    const bool stand_out = !upright && least_steep >= std::max(1.0, 4 * steepest);
     for (const std::uint32_t v : suspects) {
         const double z = used.positions[v][2], beyond = std::max(low - z, z - high);
-        const std::size_t share = std::abs(z) >= often_from ? 2 : 10;
+        const std::size_t share = stand_out ? (is_odd(z) ? 1 : 2) : std::abs(z) >= often_from ? 2 : 10;
         if (beyond > 0 && beyond >= high - low && share * suspects.size() < vertices.size() && !std::ranges::binary_search(gentle, v))
             marks[v] = Outlying::usual;
     }

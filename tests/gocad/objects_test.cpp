@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+
 #include "gocad/gocad_support.h"
 
 namespace geomend::test {
@@ -230,6 +232,13 @@ TEST(GocadTSurf, PaddingAndSurplusAreTold) {
     EXPECT_TRUE(has_finding(few, "F105"));
     EXPECT_EQ(values_of(points_at(few, 0).info, "b"), std::vector<double>{-2});
     EXPECT_TRUE(has_finding(dataset_of("GOCAD VSet 1\nPROPERTIES a\nPVRTX 1 0 0 0 5 6\nEND\n"), "F107"));
+}
+
+TEST(GocadTSurf, PropertiesWithoutAnEntryAreNamed) {
+    const Dataset d = dataset_of("GOCAD VSet 1\nPROPERTIES a b c\nNO_DATA_VALUES -1 -2\nPVRTX 1 0 0 0 5 6 7\nEND\n");
+    const auto found = std::ranges::find(d.findings, "F105", &Finding::code);
+    ASSERT_NE(found, d.findings.end());
+    EXPECT_NE(found->message.find("none for 'c'"), std::string::npos) << found->message;
 }
 
 TEST(GocadTSurf, OneNoDataValueIsThatOfEachProperty) {

@@ -111,6 +111,21 @@ TEST(PetrelPoints, TypesMayStandBeforeNamesInQuotes) {
     EXPECT_EQ(value_as_double(attributes[2], 0), 0.5);
 }
 
+TEST(PetrelPoints, TypesMayStandBeforeNamesBehindABlankOrASemicolon) {
+    for (const char* between : {" ", "\t", ";", " ; ", ",", ", "}) {
+        const std::string b = between;
+        const Dataset d = good("petrel-points", "VERSION 1\nBEGIN HEADER\nX\nY\nZ\nSTRING" + b + "Well\nINT" + b + "Line number\nFLOAT" +
+                                                    b + "Net, to gross\nPlain name\nEND HEADER\n1 2 -3 \"A 1\" 7 0.5 8\n");
+        const auto& attributes = std::get<PointSet>(d.objects.at(0)).info.attributes;
+        ASSERT_EQ(attributes.size(), 4u) << b;
+        EXPECT_EQ(attributes[0].name, "Well") << b;
+        EXPECT_EQ(std::get<std::vector<std::string>>(attributes[0].values), std::vector<std::string>{"A 1"}) << b;
+        EXPECT_EQ(attributes[1].name, "Line number") << b;
+        EXPECT_EQ(attributes[2].name, "Net, to gross") << b;
+        EXPECT_EQ(attributes[3].name, "Plain name") << b;
+    }
+}
+
 constexpr std::string_view petrel =
     "# Petrel Points with attributes\n"
     "# Unit in X and Y direction: m\n"

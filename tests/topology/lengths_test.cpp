@@ -113,7 +113,45 @@ TEST_P(NoDataHeight, is_named_and_takes_no_part) {
     EXPECT_GT(found.outlying[0].times, 0.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Numbers, NoDataHeight, ::testing::Values(-999.25, -9999.0, -99999.0, 99999.0, 1e9, 1e15, -3e7));
+INSTANTIATE_TEST_SUITE_P(Numbers, NoDataHeight, ::testing::Values(-999.25, -999.0, -32768.0, -9999.0, -99999.0, 99999.0, 1e9, 1e15, -3e7));
+
+TEST(Lengths, know_no_data_at_many_points_of_a_surface) {
+    for (const double height : {-999.25, -32768.0, -99999.0, 1e9}) {
+        for (const std::uint32_t rows : {1u, 2u, 4u, 6u}) {
+            Surface surface = flat_sheet("hz", 6, 100, {0, 0, -1500});
+            for (std::uint32_t p = 0; p < 7 * rows; ++p) surface.points[p][2] = height;
+            const auto found = lengths_of(with({surface}));
+            EXPECT_EQ(found.outlying.size(), 7 * rows) << height;
+            EXPECT_LT(found.largest.diameter, 1000) << height;
+        }
+    }
+}
+
+TEST(Lengths, know_round_no_data_at_a_corner_of_a_surface) {
+    Surface surface = flat_sheet("hz", 6, 100, {0, 0, -1500});
+    for (const std::size_t p : {0, 1, 2, 7, 8, 9, 14, 15, 16}) surface.points[p][2] = -999;
+    EXPECT_EQ(lengths_of(with({surface})).outlying.size(), 9u);
+}
+
+/// A sheet that stands, or leans, with rows at some heights.
+Surface wall(const std::vector<double>& heights, double lean) {
+    Surface surface = flat_sheet("wall", static_cast<std::uint32_t>(heights.size() - 1), 100, {0, 0, 0});
+    for (Vec3& p : surface.points) {
+        p[2] = heights[static_cast<std::size_t>(std::lround(p[1] / 100))];
+        p[1] = lean * p[2];
+    }
+    return surface;
+}
+
+TEST(Lengths, know_walls_that_end_at_a_usual_depth_from_no_data) {
+    for (const double lean : {0.0, 0.3}) {
+        for (const double bottom : {-999.0, -9999.0}) {
+            EXPECT_TRUE(lengths_of(with({wall({0, bottom}, lean)})).outlying.empty()) << lean << ' ' << bottom;
+            EXPECT_TRUE(lengths_of(with({wall({0, bottom / 3, 2 * bottom / 3, bottom}, lean)})).outlying.empty()) << lean << ' ' << bottom;
+        }
+    }
+    EXPECT_TRUE(lengths_of(with({wall({0, -99999}, 0)})).outlying.empty());
+}
 
 TEST(Lengths, know_a_needle_from_no_data) {
     const auto needle = sheet("salt", 20, 100, {0, 0, -1000}, [](std::uint32_t i, std::uint32_t j) {

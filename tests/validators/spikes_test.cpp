@@ -55,6 +55,68 @@ TEST_P(Spike, IsReportedAloneWhateverStatesTheModel) {
     }
 }
 
+/// The number of edges at a point that one triangle of a face alone has, by positions.
+std::size_t free_edges_at(Patient& patient, std::size_t face, std::uint32_t point) {
+    const Vec3 here = patient.at(face, point);
+    std::map<Vec3, int> uses;
+    for (std::uint64_t t = patient.first(face); t < patient.last(face); ++t) {
+        const Corners corners = patient.corners(face, t);
+        const bool has_it = std::ranges::any_of(corners, [&](std::uint32_t c) { return patient.at(face, c) == here; });
+        for (const std::uint32_t c : corners) uses[patient.at(face, c)] += has_it && patient.at(face, c) != here ? 1 : 0;
+    }
+    return static_cast<std::size_t>(std::ranges::count_if(uses, [](const auto& use) { return use.second == 1; }));
+}
+
+/// A point on the border of each triangle of each surface of a model, in that surface alone, is put far down.
+void each_border_spike(const Animal& animal, const std::function<void(Dataset, const std::string&)>& visit) {
+    Patient patient(animal);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> done;
+    for (std::size_t face = 0; face < patient.faces(); ++face) {
+        const std::uint32_t object = patient.model().faces[face].object;
+        const auto inner = patient.inner_points(face);
+        if (inner.empty()) continue;
+        for (std::uint64_t t = patient.first(face); t < patient.last(face); ++t) {
+            const std::uint32_t point = patient.corners(face, t)[0];
+            if (std::ranges::find(inner, point) != inner.end() || !done.emplace(object, point).second) continue;
+            Dataset data = animal.model.data;
+            auto& points = std::get<Surface>(data.objects[object]).points;
+            if (free_edges_at(patient, face, point) != 2) continue;  // other surfaces end on this one there, or it touches itself
+            points[point][2] = -99999;
+            visit(std::move(data), patient.name(face) + ", triangle " + std::to_string(t));
+        }
+    }
+}
+
+TEST_P(Spike, IsReportedAloneOnBordersToo) {
+    const Animal animal = GetParam().make();
+    const auto sound = told(animal.model.data);
+    each_border_spike(animal, [&](const Dataset& data, const std::string& name) {
+        auto found = told(data);
+        EXPECT_EQ(found["M15"], 1u) << name;
+        found.erase("M15");
+        EXPECT_EQ(found, sound) << name;
+    });
+}
+
+TEST(Spikes, AlongASideOfASurfaceAreReportedAlone) {
+    for (const std::uint32_t rows : {1u, 2u, 4u}) {
+        Dataset data;
+        Surface surface;
+        surface.info.name = "hz";
+        surface.info.role = FeatureRole::horizon;
+        for (std::uint32_t p = 0; p < 25; ++p) {
+            const std::uint32_t i = p % 5, j = p / 5;
+            surface.points.push_back({100.0 * i, 100.0 * j, j < rows ? -99999.0 : -1500.0 - i - 3.0 * j});
+        }
+        for (std::uint32_t p = 0; p + 6 < 25; ++p) {
+            if (p % 5 == 4) continue;
+            surface.polygons.corners.insert(surface.polygons.corners.end(), {p, p + 1, p + 6, p, p + 6, p + 5});
+        }
+        data.objects.emplace_back(std::move(surface));
+        EXPECT_EQ(told(data), (std::map<std::string, std::uint64_t>{{"M15", 1}})) << rows;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Models, Spike, ::testing::ValuesIn(whole_zoo()), [](const auto& species) { return species.param.name; });
 
 }  // namespace

@@ -32,6 +32,56 @@ std::vector<Dataset> rewritten(const Dataset& data) {
     return {data, moved(data, rotated), on_the_map(data, 1000), other_order(turned(shuffled(data, random), random), random)};
 }
 
+/// A box whose walls are whole, in one region, with a surface inside that no list names: across the box at x = 1, or free of the walls.
+Dataset box_with_unlisted(bool across) {
+    test::ModelMaker m;
+    const auto at = [](double x, double y, double z) { return Vec3{x, y, z}; };
+    const auto twice = [&](const auto& of) { return test::joined({of(0), of(1)}); };
+    m.add("bottom", FeatureRole::boundary,
+          twice([&](int x) { return test::quad(at(x, 0, 0), at(x, 1, 0), at(x + 1, 1, 0), at(x + 1, 0, 0)); }));
+    m.add("top", FeatureRole::boundary,
+          twice([&](int x) { return test::quad(at(x, 0, 1), at(x + 1, 0, 1), at(x + 1, 1, 1), at(x, 1, 1)); }));
+    m.add("south", FeatureRole::boundary,
+          twice([&](int x) { return test::quad(at(x, 0, 0), at(x + 1, 0, 0), at(x + 1, 0, 1), at(x, 0, 1)); }));
+    m.add("north", FeatureRole::boundary,
+          twice([&](int x) { return test::quad(at(x + 1, 1, 0), at(x, 1, 0), at(x, 1, 1), at(x + 1, 1, 1)); }));
+    m.add("west", FeatureRole::boundary, test::quad(at(0, 1, 0), at(0, 0, 0), at(0, 0, 1), at(0, 1, 1)));
+    m.add("east", FeatureRole::boundary, test::quad(at(2, 0, 0), at(2, 1, 0), at(2, 1, 1), at(2, 0, 1)));
+    const double low = across ? 0 : 0.25, high = across ? 1 : 0.75;
+    m.add("F", FeatureRole::fault, test::quad(at(1, low, low), at(1, high, low), at(1, high, high), at(1, low, high)));
+    m.region("Universe", {1, 2, 3, 4, 5, 6});
+    m.region("rock", {-1, -2, -3, -4, -5, -6});
+    return m.data;
+}
+
+TEST(StatedRegions, ThatAnUnlistedSurfaceDividesAreAnError) {
+    for (const Dataset& data : rewritten(box_with_unlisted(true))) {
+        EXPECT_EQ(worse_than_notes(data), Codes{"B13 error"});
+        const Finding f = find(judged(data), "B13", Severity::error);
+        ASSERT_EQ(f.entities.size(), 2u);
+        EXPECT_EQ(f.entities[0].name, "rock");
+        EXPECT_EQ(f.entities[1].name, "F");
+        EXPECT_EQ(f.count, 2u);
+    }
+    for (const Dataset& data : rewritten(box_with_unlisted(false))) EXPECT_EQ(worse_than_notes(data), Codes{});
+}
+
+TEST(StatedSides, AreNotBlamedWhereASurfaceEndsShort) {
+    LayeredModel model;
+    for (Vec3& p : model.surface("upper").points) p[0] = p[0] > 3.9 ? 3.99 : p[0];
+    for (const Dataset& data : rewritten(model.data())) {
+        std::size_t open = 0;
+        for (const Finding& f : judged(data)) {
+            if (f.code != "B05") continue;
+            ++open;
+            EXPECT_EQ(f.message.find("list"), std::string::npos) << f.message;
+            EXPECT_NE(f.message.find("'upper_2' ends before"), std::string::npos) << f.message;
+            EXPECT_TRUE(f.measures.empty());
+        }
+        EXPECT_EQ(open, 2u);
+    }
+}
+
 TEST(StatedSides, OnTheWrongSideAreAnError) {
     for (const std::size_t region : {1u, 4u}) {
         LayeredModel model;

@@ -100,6 +100,29 @@ TEST(XmlRead, ArraysThatPiecesLackAreReported) {
     EXPECT_EQ(data->findings[0].where.line, 5u);
 }
 
+TEST(XmlRead, ArraysThatPiecesHaveWithOtherComponentsAreReported) {
+    const TemporaryFolder folder;
+    write_file(folder / "p.vtp",
+               "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"1\">"
+               "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0</DataArray></Points>"
+               "<PointData><DataArray type=\"Float64\" Name=\"t\" format=\"ascii\">1</DataArray></PointData>"
+               "</Piece></PolyData></VTKFile>\n");
+    for (const bool same : {true, false}) {
+        write_file(folder / "all.pvtp",
+                   std::string("<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PPolyData GhostLevel=\"0\">\n"
+                               "<PPointData>\n<PDataArray type=\"Float64\" Name=\"t\"") +
+                       (same ? "" : " NumberOfComponents=\"3\"") +
+                       "/>\n</PPointData>\n<Piece Source=\"p.vtp\"/>\n</PPolyData>\n</VTKFile>\n");
+        const auto data = read_xml_file(folder / "all.pvtp");
+        ASSERT_TRUE(data.ok());
+        ASSERT_EQ(data->findings.size(), same ? 0u : 1u);
+        if (same) continue;
+        EXPECT_EQ(data->findings[0].code, "F113");
+        EXPECT_EQ(data->findings[0].message, "array 't' is announced with 3 components, but 1 piece has 1");
+        EXPECT_EQ(data->findings[0].where.line, 4u);
+    }
+}
+
 TEST(XmlRead, TellsWhatIsWrongAndWhere) {
     EXPECT_EQ(failure_code(unstructured("0 0 0 1 0 0 0 1 0 0 0 nan", "0 1 2 3", "4", "10", 4, 1)), "F006");
     EXPECT_EQ(failure_code(unstructured(four_points, "0 1 2 4", "4", "10", 4, 1)), "F007");
