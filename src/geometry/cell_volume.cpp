@@ -2,11 +2,20 @@
 #include "geometry/cell_volume.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "geometry/predicates.h"
 
 namespace geomend {
 
 double tetrahedron_volume(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3) {
-    return flux6(minus(p1, p0), minus(p2, p0), minus(p3, p0)) / 6;
+    const Vec3 u = minus(p1, p0), v = minus(p2, p0), w = minus(p3, p0);
+    const double six = dot(u, cross(v, w));
+    // Where rounding decides the sign, as in cells that are flat but for it, the exact one is asked for.
+    constexpr double unsure = 1e-13;
+    const double size = (std::abs(u[0]) + std::abs(u[1]) + std::abs(u[2])) * (std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2])) *
+                        (std::abs(w[0]) + std::abs(w[1]) + std::abs(w[2]));
+    return (std::abs(six) > unsure * size || !std::isfinite(size) ? six : six_volumes(p0, p1, p2, p3)) / 6;
 }
 
 double hexahedron_volume(const std::array<Vec3, 8>& corners) {

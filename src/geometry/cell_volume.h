@@ -16,7 +16,7 @@ inline double flux6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
     return 0.5 * (flux6(a, b, c) + flux6(a, c, d) + flux6(a, b, d) + flux6(b, c, d));
 }
 
-/// Signed volume of a tetrahedron, positive when (p1-p0, p2-p0, p3-p0) is right-handed.
+/// Signed volume of a tetrahedron, positive when (p1-p0, p2-p0, p3-p0) is right-handed: its sign is exact.
 double tetrahedron_volume(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3);
 /// Signed volume of a trilinear hexahedron in VTK's corner order. Exact (but for rounding): the determinant of
 /// the map integrates to the flux through its six bilinear faces.

@@ -62,7 +62,8 @@ Improvement improve_proven(const RegionFacets& facets, RegionCells& region, cons
     const Improvement done = options.improve ? improve(facets, better, options.monitor) : remove_flat_cells(facets, better);
     if (done.flips + done.moves == 0) return done;
     measure(facets, better);
-    if (better.least_dihedral < region.least_dihedral || !(std::abs(better.volume - facets.volume) <= 1e-9 * std::abs(facets.volume)))
+    if ((options.improve && better.least_dihedral < region.least_dihedral) ||
+        !(std::abs(better.volume - facets.volume) <= 1e-9 * std::abs(facets.volume)))
         return {};
     region = std::move(better);
     return done;

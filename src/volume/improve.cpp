@@ -263,13 +263,13 @@ public:
     /// Cells that lie flat on two facets go, with the edge that they have beside these.
     void remove_flats() {
         constexpr double flat_sine = 1e-6;
-        for (std::uint32_t c = 0; c < mesh_.size(); ++c) {
-            if (!mesh_.is_there(c) || mesh_.sine_of(c) >= flat_sine || facets_of(mesh_.at(c)) < 2) continue;
-            const Cell cell = mesh_.at(c);
-            bool gone = false;
-            for (std::size_t i = 0; i < 4 && !gone; ++i) {
-                for (std::size_t j = i + 1; j < 4 && !gone; ++j) gone = remove_edge(cell[i], cell[j]);
+        constexpr int most_rounds = 4;
+        for (int round = 0; round < most_rounds; ++round) {
+            const std::uint64_t before = done.flips;
+            for (std::uint32_t c = 0; c < mesh_.size(); ++c) {
+                if (mesh_.is_there(c) && mesh_.sine_of(c) < flat_sine && facets_of(mesh_.at(c)) >= 2) remove_inner_edge(mesh_.at(c));
             }
+            if (done.flips == before) return;
         }
     }
 
@@ -285,6 +285,14 @@ private:
         std::uint64_t count = 0;
         for (std::uint32_t c = 0; c < mesh_.size(); ++c) count += mesh_.is_there(c) && mesh_.sine_of(c) < bad_sine ? 1 : 0;
         return count;
+    }
+
+    void remove_inner_edge(const Cell cell) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = i + 1; j < 4; ++j) {
+                if (remove_edge(cell[i], cell[j])) return;
+            }
+        }
     }
 
     std::size_t facets_of(const Cell& cell) const {

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
 #include "geometry/measures.h"
+#include "geometry/predicates.h"
 
 namespace geomend {
 namespace {
@@ -77,6 +79,24 @@ TEST(CellVolume, IsPositiveAndRightInVtkCornerOrder) {
     EXPECT_DOUBLE_EQ(cell_volume(one_cell(CellType::pyramid, pyramid), 0), 1);
     const vector<Vec3> wedge = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 2}, {0, 1, 2}, {1, 0, 2}};
     EXPECT_DOUBLE_EQ(cell_volume(one_cell(CellType::wedge, wedge), 0), 1);
+}
+
+// Of a cell that is flat but for the rounding of its coordinates the sign is that of the exact volume.
+TEST(CellVolume, HasTheRightSignHoweverFlatATetrahedronIs) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-1, 1);
+    std::size_t against = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 a{place(random), place(random), place(random)}, u{place(random), place(random), place(random)},
+            v{place(random), place(random), place(random)};
+        const Vec3 b = plus(a, u), c = plus(a, v), d = plus(a, plus(times(0.3, u), times(0.6, v)));
+        const double volume = tetrahedron_volume(a, b, c, d);
+        const int sign = volume > 0 ? 1 : volume < 0 ? -1 : 0;
+        EXPECT_EQ(sign, orientation(a, b, c, d));
+        const double plain = flux6(minus(b, a), minus(c, a), minus(d, a));
+        against += (plain > 0) != (volume > 0) ? 1 : 0;
+    }
+    EXPECT_GT(against, 0u) << "plain arithmetic has it wrong at times";
 }
 
 TEST(CellVolume, OfRegularPrisms) {

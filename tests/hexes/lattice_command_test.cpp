@@ -188,5 +188,16 @@ TEST(Hybrid, AThinLayerThatPinchesOutBecomesPrisms) {
     EXPECT_EQ(report["recombine"]["folded"], 0);
 }
 
+// The sides and horizons of the sample are even: tetrahedra over a lattice are flat there but for rounding.
+TEST(HexDominant, TheLayeredBoxWithAFaultIsValidAndNearlyAllHexahedra) {
+    const TemporaryFolder folder;
+    const std::string sample = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.ml", out = (folder / "box.vtu").string();
+    const auto run = test::run_geomend({"mesh", sample, "--cells", "hex-dominant", "--size", "60", "-o", out, "--lossy", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_GE(share(json::parse(run.out), "hexahedron"), 0.98);
+    const auto valid = test::run_geomend({"validate", out});
+    EXPECT_EQ(valid.status, 0) << valid.out;
+}
+
 }  // namespace
 }  // namespace geomend
