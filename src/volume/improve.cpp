@@ -290,7 +290,7 @@ private:
     void remove_inner_edge(const Cell cell) {
         for (std::size_t i = 0; i < 4; ++i) {
             for (std::size_t j = i + 1; j < 4; ++j) {
-                if (remove_edge(cell[i], cell[j])) return;
+                if (remove_edge(cell[i], cell[j], 0)) return;  // those around may be as flat: whatever is better will do
             }
         }
     }
@@ -318,11 +318,11 @@ private:
         return false;
     }
 
-    bool remove_edge(std::uint32_t a, std::uint32_t b) {
+    bool remove_edge(std::uint32_t a, std::uint32_t b, double least_gain = gain) {
         if (fixed_.has_edge(a, b)) return false;
         const auto ring = ring_around(mesh_, a, b, RingFilling::longest);
         if (!ring) return false;
-        const auto made = RingFilling(mesh_, *ring, a, b).better_than(worst_of(mesh_, ring->cells) + gain);
+        const auto made = RingFilling(mesh_, *ring, a, b).better_than(worst_of(mesh_, ring->cells) + least_gain);
         if (made.empty()) return false;
         // A triangle across the ring that is a face of other cells already would be there twice.
         mesh_.replace(ring->cells, made);
