@@ -48,6 +48,10 @@ std::string region_lines(const MeshReport& report, bool all_tries, const std::st
         if (!all_tries && r.filled() && r.as_asked) continue;
         for (const std::string& why : r.why_not) text += "    " + why + '\n';
     }
+    if (!report.outside.empty())
+        text += counted(report.outside.size(), "surface lies", "surfaces lie") +
+                " outside of all regions, where there are no cells: " + geomend::quoted(report.outside.front()) +
+                (report.outside.size() > 1 ? ", ..." : "") + "\n";
     if (report.surface_vertices > 0)
         text += counted(report.surface_vertices, "vertex was", "vertices were") +
                 " added on surfaces and lines, since no cells could be made without; their shape is as it was\n";

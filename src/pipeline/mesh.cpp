@@ -85,6 +85,7 @@ Result<void> put_in_place(Dataset& dataset, BrepData filled) {
 
 void list_face_sets(const BrepData& brep, MeshReport& report) {
     for (const auto& surface : brep.surfaces) {
+        if (!surface.regions[0].valid() && !surface.regions[1].valid()) report.outside.push_back(surface.name);
         for (std::size_t side = 0; side < 2; ++side) {
             if (!surface.regions[side].valid()) continue;
             report.face_sets.push_back({surface.name, surface.role, side == 0 ? "back" : "front", surface.polygons.size()});
@@ -241,6 +242,7 @@ std::string mesh_json(const MeshReport& report) {
         }
         all["loss"] = losses_json(report.written.losses);
     }
+    all["surfaces_outside_regions"] = report.outside;
     all["surface_vertices_added"] = report.surface_vertices;
     all["split"] = {{"surfaces", report.split.surfaces}, {"vertices", report.split.vertices}, {"pairs", report.split.pairs}};
     if (report.recombined) all["recombine"] = recombined_json(*report.recombined);

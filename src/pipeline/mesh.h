@@ -49,6 +49,7 @@ struct MeshReport {
     std::optional<RemeshReport> remeshed;  ///< where that was asked for
     std::vector<volumes::FilledRegion> regions;
     std::vector<MeshFaceSet> face_sets;
+    std::vector<std::string> outside;                  ///< surfaces that lie in no region: their triangles are faces of no cell
     std::uint64_t surface_vertices = 0;                ///< added on lines and surfaces, since cells could not be made without
     std::optional<hexes::RecombineReport> recombined;  ///< where that was asked for
     std::vector<MeshBlock> blocks;

@@ -97,6 +97,22 @@ TEST(Mesh, ATryThatHitsItsLimitLeavesTheOlderOutputAndNamesRegionsAndReason) {
     EXPECT_EQ(test::read_file(out), "old");
 }
 
+TEST(Mesh, SurfacesOutsideOfAllRegionsAreNamed) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "finned.ts",
+                     "GOCAD TSurf 1\nHEADER {\nname:box\n}\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 1 1 0\nVRTX 4 0 1 0\nVRTX 5 0 0 1\n"
+                     "VRTX 6 1 0 1\nVRTX 7 1 1 1\nVRTX 8 0 1 1\nTRGL 1 3 2\nTRGL 1 4 3\nTRGL 5 6 7\nTRGL 5 7 8\nTRGL 1 2 6\nTRGL 1 6 5\n"
+                     "TRGL 2 3 7\nTRGL 2 7 6\nTRGL 3 4 8\nTRGL 3 8 7\nTRGL 4 1 5\nTRGL 4 5 8\nEND\n"
+                     "GOCAD TSurf 1\nHEADER {\nname:fin\n}\nTFACE\nVRTX 1 1 0 0\nVRTX 2 1 0 1\nVRTX 3 2 -1 0.5\nTRGL 1 3 2\nEND\n");
+    const std::string in = (folder / "finned.ts").string();
+    const json report = mesh(in, (folder / "a.vtu").string());
+    ASSERT_TRUE(report["written"]) << report;
+    ASSERT_EQ(report["surfaces_outside_regions"].size(), 1u) << report;
+    EXPECT_EQ(report["surfaces_outside_regions"][0], "fin");
+    const auto said = run_geomend({"mesh", in, "-o", (folder / "b.vtu").string()});
+    EXPECT_NE(said.out.find("1 surface lies outside of all regions"), std::string::npos) << said.out;
+}
+
 TEST(Mesh, AdviceFitsTheReasonWhyThereIsNothingToFill) {
     const TemporaryFolder folder;
     const auto words = [&](const std::string& file) {
