@@ -183,8 +183,8 @@ Result<void> check_places(const GridCommand& o) {
     read.insert(read.end(), o.properties_of.begin(), o.properties_of.end());
     read.push_back(o.area);
     read.push_back(o.pillars_of);
-    if (auto beside = keep_places_apart(companions_of(o), read, "what is written beside the grid"); !beside) return beside;
     std::vector<std::string> taken = companions_of(o);
+    if (auto beside = keep_places_apart(taken, read, "what is written beside the grid"); !beside) return beside;
     taken.insert(taken.end(), read.begin(), read.end());
     return keep_places_apart({o.output, o.map, o.section, o.page}, std::move(taken), "the grid, a picture or a page");
 }

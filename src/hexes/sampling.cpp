@@ -7,20 +7,20 @@
 
 #include "base/parallel.h"
 #include "base/vectors.h"
+#include "remesh/length.h"
 
 namespace geomend::hexes {
 
 namespace {
 
 using remeshing::EdgeMesh;
+using remeshing::length_of;
 using remeshing::LineRules;
 using remeshing::LineSample;
 using remeshing::SurfacePoint;
 
 constexpr double clear = 0.4999;  // of the least step, from borders
 constexpr double apart = 0.45;    // of it, between points
-
-double length_of(const Vec3& d) { return std::sqrt(dot(d, d)); }
 
 std::size_t greatest(const Vec3& v) { return static_cast<std::size_t>(std::ranges::max_element(v) - v.begin()); }
 
