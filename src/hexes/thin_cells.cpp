@@ -6,6 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/vectors.h"
+
 namespace geomend::hexes {
 
 namespace {
