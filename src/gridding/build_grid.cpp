@@ -202,7 +202,7 @@ Result<MadeGrid> build_grid(const Structure& structure, const Net& upright, cons
     grid.info.name = "grid";
     grid.info.crs.z_positive = ZPositive::depth;
     grid.info.crs.z_positive_stated = true;
-    if (options.pinch) grid.pinch.emplace();
+    if (options.pinch) grid.pinch = CornerPointGrid::Pinch{};
     set_pillars(net, range, grid);
     const LayerPlan plan = plan_layers(options.zones, depths, level);
     for (std::size_t z = 0; z < options.zones.size(); ++z)

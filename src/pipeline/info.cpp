@@ -234,9 +234,9 @@ FileSummary summarise(const std::string& path, const Dataset& dataset) {
         const auto* grid = std::get_if<CornerPointGrid>(&object);
         if (grid == nullptr || grid->pillars.empty()) continue;
         const grid::Connections found = grid::connections(*grid);
-        auto& counts = summary.connections ? *summary.connections : summary.connections.emplace();
-        counts.internal += found.internal;
-        counts.nnc += found.others.size();
+        if (!summary.connections) summary.connections = FileSummary::ConnectionCounts{};
+        summary.connections->internal += found.internal;
+        summary.connections->nnc += found.others.size();
     }
     for (const Brep& brep : dataset.breps) summary.breps.push_back(summarise_brep(*brep));
     const auto take = [&](const CoordinateSystem& crs) {
