@@ -37,15 +37,28 @@ std::vector<std::uint32_t> crowded_corners(const BrepData::Surface& surface, con
     return crowded;
 }
 
-/// Nodes on the surface's own lines, and nodes of polygons that have no neighbours by rule.
-std::vector<std::uint8_t> set_aside(const ModelScope& scope, const BrepData::Surface& surface) {
+/// The vertices that lie on lines: 1.
+std::vector<std::uint8_t> vertices_on_lines(const BrepData& brep) {
+    std::vector<std::uint8_t> on_line(brep.vertices.size(), 0);
+    for (const auto& line : brep.lines) {
+        for (const VertexId v : line.vertices) on_line[v.value] = 1;
+    }
+    return on_line;
+}
+
+/// Nodes on the surface's own lines.
+/// \param on_any_line of all vertices: those on the lines of whatever surface
+std::vector<std::uint8_t> set_aside(const ModelScope& scope, const BrepData::Surface& surface, std::span<const std::uint8_t> on_any_line) {
     std::vector<std::uint32_t> on_lines;
     for (const auto& use : surface.lines) {
         for (const VertexId v : scope.brep().lines[use.line.value].vertices) on_lines.push_back(v.value);
     }
     std::ranges::sort(on_lines);
     std::vector<std::uint8_t> aside(surface.nodes.size());
-    for (std::size_t n = 0; n < aside.size(); ++n) aside[n] = std::ranges::binary_search(on_lines, surface.nodes[n].value) ? 1 : 0;
+    for (std::size_t n = 0; n < aside.size(); ++n) {
+        const std::uint32_t v = surface.nodes[n].value;
+        aside[n] = on_any_line[v] != 0 && std::ranges::binary_search(on_lines, v) ? 1 : 0;
+    }
     return aside;
 }
 
@@ -116,9 +129,9 @@ private:
 };
 
 /// Vertices away from lines where the polygons make more than one ring; ascending.
-std::vector<std::uint32_t> pinched_vertices(const ModelScope& scope, std::uint32_t s) {
+std::vector<std::uint32_t> pinched_vertices(const ModelScope& scope, std::uint32_t s, std::span<const std::uint8_t> on_any_line) {
     const auto& surface = scope.brep().surfaces[s];
-    const CornersAt at = corners_at(surface, scope.model().faces[s], set_aside(scope, surface));
+    const CornersAt at = corners_at(surface, scope.model().faces[s], set_aside(scope, surface, on_any_line));
     const topology::PolygonEdges edges(surface.polygons);
     const RingWalk walk(surface, edges);
     std::vector<std::uint32_t> pinched, used;
@@ -175,8 +188,9 @@ void report_stated_manifold(const ModelScope& scope, const std::vector<std::vect
 
 void check_manifold(const ModelScope& scope, std::vector<Finding>& findings) {
     std::vector<std::vector<std::uint32_t>> pinched(scope.brep().surfaces.size());
+    const std::vector<std::uint8_t> on_any_line = vertices_on_lines(scope.brep());
     parallel_for_each_index(pinched.size(), [&](std::size_t s) {
-        if (!scope.stopped()) pinched[s] = pinched_vertices(scope, static_cast<std::uint32_t>(s));
+        if (!scope.stopped()) pinched[s] = pinched_vertices(scope, static_cast<std::uint32_t>(s), on_any_line);
     });
     if (scope.model().stated) report_stated_manifold(scope, pinched, findings);
     else report_loose_manifold(scope, pinched, findings);

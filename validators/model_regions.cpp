@@ -542,10 +542,17 @@ void check_stated_borders(const ModelScope& scope, std::vector<Finding>& finding
         const auto* source = object < scope.dataset().objects.size() ? std::get_if<Surface>(&scope.dataset().objects[object]) : nullptr;
         if (source == nullptr || source->border_starts.empty()) continue;
         std::set<std::pair<std::uint32_t, std::uint32_t>> wanted;
-        for (const auto& start : source->border_starts) wanted.insert(std::minmax(start.corner, start.next));
+        std::vector<std::uint8_t> is_end(source->points.size(), 0);  // few points are: most edges need no look into the set
+        for (const auto& start : source->border_starts) {
+            wanted.insert(std::minmax(start.corner, start.next));
+            is_end[start.corner] = is_end[start.next] = 1;
+        }
         for (std::size_t p = 0; p < source->polygons.size() && !wanted.empty(); ++p) {
             const auto polygon = source->polygons[p];
-            for (std::size_t i = 0; i < polygon.size(); ++i) wanted.erase(std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]));
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                const std::uint32_t from = polygon[i], to = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+                if ((is_end[from] & is_end[to]) != 0) wanted.erase(std::minmax(from, to));
+            }
         }
         if (wanted.empty()) continue;
         Finding finding = finding_of("B19", {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "validators/cell_findings.h"
 #include "validators/model_checks.h"
@@ -11,38 +12,56 @@ namespace {
 
 using VertexOnSurface = std::pair<std::uint32_t, std::uint32_t>;  // vertex, surface
 
-/// Which surfaces use which vertices, for vertices that several surfaces use; ascending.
-std::vector<VertexOnSurface> shared_uses(const BrepData& brep) {
-    std::vector<std::uint32_t> first(brep.vertices.size(), no_index);
-    std::vector<std::uint8_t> several(brep.vertices.size(), 0);
-    const auto each_use = [&](const auto& visit) {
-        for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
-            for (const std::uint32_t node : brep.surfaces[s].polygons.corners) visit(brep.surfaces[s].nodes[node].value, s);
-        }
-    };
-    each_use([&](std::uint32_t v, std::uint32_t s) {
-        if (first[v] != no_index && first[v] != s) several[v] = 1;
-        first[v] = s;
-    });
-    std::vector<VertexOnSurface> uses;
-    each_use([&](std::uint32_t v, std::uint32_t s) {
-        if (several[v] != 0) uses.emplace_back(v, s);
-    });
-    std::ranges::sort(uses);
-    uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
-    return uses;
+/// Visits the vertices of all polygons, with their surface: (vertex, surface).
+template <class Visit>
+void each_use(const BrepData& brep, const Visit& visit) {
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (const std::uint32_t node : brep.surfaces[s].polygons.corners) visit(brep.surfaces[s].nodes[node].value, s);
+    }
 }
 
-/// Which vertices lie on which surfaces' own lines; ascending.
-std::vector<VertexOnSurface> line_uses(const BrepData& brep) {
+/// The vertices that several surfaces use: 1.
+std::vector<std::uint8_t> shared_vertices(const BrepData& brep) {
+    std::vector<std::uint32_t> last(brep.vertices.size(), no_index);
+    std::vector<std::uint8_t> several(brep.vertices.size(), 0);
+    each_use(brep, [&](std::uint32_t v, std::uint32_t s) {
+        if (last[v] != no_index && last[v] != s) several[v] = 1;
+        last[v] = s;
+    });
+    return several;
+}
+
+void sort_and_unite(std::vector<VertexOnSurface>& uses) {
+    std::ranges::sort(uses);
+    uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
+}
+
+/// Shared vertices with each surface that uses them, although none of its own lines does; ascending.
+std::vector<VertexOnSurface> uses_off_lines(const BrepData& brep, std::span<const std::uint8_t> shared) {
+    std::vector<std::uint32_t> on_line_of(brep.vertices.size(), no_index);
     std::vector<VertexOnSurface> uses;
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
         for (const auto& use : brep.surfaces[s].lines) {
-            for (const VertexId v : brep.lines[use.line.value].vertices) uses.emplace_back(v.value, s);
+            for (const VertexId v : brep.lines[use.line.value].vertices) on_line_of[v.value] = s;
+        }
+        for (const std::uint32_t node : brep.surfaces[s].polygons.corners) {
+            const std::uint32_t v = brep.surfaces[s].nodes[node].value;
+            if (shared[v] != 0 && on_line_of[v] != s) uses.emplace_back(v, s);
         }
     }
-    std::ranges::sort(uses);
-    uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
+    sort_and_unite(uses);
+    return uses;
+}
+
+/// The vertices of these uses with all surfaces that use them; ascending.
+std::vector<VertexOnSurface> all_uses(const BrepData& brep, std::span<const VertexOnSurface> some) {
+    std::vector<std::uint8_t> is_wanted(brep.vertices.size(), 0);
+    for (const auto& [vertex, surface] : some) is_wanted[vertex] = 1;
+    std::vector<VertexOnSurface> uses;
+    each_use(brep, [&](std::uint32_t v, std::uint32_t s) {
+        if (is_wanted[v] != 0) uses.emplace_back(v, s);
+    });
+    sort_and_unite(uses);
     return uses;
 }
 
@@ -50,18 +69,16 @@ std::vector<VertexOnSurface> line_uses(const BrepData& brep) {
 
 void check_shared_points(const ModelScope& scope, std::vector<Finding>& findings) {
     const BrepData& brep = scope.brep();
-    const auto uses = shared_uses(brep), on_lines = line_uses(brep);
+    const auto off_lines = uses_off_lines(brep, shared_vertices(brep));
+    if (off_lines.empty()) return;
+    const auto uses = all_uses(brep, off_lines);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> touching;
-    for (std::size_t i = 0; i < uses.size();) {
-        std::size_t j = i + 1;
-        while (j < uses.size() && uses[j].first == uses[i].first) ++j;
-        for (std::size_t a = i; a < j; ++a) {
-            if (std::ranges::binary_search(on_lines, uses[a])) continue;
-            for (std::size_t b = i; b < j; ++b) {
-                if (b != a) touching[std::minmax(uses[a].second, uses[b].second)].push_back(uses[a].first);
-            }
+    auto at = uses.begin();
+    for (const auto& [vertex, surface] : off_lines) {
+        while (at->first != vertex) ++at;
+        for (auto other = at; other != uses.end() && other->first == vertex; ++other) {
+            if (other->second != surface) touching[std::minmax(surface, other->second)].push_back(vertex);
         }
-        i = j;
     }
     for (auto& [pair, vertices] : touching) {
         std::ranges::sort(vertices);

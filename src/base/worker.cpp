@@ -16,6 +16,7 @@
 #include <csignal>
 #include <cstring>
 
+#include "base/sanitisers.h"
 #include "base/worker_process.h"
 
 namespace geomend {
@@ -160,9 +161,7 @@ void become_worker(const OwnLimits& limits) {
         const auto seconds = static_cast<rlim_t>(std::ceil(limits.processor_seconds));
         set_limit(RLIMIT_CPU, seconds, seconds + 5);
     }
-#ifndef __SANITIZE_ADDRESS__
-    if (limits.memory_bytes > 0) set_limit(RLIMIT_DATA, limits.memory_bytes, limits.memory_bytes);
-#endif
+    if (limits.memory_bytes > 0 && !with_address_sanitiser) set_limit(RLIMIT_DATA, limits.memory_bytes, limits.memory_bytes);
     be_first_when_memory_is_short();
 }
 

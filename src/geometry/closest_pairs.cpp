@@ -54,12 +54,12 @@ Body body_of(const std::array<Vec3, 3>& corners, double near) {
 /// the plane of the other one farther from it.
 struct Features {
     std::uint8_t vertices = 0, edges = 0;
+    bool is_apart = false;  ///< all of the triangle lies too far away on one side of the other: so does the other one from it
     bool any() const { return (vertices | edges) != 0; }
 };
 
-Features features_near(const Body& own, const Body& other, double near) {
-    const std::array<Vec3, 3> ways{minus(own.corners[0], other.corners[0]), minus(own.corners[1], other.corners[0]),
-                                   minus(own.corners[2], other.corners[0])};
+Features features_near(const std::array<Vec3, 3>& own, const Body& other, double near) {
+    const std::array<Vec3, 3> ways{minus(own[0], other.corners[0]), minus(own[1], other.corners[0]), minus(own[2], other.corners[0])};
     double reach = 0;
     for (const Vec3& way : ways) reach = std::max(reach, std::abs(way[0]) + std::abs(way[1]) + std::abs(way[2]));
     const double beyond = other.limit + other.rounding * reach, wide = near * (1 + 1e-6);
@@ -69,11 +69,12 @@ Features features_near(const Body& own, const Body& other, double near) {
         const double height = dot(other.normal, ways[k]);
         sides[k] = unsigned{height > beyond} | unsigned{height < -beyond} << 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double x = own.corners[k][axis];
+            const double x = own[k][axis];
             sides[k] |= unsigned{x - other.high[axis] > wide} << (2 + 2 * axis) | unsigned{other.low[axis] - x > wide} << (3 + 2 * axis);
         }
     }
     Features found;
+    found.is_apart = (sides[0] & sides[1] & sides[2]) != 0;
     for (std::size_t k = 0; k < 3; ++k) {
         found.vertices |= static_cast<std::uint8_t>(unsigned{sides[k] == 0} << k);
         found.edges |= static_cast<std::uint8_t>(unsigned{(sides[k] & sides[(k + 1) % 3]) == 0} << k);
@@ -133,8 +134,10 @@ private:
         seen_from_.clear();
         const Body own = body_of(soup_.corners(t), near_);
         for (const std::uint32_t other : others) {
-            const Body body = body_of(soup_.corners(other), near_);
-            Features from_own = features_near(own, body, near_), from_other = features_near(body, own, near_);
+            const std::array<Vec3, 3> corners = soup_.corners(other);
+            Features from_other = features_near(corners, own, near_);
+            if (from_other.is_apart) continue;
+            Features from_own = features_near(own.corners, body_of(corners, near_), near_);
             (soup_.group(t) < soup_.group(other) ? from_other : from_own).edges = 0;
             if (from_own.any()) others_.push_back({other, from_own});
             if (from_other.any()) seen_from_.push_back({other, from_other});

@@ -70,12 +70,44 @@ constexpr Table make_table() {
 
 constexpr Table table = make_table();
 
+/// Two bits of each coordinate at a time: the octants of the higher and the lower bit, six bits of the place.
+struct TwoSteps {
+    std::array<std::array<Step, 64>, most_states> steps{};
+};
+
+constexpr TwoSteps make_two_steps() {
+    TwoSteps two;
+    for (std::size_t s = 0; s < most_states; ++s) {
+        for (std::size_t octants = 0; octants < 64; ++octants) {
+            const Step high = table.steps[s][octants >> 3], low = table.steps[high.next][octants & 7];
+            two.steps[s][octants] = {static_cast<std::uint8_t>(high.digit << 3 | low.digit), low.next};
+        }
+    }
+    return two;
+}
+
+constexpr TwoSteps two_steps = make_two_steps();
+
+/// The bits of two places of a coordinate, b and b - 1, as the octants of both have them for the first axis.
+unsigned two_octants(std::uint32_t x, unsigned b) {
+    const unsigned bits = x >> (b - 1) & 3u;
+    return (bits & 2u) << 2 | (bits & 1u);
+}
+
 }  // namespace
 
 std::uint64_t hilbert_place(const std::array<std::uint32_t, 3>& x, unsigned bits) {
     std::uint64_t place = 0;
     std::uint8_t state = 0;
-    for (unsigned b = bits; b-- > 0;) {
+    unsigned left = bits;
+    for (; left > 1; left -= 2) {
+        const unsigned b = left - 1;
+        const unsigned octants = two_octants(x[0], b) | two_octants(x[1], b) << 1 | two_octants(x[2], b) << 2;
+        const Step step = two_steps.steps[state][octants];
+        place = place << 6 | step.digit;
+        state = step.next;
+    }
+    for (unsigned b = left; b-- > 0;) {
         const unsigned octant = (x[0] >> b & 1u) | (x[1] >> b & 1u) << 1 | (x[2] >> b & 1u) << 2;
         const Step step = table.steps[state][octant];
         place = place << 3 | step.digit;

@@ -10,6 +10,8 @@
 #include <chrono>
 #include <thread>
 
+#include "base/sanitisers.h"
+
 namespace geomend {
 namespace {
 
@@ -74,9 +76,7 @@ TEST(Worker, MayLeaveAProcessThatHoldsItsPipes) {
 TEST(Worker, HasAnEmptyStandardInput) { EXPECT_EQ(run(job("echo")).output, ""); }
 
 TEST(Worker, IsRefusedMemoryBeyondItsLimit) {
-#ifdef __SANITIZE_ADDRESS__
-    GTEST_SKIP() << "the address sanitiser reserves terabytes";
-#endif
+    if (with_address_sanitiser) GTEST_SKIP() << "the address sanitiser reserves terabytes";
     const WorkerEnd end = run(job("eat.256"));
     EXPECT_EQ(end.number, 5);
     EXPECT_EQ(end.last_words, "refused\n");

@@ -25,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "base/sanitisers.h"
 #include "mutator.h"
 #include "whole_path.h"
 
@@ -32,18 +33,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace geomend::test;
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitised = true;
-#else
-constexpr bool sanitised = false;
-#endif
+using geomend::with_address_sanitiser;
 
 // Set where another program watches over this one (valgrind): processor seconds that one input may take then.
 const char* watched_seconds() { return std::getenv("GEOMEND_FUZZ_SECONDS"); }
 
 // CPU seconds that one input may take, and seconds without progress after which a child is ended.
-int most_seconds() { return watched_seconds() != nullptr ? std::atoi(watched_seconds()) : sanitised ? 40 : 10; }
+int most_seconds() { return watched_seconds() != nullptr ? std::atoi(watched_seconds()) : with_address_sanitiser ? 40 : 10; }
 constexpr int most_wait = 300;
 
 // What parent and child share.
@@ -94,7 +90,7 @@ double cpu_seconds() {
 }
 
 void limit_memory() {
-    if (sanitised || watched_seconds() != nullptr) return;  // whose shadow takes terabytes of addresses
+    if (with_address_sanitiser || watched_seconds() != nullptr) return;  // whose shadow takes terabytes of addresses
     const rlimit limit{std::uint64_t{3} << 30, std::uint64_t{3} << 30};
     if (::setrlimit(RLIMIT_AS, &limit) != 0) std::perror("setrlimit");
 }
