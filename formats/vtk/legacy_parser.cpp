@@ -499,8 +499,10 @@ bool Parser::scalars(LegacyArray array) {
 static std::vector<std::uint8_t> bytes_of_shares(const std::vector<float>& shares) {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(shares.size());
-    for (const float share : shares)
-        bytes.push_back(static_cast<std::uint8_t>(std::clamp(std::floor(double{share} * 255.0 + 0.5), 0.0, 255.0)));
+    for (const float share : shares) {
+        const double byte = std::floor(double{share} * 255.0 + 0.5);
+        bytes.push_back(byte > 0 ? static_cast<std::uint8_t>(std::min(byte, 255.0)) : std::uint8_t{0});  // 0 for what is no number
+    }
     return bytes;
 }
 

@@ -59,6 +59,8 @@ Result<std::vector<Loss>> write_pvd(const Dataset& dataset, OutputSet& out, cons
     if (!settings) return settings.why();
     if (out.is_stream())
         return failure(FailureKind::cannot_hold, "F021", {out.main_path().string()}, "a .pvd needs a folder for its steps: name a file");
+    if (dataset.objects.empty())
+        return failure(FailureKind::cannot_hold, "F021", {out.main_path().string()}, "the input holds nothing to write");
     std::map<Moment, int> moments;
     for (const Object& object : dataset.objects) {
         Moment moment;

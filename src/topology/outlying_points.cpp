@@ -117,7 +117,7 @@ private:
             if (!counts(used_.triangles[t])) continue;
             each_edge(used_.triangles[t], [&](std::uint32_t a, std::uint32_t b) {
                 const double l = length(a, b);
-                if (l > 0) there[static_cast<std::size_t>(std::clamp(std::ilogb(l) + middle, 0, octaves - 1))] = 1;
+                if (l > 0) there[static_cast<std::size_t>(std::clamp(std::ilogb(l), -middle, octaves - 1 - middle) + middle)] = 1;
             });
         }
         int highest = octaves - 1;

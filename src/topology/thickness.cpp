@@ -79,7 +79,10 @@ double weighted_quantile(std::span<const std::pair<double, double>> lengths, dou
     }
     // The bin that the quantile lies in, then the members of that bin in order.
     const double scale = high > low ? bins / (high - low) : 0;
-    const auto bin_of = [&](double length) { return std::min(bins - 1, static_cast<std::size_t>(scale * (length - low))); };
+    const auto bin_of = [&](double length) {
+        const double bin = scale * (length - low);
+        return bin >= 0 ? static_cast<std::size_t>(std::min(bin, bins - 1.0)) : std::size_t{0};  // no number where the scale overflows
+    };
     std::array<double, bins> weights{};
     for (const auto& [length, weight] : lengths) weights[bin_of(length)] += weight;
     std::size_t bin = 0;

@@ -49,6 +49,15 @@ TEST(Lengths, of_one_sheet_are_those_of_its_shape) {
     EXPECT_NEAR(fine.largest.tolerance, coarse.largest.tolerance, 1e-12);
 }
 
+// Sanitised builds look at the ways there: no exponent and no share of such lengths may be taken for an index.
+TEST(Lengths, are_worked_out_where_squares_overflow_or_vanish) {
+    for (const double side : {1e200, 1e300, 1e-160, 5e-324}) {
+        const auto lengths = lengths_of(with({flat_sheet("a", 3, side, {0, 0, 0}), flat_sheet("b", 3, 1, {0, 0, 1})}));
+        ASSERT_FALSE(lengths.clusters.empty()) << side;
+        for (const topology::Lengths& l : lengths.clusters) EXPECT_FALSE(std::isnan(l.tolerance) || std::isnan(l.near)) << side;
+    }
+}
+
 TEST(Lengths, do_not_change_where_one_triangle_is_refined) {
     Surface plain = flat_sheet("a", 2, 500, {0, 0, 0});
     Surface refined = plain;

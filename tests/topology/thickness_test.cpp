@@ -40,6 +40,13 @@ Vec3 tilted(const Vec3& p) {
 
 double thickness(const Triangles& triangles) { return topology::slab_of(triangles).thickness; }
 
+TEST(WeightedQuantile, is_one_of_the_lengths_even_where_they_hardly_differ_or_are_no_numbers) {
+    const auto half_of = [](std::vector<std::pair<double, double>> lengths) { return topology::weighted_quantile(lengths, 0.5); };
+    EXPECT_EQ(half_of({{1, 1}, {3, 1}, {2, 1}}), 2);
+    EXPECT_EQ(half_of({{0, 1}, {5e-324, 4}}), 5e-324);
+    EXPECT_EQ(half_of({{7, 1}, {HUGE_VAL, 0.1}}), 7);
+}
+
 TEST(Thickness, of_layers_is_about_their_height) {
     for (const int layers : {1, 3, 8, 30}) {
         const double t = thickness(basin(layers, 8, 4e5, 4000));

@@ -174,6 +174,12 @@ TEST(LegacyRead, ColoursOfTextFilesAreBytes) {
     EXPECT_EQ(std::get<std::vector<std::uint8_t>>(attributes[0].values), (std::vector<std::uint8_t>{0, 128, 255, 51, 178, 0}));
 }
 
+TEST(LegacyRead, AColourThatIsNoNumberIsNone) {
+    const Dataset data = must_read(head + "DATASET POLYDATA\nPOINTS 1 float\n0 0 0\nPOINT_DATA 1\nCOLOR_SCALARS c 3\nnan 1e30 -1e30\n");
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(info_of(data.objects.at(0)).attributes.at(0).values),
+              (std::vector<std::uint8_t>{0, 255, 0}));
+}
+
 // As old writers end their files, whose lines are whole.
 TEST(LegacyRead, AnEmptySectionAtTheEndIsReportedAndNoSignOfACut) {
     const Dataset data = must_read(head + "DATASET POLYDATA\nPOINTS 1 float\n0 0 0\nCELL_DATA 1\nPOINT_DATA 1\n");

@@ -49,6 +49,14 @@ TEST(Series, has_a_file_per_moment_with_what_holds_then) {
     EXPECT_EQ(value_as_double(*find_attribute(attributes, "FIP_OIL", AttributeLocation::cell), 0), 7);
 }
 
+TEST(Series, without_an_object_is_not_written) {
+    const TemporaryFolder folder;
+    OutputSet out(folder / "s.pvd");
+    const auto losses = vtk::write_pvd({}, out, {});
+    ASSERT_FALSE(losses.ok());
+    EXPECT_EQ(losses.why().error.code, "F021");
+}
+
 TEST(Series, comes_back_as_one_object_with_the_values_of_each_moment) {
     CellMesh mesh = one_cell();
     add(mesh, "PORO", 0.2, nullptr, {});
