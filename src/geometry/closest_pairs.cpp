@@ -96,18 +96,19 @@ public:
             near_ = near_of_[soup_.group(t)];
             take_near(t, all.at(i));
             look_from(t, others_);
-            for (const auto& [other, features] : seen_from_) {
-                const Target back{t, features};
-                look_from(other, std::span(&back, 1));
+            for (const Target& from : seen_from_) {
+                const Target back{t, from.features, from.own_edges};
+                look_from(from.triangle, std::span(&back, 1));
             }
         }
     }
 
 private:
-    /// A triangle to look at, and the features of the one that looks from which it may be near.
+    /// A triangle to look at, the features of the one that looks from which it may be near, and which of its own edges may be.
     struct Target {
         std::uint32_t triangle = 0;
         Features features;
+        std::uint8_t own_edges = 0;
     };
 
     const SurfaceDistance& soup_;
@@ -128,7 +129,7 @@ private:
         }
     }
 
-    /// Each two edges are met once, from the lower group.
+    /// Each two edges are met once, from the lower group; only where both may be near.
     void take_near(std::uint32_t t, std::span<const std::uint32_t> others) {
         others_.clear();
         seen_from_.clear();
@@ -138,9 +139,12 @@ private:
             Features from_other = features_near(corners, own, near_);
             if (from_other.is_apart) continue;
             Features from_own = features_near(own.corners, body_of(corners, near_), near_);
-            (soup_.group(t) < soup_.group(other) ? from_other : from_own).edges = 0;
-            if (from_own.any()) others_.push_back({other, from_own});
-            if (from_other.any()) seen_from_.push_back({other, from_other});
+            if (from_own.is_apart) continue;
+            const std::uint8_t own_edges = from_own.edges, other_edges = from_other.edges;
+            if (soup_.group(t) < soup_.group(other) || own_edges == 0) from_other.edges = 0;
+            if (soup_.group(t) > soup_.group(other) || other_edges == 0) from_own.edges = 0;
+            if (from_own.any()) others_.push_back({other, from_own, other_edges});
+            if (from_other.any()) seen_from_.push_back({other, from_other, own_edges});
         }
     }
 
@@ -194,7 +198,7 @@ private:
         const Vec3& point = soup_.position(vertex);
         const std::uint32_t own = soup_.group(t);
         Turn turn = Turn::unknown;
-        for (const auto& [other, features] : others) {
+        for (const auto& [other, features, edges] : others) {
             if ((features.vertices >> k & 1) == 0) continue;
             if (!is_first_at(t, vertex, vertex, turn)) return;
             if (has_all_ahead(other, point)) continue;
@@ -227,11 +231,13 @@ private:
     void look_along(std::uint32_t t, std::size_t k, std::span<const Target> others) {
         const std::uint32_t p = soup_.triangle(t)[k], q = soup_.triangle(t)[(k + 1) % 3];
         Turn turn = Turn::unknown;
-        for (const auto& [other, features] : others) {
+        for (const auto& [other, features, edges] : others) {
             if ((features.edges >> k & 1) == 0) continue;
             if (!is_first_at(t, p, q, turn)) return;
             if (has_all_ahead(other, soup_.position(p))) continue;
-            for (std::size_t m = 0; m < 3; ++m) try_edges(t, k, other, m);
+            for (std::size_t m = 0; m < 3; ++m) {
+                if ((edges >> m & 1) != 0) try_edges(t, k, other, m);
+            }
         }
     }
 

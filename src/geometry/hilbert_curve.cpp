@@ -88,31 +88,29 @@ constexpr TwoSteps make_two_steps() {
 
 constexpr TwoSteps two_steps = make_two_steps();
 
-/// The bits of two places of a coordinate, b and b - 1, as the octants of both have them for the first axis.
-unsigned two_octants(std::uint32_t x, unsigned b) {
-    const unsigned bits = x >> (b - 1) & 3u;
-    return (bits & 2u) << 2 | (bits & 1u);
+/// The lowest 21 bits of a number with two empty places between each two.
+std::uint64_t spread(std::uint64_t x) {
+    x &= 0x1fffff;
+    x = (x | x << 32) & 0x001f00000000ffff;
+    x = (x | x << 16) & 0x001f0000ff0000ff;
+    x = (x | x << 8) & 0x100f00f00f00f00f;
+    x = (x | x << 4) & 0x10c30c30c30c30c3;
+    return (x | x << 2) & 0x1249249249249249;
 }
 
 }  // namespace
 
 std::uint64_t hilbert_place(const std::array<std::uint32_t, 3>& x, unsigned bits) {
+    const std::uint64_t octants = spread(x[0]) | spread(x[1]) << 1 | spread(x[2]) << 2;
     std::uint64_t place = 0;
     std::uint8_t state = 0;
     unsigned left = bits;
     for (; left > 1; left -= 2) {
-        const unsigned b = left - 1;
-        const unsigned octants = two_octants(x[0], b) | two_octants(x[1], b) << 1 | two_octants(x[2], b) << 2;
-        const Step step = two_steps.steps[state][octants];
+        const Step step = two_steps.steps[state][octants >> 3 * (left - 2) & 63];
         place = place << 6 | step.digit;
         state = step.next;
     }
-    for (unsigned b = left; b-- > 0;) {
-        const unsigned octant = (x[0] >> b & 1u) | (x[1] >> b & 1u) << 1 | (x[2] >> b & 1u) << 2;
-        const Step step = table.steps[state][octant];
-        place = place << 3 | step.digit;
-        state = step.next;
-    }
+    if (left == 1) place = place << 3 | table.steps[state][octants & 7].digit;
     return place;
 }
 

@@ -46,8 +46,10 @@ void NearTriangles::widen(std::size_t level, std::size_t node) {
 
 /// \param local the node's place among those under the one that is looked about
 void NearTriangles::descend(std::size_t level, std::size_t local, std::size_t node, std::size_t other) {
-    const FourBoxes &own = wide_[level][local], &boxes = soup_.tree().levels()[level][other];
-    for (std::size_t i = 0; i < 4; ++i) {
+    const TriangleTree& tree = soup_.tree();
+    const FourBoxes &own = wide_[level][local], &boxes = tree.levels()[level][other];
+    const unsigned within = node != other && level + 1 < tree.levels().size() ? own.overlapping(tree.outer_box(level, other)) : 15u;
+    visit_bits(within, [&](std::size_t i) {
         unsigned hits = boxes.overlapping(own.box(i));
         if (node == other) hits &= ~0u << (level == 0 ? i + 1 : i);
         visit_bits(hits, [&](std::size_t k) {
@@ -55,7 +57,7 @@ void NearTriangles::descend(std::size_t level, std::size_t local, std::size_t no
             else if (!groups_.are_one(level - 1, 4 * node + i, 4 * other + k) && pairs_.size() <= most_)
                 descend(level - 1, 4 * local + i, 4 * node + i, 4 * other + k);
         });
-    }
+    });
 }
 
 void NearTriangles::take(std::uint32_t t, std::uint32_t other) {

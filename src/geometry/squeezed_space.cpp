@@ -49,14 +49,15 @@ SqueezedSpace::SqueezedSpace(std::span<const Vec3> vertices, std::span<const Tri
     std::array<bool, 3> done{};
     for (int round = 0; round < most_rounds && done != std::array{true, true, true}; ++round) {
         std::array<std::array<int, bins + 1>, 3> starts{};
-        Vec3 from{}, width{};
+        Vec3 from{}, width{}, per_width{};
         for (std::size_t k = 0; k < 3; ++k) {
             from[k] = at(k, low[k]);
             width[k] = (at(k, high[k]) - from[k]) / bins;
+            per_width[k] = 1 / width[k];
             done[k] = done[k] || !(width[k] > 0) || !std::isfinite(width[k]);
         }
         const auto bin_of = [&](std::size_t k, double x) {
-            const double bin = (x - from[k]) / width[k];
+            const double bin = (x - from[k]) * per_width[k];
             return bin > 0 ? static_cast<std::size_t>(std::min(bin, bins - 1.0)) : std::size_t{0};  // also what is no number
         };
         for (const Triangle& t : triangles) {

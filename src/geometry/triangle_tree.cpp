@@ -57,6 +57,7 @@ void radix_sort(std::vector<std::uint64_t>& keys, unsigned first_bit) {
         std::array<std::size_t, (std::size_t{1} << digit_bits) + 1> start{};
         const auto digit = [&](std::uint64_t key) { return key >> shift & ((1u << digit_bits) - 1); };
         for (const std::uint64_t key : keys) ++start[digit(key) + 1];
+        if (!keys.empty() && start[digit(keys.front()) + 1] == keys.size()) continue;  // all have the same
         for (std::size_t d = 1; d < start.size(); ++d) start[d] += start[d - 1];
         for (const std::uint64_t key : keys) sorted[start[digit(key)]++] = key;
         keys.swap(sorted);
@@ -68,25 +69,25 @@ void radix_sort(std::vector<std::uint64_t>& keys, unsigned first_bit) {
 template <class Group>
 void part_run(std::span<std::uint64_t> keys, const Group& group) {
     constexpr std::size_t large = 64;
-    struct Member {
-        std::uint32_t group, place;
-    };
-    std::vector<Member> members(keys.size());
-    for (std::uint32_t i = 0; i < members.size(); ++i) members[i] = {group(keys[i]), i};
-    std::ranges::stable_sort(members, {}, &Member::group);
-    std::vector<std::span<const Member>> blocks;
+    // A member of a group: the group, then its place in the run.
+    std::vector<std::uint64_t> members(keys.size());
+    for (std::size_t i = 0; i < members.size(); ++i) members[i] = std::uint64_t{group(keys[i])} << 32 | i;
+    radix_sort(members, 32);
+    const auto group_of = [](std::uint64_t member) { return member >> 32; };
+    const auto place_of = [](std::uint64_t member) { return static_cast<std::uint32_t>(member); };
+    std::vector<std::span<const std::uint64_t>> blocks;
     std::vector<std::uint8_t> is_in_block(keys.size(), 0);
     for (std::size_t first = 0, end = 0; first < members.size(); first = end) {
-        while (end < members.size() && members[end].group == members[first].group) ++end;
+        while (end < members.size() && group_of(members[end]) == group_of(members[first])) ++end;
         if (end - first < large) continue;
         blocks.push_back(std::span(members).subspan(first, end - first));
-        for (const Member& member : blocks.back()) is_in_block[member.place] = 1;
+        for (const std::uint64_t member : blocks.back()) is_in_block[place_of(member)] = 1;
     }
-    std::ranges::sort(blocks, {}, [](std::span<const Member> block) { return block.front().place; });
+    std::ranges::sort(blocks, {}, [&](std::span<const std::uint64_t> block) { return place_of(block.front()); });
     std::vector<std::uint64_t> parted;
     parted.reserve(keys.size());
     for (const auto& block : blocks) {
-        for (const Member& member : block) parted.push_back(keys[member.place]);
+        for (const std::uint64_t member : block) parted.push_back(keys[place_of(member)]);
     }
     for (std::size_t i = 0; i < keys.size(); ++i) {
         if (is_in_block[i] == 0) parted.push_back(keys[i]);
