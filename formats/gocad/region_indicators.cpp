@@ -23,12 +23,14 @@ std::vector<const NamedSet*> region_sets(const ObjectInfo& info, AttributeLocati
     return sets;
 }
 
+std::string region_token(std::string_view name, std::uint64_t bit) {
+    const std::string number = std::to_string(bit);
+    return name_token(name.empty() ? "region_" + number : std::string(name)) + ' ' + number;
+}
+
 void write_region_names(OutputFile& out, std::string_view keyword, const std::vector<const NamedSet*>& sets) {
     std::uint64_t bit = 0;
-    for (const NamedSet* set : sets) {
-        out << keyword << ' ' << name_token(set->name) << ' ';
-        out.number(bit++) << '\n';
-    }
+    for (const NamedSet* set : sets) out << keyword << ' ' << region_token(set->name, bit++) << '\n';
 }
 
 void write_indicators(OutputFile& out, std::string_view block, std::string_view record, const std::vector<const NamedSet*>& sets,

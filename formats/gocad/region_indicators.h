@@ -67,6 +67,9 @@ void add_sets(std::vector<RegionBit>& regions, AttributeLocation location, Objec
 /// The sets of an object at a location, without those that stand for control flags of nodes.
 std::vector<const NamedSet*> region_sets(const ObjectInfo& info, AttributeLocation location);
 
+/// A region's name and bit as records have them; one without a name is named by its bit, since Gocad knows none without.
+std::string region_token(std::string_view name, std::uint64_t bit);
+
 /// Writes `REGION name bit` lines (to stand before the nodes).
 void write_region_names(OutputFile& out, std::string_view keyword, const std::vector<const NamedSet*>& sets);
 

@@ -7,6 +7,7 @@
 #include "formats/gocad/object_head.h"
 #include "formats/gocad/object_writers.h"
 #include "formats/gocad/region_flags.h"
+#include "formats/gocad/region_indicators.h"
 #include "model/turned_signs.h"
 
 namespace geomend::gocad {
@@ -48,8 +49,7 @@ Result<void> write_voxet(const Raster& raster, GocadOutput& to) {
     write_axes(to.out, raster);
     // Gocad keeps the first bits for itself.
     const std::vector<std::uint32_t> bits = region_bits(raster.info, sets, 8);
-    for (std::size_t i = 0; i < sets.size(); ++i)
-        to.out << "REGION " << name_token(sets[i]->name) << ' ' << std::to_string(bits[i]) << '\n';
+    for (std::size_t i = 0; i < sets.size(); ++i) to.out << "REGION " << region_token(sets[i]->name, bits[i]) << '\n';
     if (!sets.empty() || arrays.flags != nullptr) {
         const std::uint64_t samples = sample_count(raster.dims);
         std::uint64_t size = arrays.flags != nullptr ? arrays.flags->components : 4;

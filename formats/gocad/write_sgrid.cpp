@@ -6,6 +6,7 @@
 #include "formats/gocad/object_head.h"
 #include "formats/gocad/object_writers.h"
 #include "formats/gocad/region_flags.h"
+#include "formats/gocad/region_indicators.h"
 #include "formats/gocad/sgrid_layout.h"
 
 namespace geomend::gocad {
@@ -63,7 +64,7 @@ void write_regions(const StructuredGrid& grid, const SGridLayout& layout, ArrayW
     for (std::size_t i = 0; i < sets.size(); ++i) {
         const bool of_model = std::ranges::any_of(
             grid.info.annotations, [&](const Annotation& a) { return a.key == "gocad.model_region" && a.value == sets[i]->name; });
-        to.out << (of_model ? "MODEL_REGION " : "REGION ") << name_token(sets[i]->name) << ' ' << std::to_string(bits[i]) << '\n';
+        to.out << (of_model ? "MODEL_REGION " : "REGION ") << region_token(sets[i]->name, bits[i]) << '\n';
         size = std::max<std::uint64_t>(size, bits[i] / 8 + 1);
         length = std::max(length, bits[i] + 1);
     }

@@ -269,7 +269,12 @@ private:
     std::optional<Failure> set_line(const Input& input, const DeckKeyword& keyword, DeckLines& lines) {
         const bool of_nodes = keyword.word == "NSET";
         auto& sets = of_nodes ? node_sets_ : element_sets_;
-        Members& members = sets[upper_case(keyword.value(of_nodes ? "NSET" : "ELSET"))];
+        const std::string_view name = keyword.value(of_nodes ? "NSET" : "ELSET");
+        if (name.empty()) {
+            list_dropped(data_.losses, {LossClass::substance, std::string(keyword.word), "set without a name", "nothing can refer to it"});
+            return std::nullopt;
+        }
+        Members& members = sets[upper_case(name)];
         if (keyword.has("INSTANCE")) {
             list_dropped(data_.losses, {LossClass::substance, std::string(keyword.value("NSET")) + std::string(keyword.value("ELSET")),
                                         "set of an instance", "sets are read within their part"});

@@ -215,6 +215,15 @@ TEST(GocadVoxet, RegionsComeBack) {
     EXPECT_EQ(first<Raster>(back).info.attributes.size(), raster.info.attributes.size());
 }
 
+TEST(GocadVoxet, ARegionWithoutANameIsNamedByItsBit) {
+    Raster raster = raster_of_all_types();
+    raster.info.sets.push_back({"", AttributeLocation::point, {0, 3}});
+    const auto sets = first<Raster>(there_and_back(of(raster), "gocad-vo")).info.sets;
+    ASSERT_EQ(sets.size(), 1u);
+    EXPECT_TRUE(sets[0].name.starts_with("region_")) << sets[0].name;
+    EXPECT_EQ(sets[0].members, (std::vector<std::uint32_t>{0, 3}));
+}
+
 TEST(GocadVoxet, CountsBeyondAllMeasureAreRefusedBeforeMemoryIsTaken) {
     const auto read = read_text(voxet("1000000000 1000000000 1000000000"));
     ASSERT_FALSE(read.ok());

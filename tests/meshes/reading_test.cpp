@@ -89,6 +89,14 @@ TEST(MeshReading, BoxesKeepTheirFaultAndWell) {
     }
 }
 
+TEST(Abaqus, ASetWithoutANameIsListedAsLost) {
+    const Dataset data =
+        read_text("abaqus", "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n*NSET, GENERATE\n1,3,1\n");
+    EXPECT_TRUE(info_of(data.objects.at(0)).sets.empty());
+    ASSERT_EQ(data.losses.size(), 1u);
+    EXPECT_EQ(data.losses[0].entity, "NSET");
+}
+
 TEST(Medit, IsReadWhateverTheOrderOfSectionsAndLines) {
     const Dataset data = read_text("medit",
                                    "MeshVersionFormatted\n2\n# a comment\nDimension\n3\nTetrahedra 1 1 2 3 4 7\nTriangles\n1\n1 2 3 -5\n"
