@@ -110,8 +110,9 @@ std::string summary(const GridMade& made) {
         const auto& r = made.made.zones[z];
         text += "  zone " + std::to_string(z + 1) + " " + geomend::quoted(r.name) + ": layers " + std::to_string(r.first_layer + 1) +
                 " to " + std::to_string(r.last_layer + 1) + ", volume " + short_number(r.volume);
-        if (z < made.map_volumes.size() && made.map_volumes[z] > 0)
-            text += " (" + rounded(100 * (r.volume / made.map_volumes[z] - 1)) + " % from that between the maps)";
+        if (z < made.map_volumes.size() && made.map_volumes[z].maps > 0)
+            text += " (where the maps have values " + rounded(100 * (made.map_volumes[z].grid / made.map_volumes[z].maps - 1)) +
+                    " % from that between them)";
         if (r.without_thickness > 0) text += ", " + counted(r.without_thickness, "cell", "cells") + " without thickness";
         text += "\n";
     }

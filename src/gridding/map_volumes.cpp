@@ -21,6 +21,17 @@ bool has_active(const CornerPointGrid& grid, const ZoneReport& zone, std::uint32
     return false;
 }
 
+/// How thick a zone of a grid is in a column, at shares of its sides: as corners of cells have it, straight between them.
+double thickness_at(const CornerPointGrid& grid, const ZoneReport& zone, std::uint32_t i, std::uint32_t j, double u, double v) {
+    double thickness = 0;
+    for (unsigned c = 0; c < 4; ++c) {
+        const double top = grid.depths[corner_index(grid.dims, i, j, zone.first_layer, c)];
+        const double base = grid.depths[corner_index(grid.dims, i, j, zone.last_layer, c + 4)];
+        thickness += ((c & 1) != 0 ? u : 1 - u) * ((c >> 1) != 0 ? v : 1 - v) * (base - top);
+    }
+    return thickness;
+}
+
 /// A place in a column, by shares of its sides, and the area that stands for it.
 struct Place {
     Point at;
@@ -41,7 +52,7 @@ Place place_in(const std::array<Point, 4>& p, double u, double v) {
 
 }  // namespace
 
-std::vector<double> map_volumes(const Structure& structure, const CornerPointGrid& grid, std::span<const ZoneReport> zones) {
+std::vector<MapVolume> map_volumes(const Structure& structure, const CornerPointGrid& grid, std::span<const ZoneReport> zones) {
     std::vector<MapReader> readers;
     for (const Horizon& horizon : structure.horizons) {
         const auto* map = std::get_if<HorizonMap>(&horizon.shape);
@@ -51,7 +62,7 @@ std::vector<double> map_volumes(const Structure& structure, const CornerPointGri
     for (std::size_t p = 0; p < grid.pillars.size(); p += 6) {
         if (grid.pillars[p] != grid.pillars[p + 3] || grid.pillars[p + 1] != grid.pillars[p + 4]) return {};
     }
-    std::vector<double> sums(grid.dims[1] * zones.size(), 0);
+    std::vector<MapVolume> sums(grid.dims[1] * zones.size());
     parallel_for_each_index(grid.dims[1], [&](std::size_t j) {
         std::vector<Hit> top, base;
         for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
@@ -63,19 +74,25 @@ std::vector<double> map_volumes(const Structure& structure, const CornerPointGri
             for (std::size_t z = 0; z < zones.size(); ++z) {
                 if (!has_active(grid, zones[z], i, static_cast<std::uint32_t>(j))) continue;
                 for (int n = 0; n < places * places; ++n) {
-                    const Place place = place_in(corners, (n % places + 0.5) / places, (n / places + 0.5) / places);
+                    const double u = (n % places + 0.5) / places, v = (n / places + 0.5) / places;
+                    const Place place = place_in(corners, u, v);
                     top.clear();
                     base.clear();
                     readers[z].hits(place.at, top);
                     readers[z + 1].hits(place.at, base);
-                    if (!top.empty() && !base.empty())
-                        sums[z + zones.size() * j] += place.area * std::max(0.0, base[0].depth - top[0].depth);
+                    if (top.empty() || base.empty()) continue;
+                    MapVolume& sum = sums[z + zones.size() * j];
+                    sum.maps += place.area * std::max(0.0, base[0].depth - top[0].depth);
+                    sum.grid += place.area * thickness_at(grid, zones[z], i, static_cast<std::uint32_t>(j), u, v);
                 }
             }
         }
     });
-    std::vector<double> volumes(zones.size(), 0);
-    for (std::size_t n = 0; n < sums.size(); ++n) volumes[n % zones.size()] += sums[n];
+    std::vector<MapVolume> volumes(zones.size());
+    for (std::size_t n = 0; n < sums.size(); ++n) {
+        volumes[n % zones.size()].maps += sums[n].maps;
+        volumes[n % zones.size()].grid += sums[n].grid;
+    }
     return volumes;
 }
 

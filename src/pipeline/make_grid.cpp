@@ -289,7 +289,10 @@ std::string grid_json(const GridMade& made) {
         const auto& r = made.made.zones[z];
         Json zone{{"name", r.name},     {"number", z + 1},    {"first_layer", r.first_layer + 1},        {"last_layer", r.last_layer + 1},
                   {"volume", r.volume}, {"active", r.active}, {"without_thickness", r.without_thickness}};
-        if (z < made.map_volumes.size()) zone["map_volume"] = made.map_volumes[z];
+        if (z < made.map_volumes.size()) {
+            zone["map_volume"] = made.map_volumes[z].maps;
+            zone["volume_where_maps"] = made.map_volumes[z].grid;
+        }
         zones.push_back(std::move(zone));
     }
     for (const auto& r : made.made.faults) {

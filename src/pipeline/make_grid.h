@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gridding/build_grid.h"
+#include "gridding/map_volumes.h"
 #include "gridding/structure_of.h"
 #include "pipeline/convert.h"
 #include "pipeline/grid_properties.h"
@@ -37,9 +38,9 @@ struct GridMade {
     gridding::GridReport made;
     std::array<std::uint32_t, 3> dims{0, 0, 0};
     double rotation = 0;
-    std::optional<std::uint64_t> nnc;  ///< pairs that touch; with a deck those that it has in a simulator
-    std::vector<double> map_volumes;   ///< per zone what the maps hold below and above the active columns; empty where not all are maps
-    std::vector<std::string> regions;  ///< of a sealed model, by their numbers in REGION, from 1
+    std::optional<std::uint64_t> nnc;              ///< pairs that touch; with a deck those that it has in a simulator
+    std::vector<gridding::MapVolume> map_volumes;  ///< per zone, below active columns where maps have values; empty where not all are maps
+    std::vector<std::string> regions;              ///< of a sealed model, by their numbers in REGION, from 1
     std::vector<gridding::LeftOut> left_out;
     std::vector<gridding::SampledProperty> properties;
     std::vector<std::string> notes;

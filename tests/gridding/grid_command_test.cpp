@@ -31,6 +31,20 @@ json make(const std::vector<std::string>& in, const std::string& out, const std:
 
 std::vector<std::string> two_maps() { return {sample("top_map.irap"), sample("base_map.irap"), sample("top_faults.pol")}; }
 
+TEST(Grid, ItsVolumeIsComparedWithMapsWhereTheyHaveValuesOnly) {
+    const TemporaryFolder folder;
+    for (const double depth : {1000.0, 1020.0}) {
+        std::string text = "-996 5 10 10\n0 50 0 40\n6 0 0 0\n0 0 0 0 0 0 0\n";
+        for (int n = 0; n < 30; ++n) text += (n == 14 || n == 15 ? "9999900" : std::to_string(depth)) + "\n";
+        test::write_file(folder / (depth == 1000 ? "top.irap" : "base.irap"), text);
+    }
+    const json made = make({folder / "top.irap", folder / "base.irap"}, folder / "g.grdecl", {"--cells", "10x8", "--rotate", "0"});
+    ASSERT_TRUE(made.is_object());
+    const json& zone = made["zones"][0];
+    EXPECT_GT(zone["map_volume"].get<double>(), 0.5 * 20 * 50 * 40);
+    EXPECT_NEAR(zone["volume_where_maps"].get<double>() / zone["map_volume"].get<double>(), 1, 1e-9);
+}
+
 TEST(Grid, MapsAndPolygonsMakeAGridWithoutErrorsInEveryFormat) {
     const TemporaryFolder folder;
     for (const char* extension : {".grdecl", ".egrid", ".roff", ".vtu", ".data"}) {
