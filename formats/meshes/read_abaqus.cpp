@@ -293,10 +293,12 @@ private:
             if (auto failed = whole(input, lines, 1, "the last number of a set", last)) return failed;
             if (lines.fields().size() > 2 && !lines.fields()[2].empty())
                 if (auto failed = whole(input, lines, 2, "the step of a set", step)) return failed;
-            if (step < 1 || last < first || (last - first) / step > static_cast<std::int64_t>(known.size()) * 16 + 1000000)
+            const std::uint64_t reach = last < first ? 0 : static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first);
+            if (step < 1 || last < first || reach / static_cast<std::uint64_t>(step) > known.size() * 16 + 1000000)
                 return unreadable("F012", {input.name(), lines.line()},
                                   "expected first, last and a step, found numbers that do not ascend, or too many");
-            for (std::int64_t id = first; id <= last; id += step) add(id);
+            for (std::uint64_t n = 0; n <= reach / static_cast<std::uint64_t>(step); ++n)
+                add(static_cast<std::int64_t>(static_cast<std::uint64_t>(first) + n * static_cast<std::uint64_t>(step)));
             missing = 0;  // a range may have gaps
         } else {
             for (const std::string_view field : lines.fields()) {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/cell_number.h"
 #include "geometry/vectors.h"
 
 namespace geomend::arrangement {
@@ -61,9 +62,9 @@ void SpacedPoints::grow() {
 std::uint32_t SpacedPoints::add(const Vec3& point, double distance) {
     std::array<std::int64_t, 3> low{}, high{}, own{};
     for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = static_cast<std::int64_t>(std::floor((point[k] - distance) / cell_));
-        high[k] = static_cast<std::int64_t>(std::floor((point[k] + distance) / cell_));
-        own[k] = static_cast<std::int64_t>(std::floor(point[k] / cell_));
+        low[k] = cell_number((point[k] - distance) / cell_);
+        high[k] = cell_number((point[k] + distance) / cell_);
+        own[k] = cell_number(point[k] / cell_);
     }
     std::uint32_t nearest = nobody;
     double least = distance * distance;

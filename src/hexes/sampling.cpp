@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "base/cell_number.h"
 #include "base/parallel.h"
 #include "base/vectors.h"
 #include "remesh/length.h"
@@ -125,7 +126,7 @@ private:
     double side_;
     std::unordered_map<std::uint64_t, std::vector<Thing>> buckets_;
 
-    std::int64_t number(double x) const { return static_cast<std::int64_t>(std::floor(x / side_)); }
+    std::int64_t number(double x) const { return cell_number(x / side_); }
     static std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) {
         constexpr std::uint64_t mask = (1u << 21) - 1;
         return (static_cast<std::uint64_t>(i) & mask) << 42 | (static_cast<std::uint64_t>(j) & mask) << 21 |

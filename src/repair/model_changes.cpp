@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/cell_number.h"
 #include "base/vectors.h"
 #include "geometry/box_tree.h"
 #include "geometry/closest_points.h"
@@ -142,7 +143,7 @@ private:
 
     Cell cell_of(const Vec3& p) const {
         Cell cell{};
-        for (std::size_t k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor((p[k] - welder_.positions()[0][k]) / near_));
+        for (std::size_t k = 0; k < 3; ++k) cell[k] = cell_number((p[k] - welder_.positions()[0][k]) / near_);
         return cell;
     }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/cell_number.h"
 #include "base/disjoint_sets.h"
 #include "geometry/cell_volume.h"
 #include "model/objects.h"
@@ -26,7 +27,7 @@ public:
     using Cube = std::array<std::int64_t, 3>;
     Cube cube(const Vec3& p) const {
         Cube c;
-        for (std::size_t k = 0; k < 3; ++k) c[k] = std::llround(std::floor((p[k] - positions_[0][k]) / size_));
+        for (std::size_t k = 0; k < 3; ++k) c[k] = cell_number((p[k] - positions_[0][k]) / size_);
         return c;
     }
     std::uint32_t first(const Cube& c) const { return slots_[slot_of(c, hash_of(c))]; }

@@ -312,6 +312,9 @@ TEST(Abaqus, WhatIsNotKnownIsReportedAndBrokenFilesSayWhere) {
     EXPECT_TRUE(failure_of("abaqus", "*NODE\n1,0,inf,0\n").starts_with("F006"));
     EXPECT_TRUE(failure_of("abaqus", "*HEADING\n").starts_with("F017"));
     EXPECT_TRUE(failure_of("abaqus", four + "*NSET, NSET=a, GENERATE\n1, 9000000000000, 1\n").starts_with("F012"));
+    EXPECT_TRUE(failure_of("abaqus", four + "*NSET, NSET=a, GENERATE\n-9223372036854775807, 9223372036854775807, 1\n").starts_with("F012"));
+    const Dataset wide = read_text("abaqus", four + "*NSET, NSET=a, GENERATE\n1, 9223372036854775807, 9223372036854775807\n");
+    EXPECT_EQ(info_of(wide.objects.at(0)).sets.at(0).members.size(), 1u);
 }
 
 }  // namespace
