@@ -347,9 +347,11 @@ std::set<std::string> error_codes(std::span<const Finding> findings) {
 
 // What a repair wrote, read again, has no error of a kind that the input had not, by the tolerance by rule: a larger one may be beyond
 // the surfaces that a format wants around cells. Where surfaces become one, or points (formats of plain surfaces), what comes of them
-// need not be sound.
-void check_no_worse(const RepairRequest& request, const Dataset& before) {
+// need not be sound; nor what is left around regions where a format has no cells of some kind, which the list of losses says.
+void check_no_worse(const RepairRequest& request, const Dataset& before, std::span<const Loss> losses) {
     const Format& to = *format_by_name(request.files.to);
+    const auto loses_cells = [](const Loss& loss) { return loss.loss_class == LossClass::substance && loss.what.ends_with(" cells"); };
+    if (std::ranges::any_of(losses, loses_cells)) return;
     if (to.keeps.several_objects == Keeping::no || to.keeps.points == Keeping::no) return;
     validators::CheckOptions checks;
     checks.all_cells = request.checks.all_cells;
@@ -388,7 +390,7 @@ void mend(const Place& place, RepairRequest request, const Dataset& dataset) {
     if (!error_codes(report->file.findings).empty()) broken("repair wrote a result that it knows to have errors");
     if (const Format& to = *format_by_name(request.files.to); to.read != nullptr) {
         read_again(request.files.output, to, nullptr, report->losses);
-        check_no_worse(request, dataset);
+        check_no_worse(request, dataset, report->losses);
     }
 }
 
