@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/length.h"
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
 #include "geometry/lattice_cells.h"
@@ -50,8 +51,6 @@ double majority_sign(const ObjectScope& scope, const LatticeCells& cells) {
     });
     return signs.by_kind[1] > signs.by_kind[0] ? -1 : 1;
 }
-
-double length(const Vec3& d) { return std::sqrt(dot(d, d)); }
 
 /// The least determinant of the edges at a corner, beyond what moving its ends by the tolerance explains, as a part of the
 /// product of the edges' lengths; 0 where none is negative.

@@ -3,11 +3,10 @@
 
 #include <cmath>
 
+#include "base/length.h"
 #include "geometry/vectors.h"
 
 namespace geomend::arrangement {
-
-inline double length(const Vec3& d) { return std::sqrt(dot(d, d)); }
 
 /// The nearest point of the grid.
 inline Vec3 rounded(const Vec3& p) { return {std::nearbyint(p[0]), std::nearbyint(p[1]), std::nearbyint(p[2])}; }

@@ -7,7 +7,6 @@
 
 namespace geomend::complexity {
 
-double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 Vec3 moved(const Vec3& a, const Vec3& b, double t) { return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]}; }
 
 namespace {

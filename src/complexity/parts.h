@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/length.h"
 #include "complexity/complexity.h"
 #include "geometry/principal_axes.h"
 #include "geometry/vectors.h"
@@ -42,7 +43,6 @@ struct MeasuredModel {
     Vec3 area_vector(const std::array<std::uint32_t, 3>& triangle) const;  ///< normal times area
 };
 
-double length(const Vec3& a);
 /// a + t b
 Vec3 moved(const Vec3& a, const Vec3& b, double t = 1);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/length.h"
 #include "base/vectors.h"
 
 namespace geomend::editing {
@@ -14,8 +15,6 @@ namespace {
 constexpr double least_facing = 0.1;  // cosine between a new triangle and the ring as a whole: it is not turned over, nor on edge
 constexpr double trace_factor = 4;
 constexpr double none = std::numeric_limits<double>::infinity();
-
-double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 /// The best filling of each part of a ring, from one place to a later one (dynamic programming).
 class RingFiller {

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "base/length.h"
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
 #include "geometry/lattice_cells.h"
@@ -31,8 +32,6 @@ double ordered_sum(std::size_t count, const Measure& measure) {
     for (const double block : blocks) sum += block;
     return sum;
 }
-
-double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * length(cross(minus(b, a), minus(c, a))); }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/length.h"
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
 #include "grid/cell_mesh.h"
@@ -18,7 +19,6 @@ using Face = std::array<unsigned, 4>;  // corners in the order of a walk around 
 constexpr std::array<Face, 2> top_and_base{{{0, 1, 3, 2}, {4, 5, 7, 6}}};
 constexpr std::array<Face, 4> sides{{{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}}};
 
-double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 void take_angles(const Corners& p, const Face& face, double zero, double& least, double& greatest) {

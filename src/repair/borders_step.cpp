@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "base/length.h"
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "editing/border_sampling.h"
@@ -19,7 +20,6 @@ namespace {
 
 using editing::SoupMesh;
 
-double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(minus(b, a), minus(c, a)); }
 
 /// A line between corners, as its vertices one after the other; a closed one begins and ends at its lowest vertex.

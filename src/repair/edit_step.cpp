@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "arrangement/arrange.h"
+#include "base/length.h"
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "repair/edit_contacts.h"
@@ -16,8 +17,6 @@
 namespace geomend::repair {
 
 namespace {
-
-double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 /// What the edits say of each patch, and what there is to be said of them.
 struct EditPlan {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/cell_number.h"
+#include "base/length.h"
 #include "base/vectors.h"
 #include "geometry/box_tree.h"
 #include "geometry/closest_points.h"
@@ -18,8 +19,6 @@
 namespace geomend::repair {
 
 namespace {
-
-double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 /// Edges of what was read, by positions: which of them were lines, and which of them free borders of their patch.
 class ReadEdges {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/length.h"
 #include "base/vectors.h"
 #include "geometry/closest_points.h"
 #include "geometry/triangle_tree.h"
@@ -19,8 +20,6 @@ namespace geomend::volumes {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-
-double length(const Vec3& d) { return std::sqrt(dot(d, d)); }
 
 Vec3 normal_of(const std::array<Vec3, 3>& t) {
     const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/length.h"
 #include "base/vectors.h"
 #include "geometry/triangle_tree.h"
 #include "volume/surface_points.h"
@@ -32,8 +33,6 @@ std::vector<std::uint32_t> facets_that_are_no_faces(const RegionFacets& facets, 
     }
     return missing;
 }
-
-double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 /// Up to which distance a point that was computed to lie on a facet lies on it: its share of the facet's size, or the steps of coordinates.
 double rounding(const std::array<Vec3, 3>& t) {

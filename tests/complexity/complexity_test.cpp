@@ -119,7 +119,7 @@ TEST(Complexity, CellsDivideTheVolumeEvenly) {
     // In an even cover no two sites are much nearer than the cell's size, and none is far from the walls' first layer.
     double nearest = 1e9;
     for (std::size_t a = 0; a < sites.size(); ++a) {
-        for (std::size_t b = 0; b < a; ++b) nearest = std::min(nearest, complexity::length(minus(sites[a], sites[b])));
+        for (std::size_t b = 0; b < a; ++b) nearest = std::min(nearest, length(minus(sites[a], sites[b])));
     }
     EXPECT_GT(nearest, 0.6 * 250);
 }
@@ -376,7 +376,7 @@ TEST(ComplexityOfRealModels, CellsHoldWhatIsSeenInThem) {
     const auto nearest = [&](const Vec3& p) {
         std::size_t best = 0;
         for (std::size_t s = 1; s < sites.size(); ++s) {
-            if (complexity::length(minus(sites[s], p)) < complexity::length(minus(sites[best], p))) best = s;
+            if (length(minus(sites[s], p)) < length(minus(sites[best], p))) best = s;
         }
         return best;
     };
