@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/wording.h"
+#include "formats/drop.h"
 #include "formats/text_reading.h"
 #include "formats/wells/path_length.h"
 #include "formats/wells/rms_text.h"
@@ -55,6 +57,7 @@ private:
     Dataset data_;
     Well well_;
     std::vector<Log> logs_;
+    std::uint64_t unplaced_ = 0, first_unplaced_ = 0;  ///< rows without a position, and the line of the first
 
     bool next_line() {
         while (cursor_.next_line()) {
@@ -73,6 +76,7 @@ private:
     std::optional<Failure> read_well() {
         well_ = {};
         logs_.clear();
+        unplaced_ = 0;
         well_.info.crs.z_positive = ZPositive::depth;
         well_.info.crs.z_positive_stated = true;
         const std::string_view version = trimmed(cursor_.line_text());
@@ -167,6 +171,7 @@ private:
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (auto failed = finite_number(input_, cursor_, cursor_.token(), axes[axis], p[axis])) return failed;
         }
+        const bool is_placed = std::ranges::find(p, missing) == p.end();
         p[2] = -p[2];
         for (Log& log : logs_) {
             const std::string_view token = cursor_.token();
@@ -183,7 +188,15 @@ private:
             std::get<std::vector<std::int32_t>>(log.values.values).push_back(static_cast<std::int32_t>(value));
         }
         const std::string_view more = cursor_.token();
-        return more.empty() ? std::nullopt : std::optional(malformed("the end of the row", more));
+        if (!more.empty()) return malformed("the end of the row", more);
+        if (!is_placed) take_back_row();
+        return std::nullopt;
+    }
+
+    void take_back_row() {
+        if (unplaced_++ == 0) first_unplaced_ = cursor_.line();
+        well_.path.pop_back();
+        for (Log& log : logs_) std::visit([](auto& values) { values.pop_back(); }, log.values.values);
     }
 
     void take_depths() {
@@ -201,6 +214,20 @@ private:
     }
 
     void finish_well() {
+        if (unplaced_ > 0)
+            drop(data_.findings, data_.losses,
+                 {.loss_class = LossClass::substance,
+                  .entity = well_.info.name,
+                  .what = "rows whose x, y or z is -999",
+                  .why = "-999 stands for missing: they have no position",
+                  .count = unplaced_,
+                  .where = {input_.name(), first_unplaced_}});
+        if (well_.path.empty()) {
+            Finding f = make_finding("F119", "well " + geomend::quoted(well_.info.name) + " has a head, but no points of a path",
+                                     {input_.name(), cursor_.line()});
+            f.entities.push_back({"well", well_.info.name});
+            data_.findings.push_back(std::move(f));
+        }
         if (!well_.path.empty()) take_depths();
         const bool stated = !well_.measured_depth.empty();
         const std::vector<double> depths = stated ? well_.measured_depth : lengths_along(well_.path);

@@ -5,7 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "base/wording.h"
 #include "formats/drop.h"
 #include "formats/text_reading.h"
 #include "formats/wells/path_length.h"
@@ -139,6 +144,31 @@ std::optional<std::string_view> name_line(std::string_view line) {
     return std::nullopt;
 }
 
+/// How the numbers of a column Z go with those of a column of depths, row by row.
+struct ZAgainstDepths {
+    std::uint64_t rows = 0, not_elevation = 0, not_depth = 0;  ///< where Z is not minus the depth; where it is not the depth
+    std::uint64_t first_line = 0;                              ///< of a row where it is not minus the depth
+
+    /// Whether Z is a depth in all rows, and no elevation in some.
+    bool says_depth() const { return not_elevation > 0 && not_depth == 0; }
+
+    /// \param below_sea depth below the level from which Z counts
+    /// \param below_bushing depth below a point at an unknown height: only its steps from the first row count
+    void add(double z, std::optional<double> below_sea, std::optional<double> below_bushing, std::uint64_t line) {
+        if (!below_sea && !below_bushing) return;
+        const bool is_first = rows++ == 0;
+        if (is_first) first_ = {z, below_bushing.value_or(0)};
+        const double height = below_sea ? z : z - first_[0], depth = below_sea ? *below_sea : *below_bushing - first_[1];
+        const double granted = 0.05 + 1e-4 * std::abs(depth);  // both are rounded
+        if (std::abs(height - depth) > granted) ++not_depth;
+        if (std::abs(height + depth) <= granted) return;
+        if (not_elevation++ == 0) first_line = line;
+    }
+
+private:
+    std::array<double, 2> first_{};
+};
+
 class Reader {
 public:
     Reader(const Input& input, const ReadOptions& options, std::optional<ZPositive> sign)
@@ -173,6 +203,7 @@ private:
     Well well_;
     std::vector<std::vector<double>> others_;  ///< per further column
     std::uint64_t texts_ = 0;
+    ZAgainstDepths heights_;
 
     Failure malformed(const std::string& expected, std::string_view found) const {
         return unreadable("F012", location_of(input_, cursor_, found), "expected " + expected + ", found " + shown(found));
@@ -245,12 +276,14 @@ private:
         Vec3 p{};
         std::size_t other = 0;
         const bool below_bushing = !table_.has(Column::elevation) && !table_.has(Column::depth);
-        std::optional<double> below_sea, measured;
+        std::optional<double> below_sea, under_bushing, measured;
         for (std::size_t c = 0; c < fields.size(); ++c) {
             const Column column = table_.columns[c];
             if (column == Column::well) continue;
             if (column == Column::other || (column == Column::depth_below_bushing && !below_bushing)) {
+                double depth = 0;
                 if (column == Column::other) others_[other++].push_back(further_value(fields[c]));
+                else if (parse_real(fields[c], depth) == NumberStatus::ok) under_bushing = depth;
                 continue;
             }
             double value = 0;
@@ -277,6 +310,7 @@ private:
             }
         }
         if (below_sea && !table_.has(Column::elevation)) p[2] = -*below_sea;
+        if (table_.has(Column::elevation)) heights_.add(sign_ == ZPositive::depth ? -p[2] : p[2], below_sea, under_bushing, cursor_.line());
         well_.path.push_back(p);
         if (measured) well_.measured_depth.push_back(*measured);
         return std::nullopt;
@@ -297,7 +331,12 @@ private:
         }
         if (well_.info.name.empty()) well_.info.name = name_of(input_);
         if (well_.head[0] == 0 && well_.head[1] == 0) well_.head = {well_.path.front()[0], well_.path.front()[1], 0};
-        const bool depth = !table_.has(Column::elevation) || sign_ == ZPositive::depth;
+        const bool turned = !sign_ && heights_.says_depth();
+        if (turned) {
+            for (Vec3& p : well_.path) p[2] = -p[2];
+        }
+        report_heights(turned);
+        const bool depth = !table_.has(Column::elevation) || sign_ == ZPositive::depth || turned;
         well_.info.crs.z_positive = depth ? ZPositive::depth : ZPositive::elevation;
         well_.info.crs.z_positive_stated = true;
         const std::vector<double> depths = well_.measured_depth.empty() ? lengths_along(well_.path) : well_.measured_depth;
@@ -321,6 +360,21 @@ private:
         well_ = {};
         others_.clear();
         texts_ = 0;
+        heights_ = {};
+    }
+
+    /// F113 where Z was taken as depth, or says something else than the column of depths.
+    void report_heights(bool turned) {
+        if (sign_) return;  // the user has said so
+        const std::uint64_t wrong = turned ? 0 : heights_.not_elevation;
+        if (wrong == 0 && !turned) return;
+        std::string message = turned ? "column Z is the depth that another column states: it is taken as positive downwards; --option "
+                                       "z=elevation takes it as it stands"
+                                     : "Z and the column of depths disagree at " + counted(wrong, "point", "points") +
+                                           ": Z is taken, as elevation; --option z=depth takes it as depth";
+        Finding f = make_finding("F113", std::move(message), {input_.name(), heights_.first_line}, turned ? heights_.not_elevation : wrong);
+        f.entities.push_back({"well", well_.info.name});
+        data_.findings.push_back(std::move(f));
     }
 };
 

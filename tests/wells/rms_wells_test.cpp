@@ -39,6 +39,24 @@ TEST(RmsWells, WithoutMeasuredDepthsLogsStandAlongThePath) {
     EXPECT_EQ(data.findings[0].entities.at(0).name, "B1");
 }
 
+TEST(RmsWells, RowsWithoutAPositionAreListedAsLost) {
+    const Dataset data = good_wells("rms-wells", "1.0\nUndefined\nA 1 2\n1\nGR API lin\n1 2 3 4\n-999 2 3 5\n1 2 9 6\n");
+    EXPECT_EQ(well_at(data, 0).path, (std::vector<Vec3>{{1, 2, -3}, {1, 2, -9}}));
+    EXPECT_EQ(value_as_double(well_at(data, 0).curves.at(0).values, 1), 6);
+    ASSERT_EQ(data.losses.size(), 1u);
+    EXPECT_EQ(data.losses[0].loss_class, LossClass::substance);
+    const auto reported = std::ranges::find(data.findings, "F150", &Finding::code);
+    ASSERT_NE(reported, data.findings.end());
+    EXPECT_EQ(reported->where.line, 7u);
+}
+
+TEST(RmsWells, AHeadWithoutPointsIsReported) {
+    const Dataset data = good_wells("rms-wells", "1.0\nUndefined\nA 1 2\n1\nGR API lin\n");
+    ASSERT_EQ(std::ranges::count(data.findings, "F119", &Finding::code), 1);
+    EXPECT_EQ(std::ranges::find(data.findings, "F119", &Finding::code)->entities.at(0).name, "A");
+    EXPECT_EQ(std::ranges::count(good_wells("rms-wells", std::string(two_wells)).findings, "F119", &Finding::code), 0);
+}
+
 TEST(RmsWells, WhatIsWrongIsRefusedWithItsPlace) {
     const std::string head = "1.0\nUndefined\nA 1 2\n1\nPHIT UNK lin\n";
     EXPECT_EQ(refused_well("rms-wells", head + "1 2 3\n"), "F012 a.w:6:6");

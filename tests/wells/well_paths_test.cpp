@@ -64,6 +64,27 @@ TEST(WellPaths, DepthsBelowTheBushingBecomeElevations) {
     EXPECT_EQ(well_at(data, 0).info.name, "a");
 }
 
+TEST(WellPaths, ZThatEqualsTheDepthBesideItIsADepth) {
+    for (const char* name : {"TVDSS", "TVD"}) {
+        const Dataset data = good_wells("well-path", std::string("MD X Y Z ") + name + "\n0 1 2 10 10\n100 1 2 110 110\n");
+        EXPECT_EQ(well_at(data, 0).path, (std::vector<Vec3>{{1, 2, -10}, {1, 2, -110}})) << name;
+        EXPECT_EQ(well_at(data, 0).info.crs.z_positive, ZPositive::depth);
+        ASSERT_EQ(data.findings.size(), 1u) << name;
+        EXPECT_EQ(data.findings[0].code, "F113");
+    }
+    const Dataset sound = good_wells("well-path", "MD X Y Z TVDSS TVD\n0 1 2 25 -25 0\n100 1 2 -75 75 100\n");
+    EXPECT_EQ(well_at(sound, 0).path.at(1), (Vec3{1, 2, -75}));
+    EXPECT_TRUE(sound.findings.empty());
+}
+
+TEST(WellPaths, ZThatContradictsTheDepthBesideItIsReported) {
+    const Dataset data = good_wells("well-path", "MD X Y Z TVDSS\n0 1 2 25 -25\n100 1 2 -75 85\n");
+    ASSERT_EQ(data.findings.size(), 1u);
+    EXPECT_EQ(data.findings[0].code, "F113");
+    EXPECT_EQ(data.findings[0].where.line, 3u);
+    EXPECT_EQ(well_at(data, 0).path.at(1), (Vec3{1, 2, -75}));
+}
+
 TEST(WellPaths, WhatIsWrongIsRefusedWithItsPlace) {
     EXPECT_EQ(refused_well("well-path", "MD INCL AZIM\n0 0 0\n"), "F013 a.w:1");
     EXPECT_EQ(refused_well("well-path", "MD X Y Z\n0 0 0\n"), "F012 a.w:2:1");
