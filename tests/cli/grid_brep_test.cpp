@@ -47,7 +47,9 @@ TEST_F(GridAsModel, IsJudgedByTheProcessesOfManyFiles) {
     const ProgramRun run =
         run_geomend({"validate", at("crossing.grdecl"), at("again.grdecl"), "--checks", "C27", "--option", "as=brep", "--json"});
     EXPECT_EQ(run.status, 1) << run.err;
-    for (const Json& file : Json::parse(run.out)["files"]) EXPECT_EQ(file["findings"].size(), 1u);
+    const Json report = Json::parse(run.out);
+    ASSERT_EQ(report["files"].size(), 2u);
+    for (const Json& file : report["files"]) EXPECT_EQ(file["findings"].size(), 1u);
 }
 
 TEST_F(GridAsModel, NeedsOptionsThatItKnows) {

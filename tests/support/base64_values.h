@@ -23,7 +23,7 @@ std::vector<Value> base64_values(const std::string& base64) {
         bytes += static_cast<char>(bits >> count & 0xffu);
     }
     std::vector<Value> values(bytes.size() / sizeof(Value));
-    std::memcpy(values.data(), bytes.data(), sizeof(Value) * values.size());
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), sizeof(Value) * values.size());
     return values;
 }
 

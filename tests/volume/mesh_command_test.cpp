@@ -147,7 +147,9 @@ TEST(Mesh, AReportThatCannotBePrintedSaysThatTheMeshIsWritten) {
 TEST(Mesh, TheRoleOfOneSurfaceIsNotThatOfTheMesh) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu"}).status, 0);
-    for (const json& object : test::info(folder / "out.vtu")["objects"]) {
+    const json read = test::info(folder / "out.vtu");
+    ASSERT_FALSE(read["objects"].empty());
+    for (const json& object : read["objects"]) {
         EXPECT_TRUE(object["kind"] != "cell-mesh" || !object.contains("role")) << object;
     }
 }
