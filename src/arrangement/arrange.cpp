@@ -2,9 +2,12 @@
 #include "arrangement/arrange.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <ranges>
 
 #include "arrangement/cut_round.h"
+#include "arrangement/sheets.h"
 #include "arrangement/snap_grid.h"
 #include "arrangement/unfold.h"
 #include "base/parallel.h"
@@ -24,7 +27,7 @@ struct Snapped {
 
 Snapped snapped(const TriangleSoup& soup, double tolerance) {
     const SnapGrid grid = snap_grid(soup.vertices, tolerance);
-    Snapped s{grid, {SpacedPoints(grid.tolerance_steps, soup.vertices.size()), {}, {}, {}, {}, {}, {}}, {}, {}};
+    Snapped s{grid, {SpacedPoints(grid.tolerance_steps, soup.vertices.size()), {}, {}, {}, {}, {}, {}, {}}, {}, {}};
     s.state.patches = soup.patches;
     s.point_of.resize(soup.vertices.size());
     for (std::uint32_t v = 0; v < soup.vertices.size(); ++v) {
@@ -70,7 +73,8 @@ void write_vertices(const TriangleSoup& soup, const Snapped& s, Arrangement& res
         if (used[p] == 0) continue;
         number[p] = static_cast<std::uint32_t>(result.soup.vertices.size());
         const bool was_there = p < s.first_of.size();
-        result.soup.vertices.push_back(was_there && s.grid.is_fine ? soup.vertices[s.first_of[p]] : s.grid.to_position(points[p]));
+        const bool stayed = was_there && points[p] == s.grid.to_steps(soup.vertices[s.first_of[p]]);
+        result.soup.vertices.push_back(stayed && s.grid.is_fine ? soup.vertices[s.first_of[p]] : s.grid.to_position(points[p]));
         result.origin.vertices.push_back(was_there ? Origin::from_vertex(s.first_of[p]) : Origin::Vertex{});
         result.made += was_there ? 0 : 1;
     }
@@ -82,11 +86,14 @@ void write_vertices(const TriangleSoup& soup, const Snapped& s, Arrangement& res
         result.soup.edges.push_back({number[s.state.edges[e][0]], number[s.state.edges[e][1]]});
         result.soup.edge_ids.push_back(soup.edge_ids[s.state.edge_source[e]]);
     }
+    for (const auto& [point, became] : s.state.gave_way | std::views::reverse) {
+        if (number[point] == no_index) number[point] = number[became];
+    }
     for (std::uint32_t v = 0; v < soup.vertices.size(); ++v) {
-        const std::uint32_t p = s.point_of[v];
-        result.becomes.push_back(number[p]);
-        if (number[p] == no_index) continue;
-        const Vec3 d = minus(result.soup.vertices[number[p]], soup.vertices[v]);
+        const std::uint32_t now = number[s.point_of[v]];
+        result.becomes.push_back(now);
+        if (now == no_index) continue;
+        const Vec3 d = minus(result.soup.vertices[now], soup.vertices[v]);
         result.largest_move = std::max(result.largest_move, std::sqrt(dot(d, d)));
     }
 }
@@ -113,8 +120,78 @@ void count_changes(const TriangleSoup& soup, const Snapped& s, Arrangement& resu
         result.collapsed += n == 0 ? 1 : 0;
         result.cut += n > 1 ? 1 : 0;
     }
+    result.laid = s.state.laid;
     result.doubled = s.state.doubled;
     result.merged = soup.vertices.size() - s.first_of.size() + s.state.merged;
+}
+
+constexpr unsigned later_patience = 8;  // rounds
+
+/// In tolerances: how thick what is taken for one sheet may be, where it cannot be cut otherwise.
+constexpr std::array sheet_widths{0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+
+/// Cuts until nothing is found any more, or it is given up.
+void cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigned most_rounds, Snapped& s, Arrangement& result) {
+    result.clean = false;
+    constexpr unsigned most_unfoldings = 4;
+    unsigned unfoldings = 0;
+    const auto stopped = [&] { return monitor != nullptr && monitor->stopped(); };
+    // What there is to cut is cut in the first rounds. Where the tolerance is as large as triangles are, pieces may come to lie near
+    // others again and again, and grow in number without end: then it is given up.
+    constexpr unsigned first_rounds = 2;
+    constexpr std::size_t most_growth = 4;
+    std::size_t after_first = 0;
+    unsigned rounds = 0;
+    const auto grows = [&] { return rounds > first_rounds && s.state.triangles.size() > most_growth * after_first + 1000; };
+    while (!result.clean && rounds < most_rounds && !stopped() && !grows()) {
+        s.state.reach = reach_of_round(s.grid, share, rounds);
+        result.clean = cut_round(s.state, monitor);
+        ++rounds;
+        ++result.rounds;
+        if (rounds <= first_rounds) after_first = s.state.triangles.size();
+        if (result.clean && unfoldings < most_unfoldings && unfold(s.state, soup, s.grid.tolerance_steps)) {
+            ++unfoldings;
+            result.clean = false;
+        }
+    }
+    if (stopped()) result.clean = false;
+}
+
+/// Notes which triangles of the soup have pieces that were found near others in the last round.
+void add_unsettled(const Snapped& s, std::vector<std::uint8_t>& unsettled) {
+    for (std::size_t t = 0; t < s.state.triangles.size(); ++t) {
+        if (s.state.is_new[t] == 0) continue;
+        const std::uint32_t source = s.state.source[t];
+        if (source < unsettled.size()) unsettled[source] = 1;
+        else {
+            for (const auto& layer : s.state.stacks[source - unsettled.size()].layers) unsettled[layer.source] = 1;
+        }
+    }
+}
+
+/// What does not end is begun anew, and taken for one sheet where it lies upon each other: ever thicker ones; then with features that are
+/// one from farther away; at last whether it settled before or not. Where nothing of it ends, it stays as it was.
+void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, Snapped& s, Arrangement& result) {
+    std::vector<std::uint8_t> may_lie(soup.triangles.size(), 0);
+    add_unsettled(s, may_lie);
+    for (const double coarser : {1.0, 4.0, 8.0, 16.0, 1.0}) {
+        const double share = std::max(options.reach, std::min(0.5, coarser * options.reach));
+        for (const double width : sheet_widths) {
+            if (options.monitor != nullptr && options.monitor->stopped()) return;
+            Snapped anew = snapped(soup, options.tolerance);
+            anew.state.reach = reach_of_round(s.grid, share, 0);
+            lay_sheets(anew.state, width * s.grid.tolerance_steps, may_lie, options.monitor);
+            // Without sheets it is as before, but for the reach.
+            if (anew.state.stacks.empty() && (share == options.reach || width != sheet_widths.front())) continue;
+            cut(soup, share, options.monitor, later_patience, anew, result);
+            if (result.clean) {
+                s = std::move(anew);
+                return;
+            }
+            add_unsettled(anew, may_lie);
+        }
+        if (share > 0.4) std::ranges::fill(may_lie, std::uint8_t{1});
+    }
 }
 
 }  // namespace
@@ -124,27 +201,9 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     if (!(options.tolerance > 0)) return failure(FailureKind::usage, "F018", {}, "a cut needs a tolerance above 0");
     Snapped s = snapped(soup, options.tolerance);
     Arrangement result;
-    result.clean = false;
-    constexpr unsigned most_unfoldings = 4;
-    unsigned unfoldings = 0;
-    const auto stopped = [&] { return options.monitor != nullptr && options.monitor->stopped(); };
-    // What there is to cut is cut in the first rounds. Where the tolerance is as large as triangles are, pieces may come to lie near
-    // others again and again, and grow in number without end: then it is given up.
-    constexpr unsigned first_rounds = 2;
-    constexpr std::size_t most_growth = 4;
-    std::size_t after_first = 0;
-    const auto grows = [&] { return result.rounds > first_rounds && s.state.triangles.size() > most_growth * after_first + 1000; };
-    while (!result.clean && result.rounds < options.most_rounds && !stopped() && !grows()) {
-        s.state.reach = reach_of_round(s.grid, options.reach, result.rounds);
-        result.clean = cut_round(s.state, options.monitor);
-        ++result.rounds;
-        if (result.rounds <= first_rounds) after_first = s.state.triangles.size();
-        if (result.clean && unfoldings < most_unfoldings && unfold(s.state, soup, s.grid.tolerance_steps)) {
-            ++unfoldings;
-            result.clean = false;
-        }
-    }
-    if (stopped()) result.clean = false;
+    cut(soup, options.reach, options.monitor, options.most_rounds, s, result);
+    if (!result.clean) cut_in_sheets(soup, options, s, result);
+    take_stacks_apart(s.state);
     write_vertices(soup, s, result);
     write_origins(soup, s, result);
     count_changes(soup, s, result);

@@ -301,7 +301,7 @@ void add_crossings(CutState& state, const LinkTable& links, const std::vector<Se
 std::vector<std::uint8_t> doubles_of(CutState& state, const NearFeatures& found) {
     std::vector<std::uint8_t> is_double;
     for (const auto& [first, second] : found.same) {
-        if (state.patches[state.source[first]] != state.patches[state.source[second]]) continue;
+        if (!are_of_one_patch(state, state.source[first], state.source[second])) continue;
         is_double.resize(state.triangles.size(), 0);
         state.doubled += is_double[second] == 0 ? 1 : 0;
         is_double[second] = 1;
@@ -401,7 +401,15 @@ void merge_ends_of_flat_triangles(CutState& state) {
     }
     if (merged == 0) return;
     state.merged += merged;
-    const auto becomes = std::move(same).roots();
+    rename_points(state, std::move(same).roots());
+}
+
+}  // namespace
+
+void rename_points(CutState& state, const std::vector<std::uint32_t>& becomes) {
+    for (std::uint32_t p = 0; p < becomes.size(); ++p) {
+        if (becomes[p] != p) state.gave_way.push_back({p, becomes[p]});
+    }
     std::size_t kept = 0;
     for (std::size_t t = 0; t < state.triangles.size(); ++t) {
         const Triangle was = state.triangles[t], now{becomes[was[0]], becomes[was[1]], becomes[was[2]]};
@@ -423,8 +431,6 @@ void merge_ends_of_flat_triangles(CutState& state) {
     state.edges.resize(kept);
     state.edge_source.resize(kept);
 }
-
-}  // namespace
 
 bool cut_round(CutState& state, const Monitor* monitor) {
     if (++state.rounds > patient_rounds) merge_ends_of_flat_triangles(state);

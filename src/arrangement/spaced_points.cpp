@@ -59,12 +59,11 @@ void SpacedPoints::grow() {
     }
 }
 
-std::uint32_t SpacedPoints::add(const Vec3& point, double distance) {
-    std::array<std::int64_t, 3> low{}, high{}, own{};
+std::uint32_t SpacedPoints::nearest(const Vec3& point, double distance) const {
+    std::array<std::int64_t, 3> low{}, high{};
     for (std::size_t k = 0; k < 3; ++k) {
         low[k] = cell_number((point[k] - distance) / cell_);
         high[k] = cell_number((point[k] + distance) / cell_);
-        own[k] = cell_number(point[k] / cell_);
     }
     std::uint32_t nearest = nobody;
     double least = distance * distance;
@@ -82,16 +81,52 @@ std::uint32_t SpacedPoints::add(const Vec3& point, double distance) {
             }
         }
     }
-    if (nearest != nobody) return nearest;
+    return nearest;
+}
+
+/// Into the cell of its place, so that it is found there.
+void SpacedPoints::enter(std::uint32_t number) {
     if (2 * ++cells_ > mask_) grow();
-    const auto number = static_cast<std::uint32_t>(points_.size());
+    std::array<std::int64_t, 3> own{};
+    for (std::size_t k = 0; k < 3; ++k) own[k] = cell_number(points_[number][k] / cell_);
     const std::uint64_t key = cell_key(own[0], own[1], own[2]);
     const std::size_t slot = slot_of(key);
     keys_[slot] = key;
-    points_.push_back(point);
-    next_.push_back(heads_[slot]);
+    next_[number] = heads_[slot];
     heads_[slot] = number;
+}
+
+std::uint32_t SpacedPoints::add(const Vec3& point, double distance) {
+    const std::uint32_t near = nearest(point, distance);
+    if (near != nobody) return near;
+    const auto number = static_cast<std::uint32_t>(points_.size());
+    points_.push_back(point);
+    next_.push_back(nobody);
+    enter(number);
     return number;
+}
+
+std::vector<std::uint32_t> SpacedPoints::move(const std::vector<Move>& moves, const std::vector<std::uint8_t>& is_used) {
+    std::fill(keys_.begin(), keys_.end(), 0);
+    std::fill(heads_.begin(), heads_.end(), nobody);
+    cells_ = 0;
+    std::vector<std::uint8_t> moved(points_.size(), 0);
+    for (const Move& m : moves) {
+        moved[m.point] = 1;
+        points_[m.point] = m.to;
+    }
+    std::vector<std::uint32_t> becomes(points_.size());
+    for (std::uint32_t p = 0; p < becomes.size(); ++p) {
+        becomes[p] = p;
+        if (is_used[p] != 0 && moved[p] == 0) enter(p);
+    }
+    for (std::uint32_t p = 0; p < becomes.size(); ++p) {
+        if (is_used[p] == 0 || moved[p] == 0) continue;
+        const std::uint32_t near = nearest(points_[p], distance_);
+        if (near == nobody) enter(p);
+        else becomes[p] = near;
+    }
+    return becomes;
 }
 
 }  // namespace geomend::arrangement

@@ -21,6 +21,14 @@ public:
     std::uint32_t add(const Vec3& point) { return add(point, distance_); }
     /// The same, where it need be farther than `distance` from others, up to 32 times the usual one.
     std::uint32_t add(const Vec3& point, double distance);
+    /// Moves points, so that those which come closer than the distance to another become that one, which stays itself: per point the one
+    /// that it is now. All keep their numbers; those that are others now, and those that nobody uses, are found no more. Linear in all
+    /// points.
+    struct Move {
+        std::uint32_t point;
+        Vec3 to;
+    };
+    std::vector<std::uint32_t> move(const std::vector<Move>& moves, const std::vector<std::uint8_t>& is_used);
     const std::vector<Vec3>& points() const { return points_; }
     double distance() const { return distance_; }
 
@@ -34,6 +42,8 @@ private:
 
     std::size_t slot_of(std::uint64_t key) const;
     void grow();
+    std::uint32_t nearest(const Vec3& point, double distance) const;
+    void enter(std::uint32_t number);
 };
 
 }  // namespace geomend::arrangement

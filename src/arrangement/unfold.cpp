@@ -31,7 +31,10 @@ bool unfold(CutState& state, const TriangleSoup& soup, double tolerance) {
     const auto& points = state.points.points();
     NearFeatures folded;
     for (std::size_t t = 0; t < state.triangles.size(); ++t) {
-        const Vec3 whole = area_vector(soup.vertices, soup.triangles[state.source[t]]);
+        const std::uint32_t source = state.source[t];
+        const bool is_stack = source >= soup.triangles.size();
+        const Vec3 whole =
+            is_stack ? state.stacks[source - soup.triangles.size()].normal : area_vector(soup.vertices, soup.triangles[source]);
         if (dot(area_vector(points, state.triangles[t]), whole) < 0)
             add_lone_corner(FlatTriangle(points, state.triangles[t]), tolerance, folded);
     }

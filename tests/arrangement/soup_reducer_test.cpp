@@ -119,14 +119,7 @@ TEST_P(RandomSoupKinds, AreCutWithoutFault) {
 }
 
 const auto name_of = [](const testing::TestParamInfo<std::string>& kind) { return kind.param; };
-INSTANTIATE_TEST_SUITE_P(Clean, RandomSoupKinds,
-                         testing::Values("uniform", "lattice", "coplanar", "shared_vertices", "needles", "duplicates", "common_line",
-                                         "mixed"),
-                         name_of);
-// Where all is next to parallel or within a few tolerances, some soups still make points without end, and are given up: asked for by
-// --gtest_also_run_disabled_tests.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Open, RandomSoupKinds, testing::Values("nearly_coplanar", "near_contacts", "clusters", "flat_box"),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(Clean, RandomSoupKinds, testing::ValuesIn(soup_kinds()), name_of);
 
 }  // namespace
 }  // namespace geomend::test
