@@ -127,8 +127,12 @@ void count_changes(const TriangleSoup& soup, const Snapped& s, Arrangement& resu
 
 constexpr unsigned later_patience = 8;  // rounds
 
-/// In tolerances: how thick what is taken for one sheet may be, where it cannot be cut otherwise.
+/// In tolerances: how thick what is taken for one sheet may be, where it cannot be cut otherwise. What only brings together what is near
+/// moves by no more than the tolerance.
 constexpr std::array sheet_widths{0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+constexpr double reach_of_welds = 0.4;  // or more
+
+double thickest_sheet(const ArrangeOptions& options) { return options.reach < reach_of_welds ? sheet_widths.back() : 1.0; }
 
 /// Cuts until nothing is found any more, or it is given up.
 void cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigned most_rounds, Snapped& s, Arrangement& result) {
@@ -176,7 +180,9 @@ void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, Snap
     add_unsettled(s, may_lie);
     for (const double coarser : {1.0, 4.0, 8.0, 16.0, 1.0}) {
         const double share = std::max(options.reach, std::min(0.5, coarser * options.reach));
+        if (coarser != 1 && share == options.reach) continue;
         for (const double width : sheet_widths) {
+            if (width > thickest_sheet(options)) break;
             if (options.monitor != nullptr && options.monitor->stopped()) return;
             Snapped anew = snapped(soup, options.tolerance);
             anew.state.reach = reach_of_round(s.grid, share, 0);
@@ -190,7 +196,7 @@ void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, Snap
             }
             add_unsettled(anew, may_lie);
         }
-        if (share > 0.4) std::ranges::fill(may_lie, std::uint8_t{1});
+        if (share >= reach_of_welds) std::ranges::fill(may_lie, std::uint8_t{1});
     }
 }
 

@@ -30,7 +30,6 @@ struct Unmended {
 // clang-format off
 constexpr std::array unmended = {
     // Boundary representation.
-    Unmended{"B03", not_yet},
     Unmended{"B04", not_yet},
     Unmended{"B17", not_yet},
     Unmended{"B24", no_defect},

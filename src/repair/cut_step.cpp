@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "arrangement/arrange.h"
 #include "base/wording.h"
 #include "repair/overlaps.h"
@@ -47,12 +52,18 @@ void tell_overlaps(const SurfaceModel& model, const std::vector<LeftOverlap>& le
     }
 }
 
+struct Arranged {
+    StepOutcome outcome;
+    bool clean = true;  ///< nothing crosses any more
+};
+
 /// \param reach share of the tolerance within which a vertex becomes a part of an edge or a face
-Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach) {
+Result<Arranged> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach) {
     note_uncut_borders(model);
     auto cut = arrangement::arrange(model.model.soup, {.tolerance = model.lengths.tolerance, .reach = reach, .monitor = options.monitor});
     if (!cut) return std::move(cut).why();
-    StepOutcome outcome;
+    Arranged arranged{{}, cut->clean};
+    StepOutcome& outcome = arranged.outcome;
     outcome.what.message = message_of(*cut);
     if (!cut->clean) outcome.what.message += "; after " + counted(cut->rounds, "round", "rounds") + " something still crosses";
     outcome.changed = cut->cut + cut->merged + cut->collapsed + cut->doubled;
@@ -61,18 +72,35 @@ Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions&
     outcome.mean_displacement = d.mean;
     take_soup(model, std::move(cut->soup), cut->origin);
     tell_overlaps(model, leave_out_overlaps(model), outcome);
-    return outcome;
+    return arranged;
+}
+
+/// One step of two: what the second one did is told behind the first.
+StepOutcome one_after_the_other(StepOutcome first, StepOutcome second, const std::string& between) {
+    first.what.message += between + second.what.message;
+    first.what.entities.insert(first.what.entities.end(), second.what.entities.begin(), second.what.entities.end());
+    first.changed += second.changed;
+    first.max_displacement += second.max_displacement;
+    first.mean_displacement = std::max(first.mean_displacement, second.mean_displacement);
+    return first;
 }
 
 }  // namespace
 
 Result<StepOutcome> weld_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
     constexpr double nearly_all = 0.99;  // vertices keep the tolerance from each other, so that edges bend and do not fold
-    return arrange_model(model, options, nearly_all);
+    auto welded = arrange_model(model, options, nearly_all);
+    if (!welded) return std::move(welded).why();
+    if (welded->clean) return std::move(welded->outcome);
+    auto cut = cut_surfaces(model, options);
+    if (!cut) return std::move(cut).why();
+    return one_after_the_other(std::move(welded->outcome), std::move(*cut), ", so that it was cut: ");
 }
 
 Result<StepOutcome> cut_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
-    return arrange_model(model, options, arrangement::ArrangeOptions().reach);
+    auto cut = arrange_model(model, options, arrangement::ArrangeOptions().reach);
+    if (!cut) return std::move(cut).why();
+    return std::move(cut->outcome);
 }
 
 }  // namespace geomend::repair

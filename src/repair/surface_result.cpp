@@ -2,12 +2,17 @@
 #include "repair/surface_result.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "exchange/model_from_brep.h"
 #include "repair/region_names.h"
 #include "repair/scars.h"
+#include "repair/self_joints.h"
 #include "repair/surface_values.h"
 #include "topology/assemble.h"
 
@@ -91,8 +96,18 @@ topology::SoupModel without_empty_patches(const SurfaceModel& whole) {
     return model;
 }
 
+/// Edges become lines, all of one new id.
+void part_at(const std::vector<std::array<std::uint32_t, 2>>& edges, topology::SoupModel& model) {
+    std::uint32_t id = static_cast<std::uint32_t>(model.line_names.size());
+    for (const std::uint32_t used : model.soup.edge_ids) id = std::max(id, used + 1);
+    model.soup.edges.insert(model.soup.edges.end(), edges.begin(), edges.end());
+    model.soup.edge_ids.resize(model.soup.edges.size(), id);
+}
+
 Result<topology::JudgedModel> assembled(const SurfaceModel& model) {
-    auto complex = topology::complex_of_soup(without_empty_patches(model));
+    auto left = without_empty_patches(model);
+    part_at(self_joints(model), left);
+    auto complex = topology::complex_of_soup(std::move(left));
     if (!complex) return std::move(complex).why();
     complex->take_apart = true;
     complex->lines.shared_nodes = true;

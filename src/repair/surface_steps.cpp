@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 7> close_mends = {"B05", "B06", "B07", "B
 constexpr std::array<std::string_view, 12> tails_mends = {"B02", "B05", "B06", "B08", "B09", "B10",
                                                           "B11", "B12", "B16", "B20", "B22", "B23"};
 constexpr std::array<std::string_view, 1> micro_mends = {"B15"};
-constexpr std::array<std::string_view, 10> rebuild_mends = {"B05", "B06", "B12", "B13", "B14", "B18", "B19", "F106", "B30", "B31"};
+constexpr std::array<std::string_view, 11> rebuild_mends = {"B03", "B05", "B06", "B12", "B13", "B14", "B18", "B19", "F106", "B30", "B31"};
 
 constexpr std::array steps = {
     SurfaceStepRow{"edit",

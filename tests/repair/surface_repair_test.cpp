@@ -91,6 +91,37 @@ TEST(SurfaceRepair, SquaresThatStopShortOfEachOtherBecomeASealedBox) {
     }
 }
 
+// A second part of the same surface begins along a border of the first one, bends over it and ends in its middle: joined at both ends they
+// would be one surface that goes through a line three times.
+TEST(SurfaceRepair, PartsOfOneSurfaceThatEndOnEachOtherStayPartsWhereTheyAreJoinedElsewhere) {
+    const TemporaryFolder folder;
+    const std::vector<Point> points = {{0, 0, 0},     {200, 0, 0},   {200, 100, 0}, {0, 100, 0},   {200, 25, 0}, {200, 75, 0},
+                                       {200, 75, 80}, {200, 25, 80}, {100, 75, 80}, {100, 25, 80}, {100, 75, 0}, {100, 25, 0}};
+    const Triangles triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}, {7, 6, 8}, {7, 8, 9}, {9, 8, 10}, {9, 10, 11}};
+    write_file(folder / "in.ts", tsurf("bent", points, triangles));
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--steps", "cut,rebuild"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(brep_of(folder / "out.ml")["surfaces"], 2);
+    EXPECT_EQ(run_geomend({"validate", folder / "out.ml"}).status, 0);
+}
+
+// The same with one set of points, so that it is read as one part.
+TEST(SurfaceRepair, ASurfaceThatIsNotManifoldIsPartedAtItsSharpestBends) {
+    const TemporaryFolder folder;
+    const std::vector<Point> points = {{0, 0, 0},    {200, 0, 0},  {200, 100, 0}, {0, 100, 0},   {200, 25, 0},  {200, 75, 0},
+                                       {100, 25, 0}, {100, 75, 0}, {200, 75, 80}, {200, 25, 80}, {100, 75, 80}, {100, 25, 80}};
+    const Triangles triangles = {{0, 1, 6}, {1, 4, 6}, {4, 5, 7}, {4, 7, 6},  {5, 2, 7},   {2, 3, 7},   {0, 6, 7},
+                                 {0, 7, 3}, {5, 4, 9}, {5, 9, 8}, {8, 9, 11}, {8, 11, 10}, {10, 11, 6}, {10, 6, 7}};
+    write_file(folder / "in.ts", tsurf("bent", points, triangles));
+    EXPECT_NE(run_geomend({"validate", folder / "in.ts"}).out.find("B03"), std::string::npos);
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(brep_of(folder / "out.ml")["surfaces"], 2);
+    const auto after = run_geomend({"validate", folder / "out.ml"});
+    EXPECT_EQ(after.status, 0) << after.out;
+    EXPECT_EQ(after.out.find("B03"), std::string::npos) << after.out;
+}
+
 TEST(SurfaceRepair, GapsBeyondTheLimitAreLeftAndNothingIsWritten) {
     const TemporaryFolder folder;
     write_file(folder / "in.ts", cube_of_squares(0.6));
