@@ -8,6 +8,8 @@
 #include "formats/meshes/read_tetgen.h"
 #include "formats/meshes/write_abaqus.h"
 #include "formats/meshes/write_code_aster.h"
+#include "formats/meshes/write_exodus.h"
+#include "formats/meshes/write_feflow.h"
 #include "formats/meshes/write_gprs.h"
 #include "formats/meshes/write_medit.h"
 #include "formats/meshes/write_mfem.h"
@@ -25,7 +27,8 @@ namespace {
 constexpr std::string_view medit_extensions[] = {".mesh", ".meshb"}, tetgen_extensions[] = {".node", ".ele"},
                            abaqus_extensions[] = {".inp"}, code_aster_extensions[] = {".mail"}, openfoam_extensions[] = {".foam"},
                            pflotran_extensions[] = {".uge"}, modflow_extensions[] = {".disu"}, ucd_extensions[] = {".ucd", ".avs"},
-                           mfem_extensions[] = {".mfem"}, gprs_extensions[] = {".gprs"}, tough2_extensions[] = {".tough2"};
+                           mfem_extensions[] = {".mfem"}, exodus_extensions[] = {".exo", ".e", ".ex2", ".g"},
+                           feflow_extensions[] = {".fem"}, gprs_extensions[] = {".gprs"}, tough2_extensions[] = {".tough2"};
 constexpr std::string_view tried = "fixtures and clients: no real file was found",
                            tried_by_readers_of_tests = "fixtures only: no client was at hand";
 
@@ -122,6 +125,30 @@ constexpr Format mfem_row() {
     return format;
 }
 
+constexpr Format exodus_row() {
+    Format format = row("exodus", "Exodus II: element blocks by region and type, side sets, node sets, values at nodes and of elements",
+                        exodus_extensions,
+                        "substance: polyhedra, second order, edge sets, texts, points, grids, wells; identity: the end of names beyond 32 "
+                        "characters, roles, units, coordinate system");
+    format.keeps.fault_faces = Keeping::yes;
+    format.keeps.attributes = Keeping::partly;
+    format.keeps.names = Keeping::partly;
+    format.keeps.exact_coordinates = Keeping::yes;
+    return format;
+}
+
+constexpr Format feflow_row() {
+    Format format =
+        row("feflow", "FEFLOW: elements, sets of elements for regions, chains of edges as discrete features", feflow_extensions,
+            "substance: pyramids, polyhedra, second order, faces, node sets, attributes, points, grids, wells; identity: units, "
+            "coordinate system");
+    format.keeps.fault_faces = Keeping::no;
+    format.keeps.names = Keeping::partly;
+    format.keeps.exact_coordinates = Keeping::yes;
+    format.tried_on = tried_by_readers_of_tests;
+    return format;
+}
+
 constexpr Format network_row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions) {
     Format format =
         row(name, title, extensions,
@@ -135,6 +162,8 @@ constexpr std::array rows = {
     abaqus_row(),
     ucd_row(),
     code_aster_row(),
+    exodus_row(),
+    feflow_row(),
     network_row("gprs", "GPRS: a network of pipes between cells, with volumes, centres and areas", gprs_extensions),
     medit_row(),
     mfem_row(),
@@ -146,6 +175,8 @@ constexpr std::array rows = {
 constexpr std::array mesh_rows = {MeshFormat{"abaqus", "abaqus", write_abaqus},
                                   MeshFormat{"avs-ucd", "avs-ucd", write_ucd},
                                   MeshFormat{"code-aster", "code-aster", write_code_aster},
+                                  MeshFormat{"exodus", "exodus", write_exodus},
+                                  MeshFormat{"feflow", "feflow", write_feflow},
                                   MeshFormat{"gprs", "gprs", write_gprs},
                                   MeshFormat{"medit", "medit", write_medit},
                                   MeshFormat{"mfem", "mfem", write_mfem},

@@ -25,7 +25,7 @@ constexpr std::array<MeshNeeds, 20> rows{{
      true, false, false, 24},
     {"csmp", simple_cells, 1, CellOrder::by_region_and_type, Splitting::as_given, CornerOrder::outward, false, Naming::texts, true, true,
      true, false, false, false, 0},
-    {"exodus", simple_cells, 2, CellOrder::by_region_and_type, Splitting::as_given, CornerOrder::outward, true, Naming::texts, true, true,
+    {"exodus", simple_cells, 1, CellOrder::by_region_and_type, Splitting::as_given, CornerOrder::outward, false, Naming::texts, true, true,
      false, true, true, true, 32},
     {"feflow", no_pyramid, 1, CellOrder::any, Splitting::none, CornerOrder::outward, false, Naming::texts, false, false, true, false, false,
      false, 0},
