@@ -18,8 +18,9 @@ struct RemeshArguments : CommonOptions {
     std::vector<std::string> inputs;
     std::string output;
     SizeArguments sizes;
-    double size = 0, growth = 0.3, max_distance = 0;
-    std::uint64_t most_triangles = 20'000'000;
+    double size = 0, growth = -1, max_distance = 0;
+    std::uint64_t most_triangles = 20'000'000, sites = 0;
+    std::string method = "isotropic";
     bool lossy = false, keep_invalid = false;
 };
 
@@ -45,7 +46,7 @@ std::string model_lines(const RemeshReport::Model& model, bool all_surfaces) {
             text += "  surface " + name + ": " + quality_words(s.before) + " became " + quality_words(s.after) + ", at most " +
                     rounded(std::max(s.to_old, s.from_old)) + " away\n";
     }
-    text += quality_words(before) + "\n  became " + quality_words(after) + "\n";
+    text += quality_words(before) + "\n  became " + quality_words(after) + ", " + counted(model.vertices.all, "vertex", "vertices") + "\n";
     text += counted(model.made.line_edges_before, "edge", "edges") + " of lines became " + std::to_string(model.made.line_edges_after) +
             "; the new surfaces are at most " + rounded(to_old) + " away from the old ones, and the old ones " + rounded(from_old) +
             " from the new\n";
@@ -58,6 +59,13 @@ ExitStatus run(const RemeshArguments& o) {
     RemeshRequest request;
     if (auto taken = take_sizes(o.sizes, request.remesh); !taken) return report(taken.why());
     if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
+    request.remesh.method = *surface_method(o.method);
+    if (request.remesh.method == remeshing::Method::keep && (o.size > 0 || o.sites > 0))
+        return report(
+            failure(FailureKind::usage, "F018", {}, "--method keep leaves surfaces as they are: --size and --sites do not go with it"));
+    if (request.remesh.method != remeshing::Method::keep && !(o.size > 0) && o.sites == 0)
+        return report(failure(FailureKind::usage, "F018", {},
+                              "expected --size, the length that edges should have, or --sites, the number of vertices"));
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     auto checks = check_options(o, {}, &monitor);
@@ -66,7 +74,9 @@ ExitStatus run(const RemeshArguments& o) {
     request.checks = std::move(*checks);
     request.keep_invalid = o.keep_invalid;
     request.remesh.size = o.size;
-    request.remesh.growth = o.growth;
+    request.remesh.sites = o.sites;
+    if (o.growth >= 0) request.remesh.growth = o.growth;
+    else if (o.method == "cvt") request.remesh.growth = remeshing::centroidal_growth;
     request.remesh.max_distance = o.max_distance;
     request.remesh.most_triangles = o.most_triangles;
     request.remesh.monitor = &monitor;
@@ -80,6 +90,7 @@ ExitStatus run(const RemeshArguments& o) {
         report(made->written.losses, o.verbose);
         std::string text;
         for (const auto& model : made->models) text += model_lines(model, o.verbose);
+        text += changed_volumes(*made);
         status = worse(status, print_about(text, o.output, made->is_written));
     }
     if (!made->why_not.empty())
@@ -94,12 +105,20 @@ void add_remesh(CLI::App& program, ExitStatus& status) {
     auto o = std::make_shared<RemeshArguments>();
     command->add_option("IN", o->inputs, "Input files, taken as one model; - is standard input")->required();
     command->add_option("-o,--output", o->output, "Output file; - is standard output")->required()->type_name("OUT");
-    command->add_option("--size", o->size, "Length that edges of triangles should have")
-        ->required()
-        ->type_name("L")
-        ->check(is_positive_length());
+    auto* size =
+        command->add_option("--size", o->size, "Length that edges of triangles should have")->type_name("L")->check(is_positive_length());
+    command->add_option("--sites", o->sites, "Number of vertices inside of surfaces, those of lines apart, in place of --size")
+        ->type_name("N")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+        ->excludes(size);
+    command
+        ->add_option("--method", o->method,
+                     "How: isotropic (default): edges are split, collapsed and turned; cvt: vertices become the centroids of their Voronoi "
+                     "cells, with better shapes in a longer time; keep: not at all")
+        ->type_name("METHOD")
+        ->check(CLI::IsMember({"keep", "isotropic", "cvt"}));
     add_size_options(*command, o->sizes);
-    command->add_option("--growth", o->growth, "Sizes grow by no more than this share of the way (default 0.3)")
+    command->add_option("--growth", o->growth, "Sizes grow by no more than this share of the way (default 0.3, with cvt 0.1)")
         ->type_name("SHARE")
         ->check(is_length());
     command

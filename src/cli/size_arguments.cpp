@@ -84,6 +84,13 @@ void add_size_options(CLI::App& command, SizeArguments& arguments) {
         ->allow_extra_args(false);
 }
 
+std::optional<remeshing::Method> surface_method(const std::string& word) {
+    if (word == "keep") return remeshing::Method::keep;
+    if (word == "isotropic") return remeshing::Method::isotropic;
+    if (word == "cvt") return remeshing::Method::centroidal;
+    return std::nullopt;
+}
+
 Result<void> take_sizes(const SizeArguments& arguments, remeshing::RemeshOptions& options) {
     for (const std::string& text : arguments.size_of) {
         const std::size_t at = text.rfind('=');

@@ -4,14 +4,17 @@
 #include <algorithm>
 
 #include "base/nearest_word.h"
+#include "base/vectors.h"
 #include "base/wording.h"
 #include "exchange/model_from_brep.h"
 #include "pipeline/json_parts.h"
 #include "pipeline/shape.h"
 #include "pipeline/validate.h"
+#include "remesh/sites.h"
 #include "repair/surface_driver.h"
 #include "topology/brep_from_dataset.h"
 #include "topology/lengths.h"
+#include "volume/region_facets.h"
 
 namespace geomend {
 
@@ -91,7 +94,7 @@ Result<void> check_names(std::span<const topology::JudgedModel> models, const re
     }
     for (const auto& rule : options.size_by) {
         const bool by_property = rule.kind == remeshing::SizeRule::Kind::property;
-        if (rule.kind == remeshing::SizeRule::Kind::curvature) continue;
+        if (rule.kind == remeshing::SizeRule::Kind::curvature || rule.kind == remeshing::SizeRule::Kind::field) continue;
         if (auto named = check("--size-by", by_property ? "property at nodes of surfaces" : "surface or interface", rule.name,
                                by_property ? properties : known);
             !named)
@@ -100,13 +103,41 @@ Result<void> check_names(std::span<const topology::JudgedModel> models, const re
     return {};
 }
 
+/// The regions of a model that are closed, with their volumes in `before`.
+std::vector<RegionVolume> region_volumes(const topology::JudgedModel& model) {
+    std::vector<RegionVolume> all;
+    if (model.found.regions.empty()) return all;
+    const auto facets = volumes::facets_of_regions(model);
+    if (!facets) return all;
+    for (const auto& region : *facets) {
+        RegionVolume& one = all.emplace_back();
+        one.name = model.brep->regions[region.region].name;
+        one.before = region.volume;
+        const double share = region.positions.empty() ? 0 : 1 / static_cast<double>(region.positions.size());
+        for (const Vec3& p : region.positions) one.middle = plus(one.middle, times(share, p));
+    }
+    return all;
+}
+
+/// The volumes of the same regions in a model after it.
+void take_new_volumes(const topology::JudgedModel& model, std::vector<RegionVolume>& regions) {
+    for (const RegionVolume& now : region_volumes(model)) {
+        for (RegionVolume& region : regions) {
+            if (region.name == now.name) region.after = now.before;
+        }
+    }
+}
+
 /// What speaks against a result.
 Result<void> judge(const Dataset& dataset, const RemeshRequest& request, const repair::ErrorCounts& before, RemeshReport& report) {
     auto models = models_of(dataset, request.checks);
     if (!models) return std::move(models).why();
     for (std::size_t m = 0; m < report.models.size(); ++m) {
         auto& told = report.models[m];
-        if (m < models->size()) told.counts_after = entity_counts(*(*models)[m].brep);
+        if (m < models->size()) {
+            told.counts_after = entity_counts(*(*models)[m].brep);
+            take_new_volumes((*models)[m], told.regions);
+        }
         if (told.counts_after != told.counts && report.why_not.empty())
             report.why_not = "the model had " + entity_words(told.counts) + ", and has " + entity_words(told.counts_after) + " now";
     }
@@ -137,9 +168,16 @@ Result<void> remesh(Dataset& dataset, const Format& target, const RemeshRequest&
     if (auto named = check_names(*models, request.remesh); !named) return named;
     std::vector<std::uint8_t> is_part(dataset.objects.size(), 0);
     std::vector<Dataset> made;
-    for (const topology::JudgedModel& model : *models) {
-        auto remeshed = remeshing::remesh_model(*model.brep, request.remesh);
-        if (!remeshed) return std::move(remeshed).why();
+    std::vector<const BrepData*> breps;
+    for (const topology::JudgedModel& model : *models) breps.push_back(&*model.brep);
+    remeshing::RemeshOptions options = request.remesh;
+    auto all_remeshed = remeshing::remesh_models(breps, options);
+    if (!all_remeshed) return std::move(all_remeshed).why();
+    report.size = options.size;
+    for (std::size_t m = 0; m < models->size(); ++m) {
+        const topology::JudgedModel& model = (*models)[m];
+        remeshing::Remeshed* remeshed = &(*all_remeshed)[m];
+        const auto vertices = remeshing::vertices_of_surfaces(remeshed->brep);
         mark_parts(*model.brep, is_part);
         for (Loss& loss : remeshed->losses) add_loss(dataset.losses, std::move(loss));
         auto brep = Brep::make(std::move(remeshed->brep));
@@ -149,7 +187,7 @@ Result<void> remesh(Dataset& dataset, const Format& target, const RemeshRequest&
         const bool flat = target.wants == WriterWants::faced_model || target.wants == WriterWants::objects;
         made.push_back(flat ? exchange::faced_model(*brep, losses) : exchange::tagged_model(*brep, losses));
         for (Loss& loss : losses) add_loss(dataset.losses, std::move(loss));
-        report.models.push_back({model.brep->name, entity_counts(*model.brep), {}, std::move(*remeshed)});
+        report.models.push_back({model.brep->name, entity_counts(*model.brep), {}, vertices, region_volumes(model), std::move(*remeshed)});
     }
     models->clear();
     put_in_place(dataset, std::move(made), is_part);
@@ -174,12 +212,28 @@ Result<RemeshReport> remesh(const RemeshRequest& request) {
     return report;
 }
 
+std::string changed_volumes(const RemeshReport& report) {
+    std::string text;
+    for (const auto& model : report.models) {
+        for (const RegionVolume& r : model.regions) {
+            if (!r.differs()) continue;
+            const Vec3& m = r.middle;
+            text += "region " + geomend::quoted(r.name) + " around (" + short_number(m[0]) + ", " + short_number(m[1]) + ", " +
+                    short_number(m[2]) + ") had the volume " + short_number(r.before) + " and has " + short_number(r.after) +
+                    " with its new triangles: a smaller --max-distance keeps it nearer\n";
+        }
+    }
+    return text;
+}
+
 Json remesh_json_value(const RemeshReport& report) {
     const auto quality = [](const remeshing::TriangleQuality& q) {
         return Json{{"triangles", q.triangles},
                     {"least_angle", q.triangles > 0 ? q.least_angle : 0},
                     {"above_30", q.share_above_30()},
                     {"below_30_between_lines", q.between_lines},
+                    {"small_angles", q.share_of_small_angles()},
+                    {"mean_shape", q.mean_shape()},
                     {"mean_quality", q.mean_quality()}};
     };
     const auto counts = [](const EntityCounts& c) {
@@ -203,20 +257,26 @@ Json remesh_json_value(const RemeshReport& report) {
             to_old = std::max(to_old, s.to_old);
             from_old = std::max(from_old, s.from_old);
         }
+        Json regions = Json::array();
+        for (const RegionVolume& r : model.regions)
+            regions.push_back({{"name", r.name}, {"volume", r.before}, {"volume_after", r.after}, {"middle", r.middle}});
         models.push_back({{"name", model.name},
                           {"entities", counts(model.counts)},
                           {"entities_after", counts(model.counts_after)},
                           {"line_edges", {model.made.line_edges_before, model.made.line_edges_after}},
+                          {"vertices", {{"all", model.vertices.all}, {"inside", model.vertices.inside}}},
                           {"before", quality(before)},
                           {"after", quality(after)},
                           {"max_distance", model.made.max_distance},
                           {"distance", {{"new_to_old", to_old}, {"old_to_new", from_old}, {"hausdorff", std::max(to_old, from_old)}}},
                           {"rounds", model.made.rounds},
+                          {"regions", std::move(regions)},
                           {"surfaces", std::move(surfaces)}});
     }
     Json errors = Json::array();
     for (const Finding& f : report.errors) errors.push_back(finding_json(f));
     Json all{{"written", report.is_written},
+             {"size", report.size},
              {"models", std::move(models)},
              {"errors_before", report.errors_before},
              {"errors", std::move(errors)}};

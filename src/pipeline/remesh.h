@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "pipeline/convert.h"
 #include "remesh/remesh.h"
+#include "remesh/sites.h"
 #include "validators/registry.h"
 
 namespace geomend {
@@ -22,15 +24,28 @@ struct RemeshRequest {
 /// Numbers of corners, lines, surfaces and regions.
 using EntityCounts = std::array<std::uint64_t, 4>;
 
+/// A region by its surfaces as they were and as they are.
+struct RegionVolume {
+    std::string name;
+    double before = 0, after = 0;
+    Vec3 middle{};  ///< of its vertices, as they were
+
+    /// By more than a hundredth, which is worth a word.
+    bool differs() const { return !(std::abs(after - before) <= 0.01 * std::abs(before)); }
+};
+
 /// What came of it.
 struct RemeshReport {
     ConvertReport written;
     struct Model {
         std::string name;
         EntityCounts counts{}, counts_after{};  ///< after: of the model that is built from what is written
+        remeshing::VertexCounts vertices;       ///< of its new surfaces
+        std::vector<RegionVolume> regions;      ///< that are closed, before and after
         remeshing::Remeshed made;               ///< its boundary representation is gone
     };
     std::vector<Model> models;
+    double size = 0;  ///< of edges
     std::uint64_t errors_before = 0;
     std::vector<Finding> errors;  ///< that are found after it
     std::string why_not;          ///< what speaks against the result; empty: nothing
@@ -44,6 +59,9 @@ Result<RemeshReport> remesh(const RemeshRequest& request);
 
 /// The same of a dataset in memory, which is changed. Failures as above. \param target that it is to be written in
 Result<void> remesh(Dataset& dataset, const Format& target, const RemeshRequest& request, RemeshReport& report);
+
+/// A line for each region whose volume differs, with the middle of it; empty: none does.
+std::string changed_volumes(const RemeshReport& report);
 
 /// What INTERFACE states of `remesh --json`.
 std::string remesh_json(const RemeshReport& report);

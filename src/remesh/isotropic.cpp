@@ -137,13 +137,6 @@ Vec3 middle_place(const WorkSurface& work, std::uint32_t v) {
     return plus(at, step);
 }
 
-bool try_move(WorkSurface& work, std::uint32_t v, const Vec3& to, bool improves) {
-    const SurfacePoint at = closest_point(*work.reference, to, work.triangles[v]);
-    if (!move_keeps_shape(work, v, at.place, improves)) return false;
-    put_at(work, v, at);
-    return true;
-}
-
 /// Whether no other edge of the triangles on both sides is longer: splitting others beside a long border would never end.
 bool is_longest(const EdgeMesh& mesh, std::uint32_t h) {
     const double square = square_length(mesh, h);
@@ -154,6 +147,13 @@ bool is_longest(const EdgeMesh& mesh, std::uint32_t h) {
 }
 
 }  // namespace
+
+bool try_move(WorkSurface& work, std::uint32_t v, const Vec3& to, bool improves) {
+    const SurfacePoint at = closest_point(*work.reference, to, work.triangles[v]);
+    if (!move_keeps_shape(work, v, at.place, improves)) return false;
+    put_at(work, v, at);
+    return true;
+}
 
 bool split_at_middle(WorkSurface& work, std::uint32_t h) {
     const EdgeMesh& mesh = work.mesh;
@@ -242,7 +242,7 @@ std::size_t move_vertices(WorkSurface& work) {
     return count;
 }
 
-void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules) {
+void even_out(WorkSurface& work, const IsotropicRules& rules) {
     remove_old_vertices(work);
     for (int again = 0; again < 20 && flip_edges(work) > 0; ++again) {
     }  // fans from one corner to all of a line go
@@ -256,6 +256,10 @@ void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules) {
         move_vertices(work);
         flip_edges(work);
     }
+}
+
+void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules) {
+    even_out(work, rules);
     polish_triangles(work, rules.polished_below);
 }
 

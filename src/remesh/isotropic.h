@@ -18,6 +18,9 @@ struct IsotropicRules {
 /// Results do not depend on anything but the input. Cost: linear in the triangles of both meshes for each round.
 void remesh_isotropic(WorkSurface& work, const IsotropicRules& rules);
 
+/// The same without the work on single triangles in the end.
+void even_out(WorkSurface& work, const IsotropicRules& rules);
+
 /// The parts of it. Each returns the number of changes.
 std::size_t split_long_edges(WorkSurface& work);
 /// \return whether it was split: not where the surface is not near its middle. \pre an inner edge
@@ -26,5 +29,8 @@ std::size_t collapse_short_edges(WorkSurface& work);
 std::size_t remove_old_vertices(WorkSurface& work);
 std::size_t flip_edges(WorkSurface& work);
 std::size_t move_vertices(WorkSurface& work);
+/// Moves a vertex to the point of the reference next to a place, where nothing folds by it and the worst triangle around does not become
+/// worse than fair. \param improves the worst triangle around must become better \return whether it was moved
+bool try_move(WorkSurface& work, std::uint32_t v, const Vec3& to, bool improves);
 
 }  // namespace geomend::remeshing

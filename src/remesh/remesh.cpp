@@ -25,9 +25,7 @@ namespace {
 constexpr unsigned most_tries = 8;     ///< of a surface that comes out too far from what it was
 constexpr unsigned most_searches = 3;  ///< for crossings that smaller sizes may end
 
-/// By default a tenth of the size, but no more than half a hundredth of the model, which a large size must not melt down.
-double allowed_distance(const BrepData& brep, const RemeshOptions& options) {
-    if (options.max_distance > 0) return options.max_distance;
+double diagonal_of(const BrepData& brep) {
     Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (const Vec3& p : brep.vertices) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -36,7 +34,13 @@ double allowed_distance(const BrepData& brep, const RemeshOptions& options) {
         }
     }
     const Vec3 d = minus(high, low);
-    return std::min(options.size / 10, std::sqrt(dot(d, d)) / 200);
+    return std::sqrt(dot(d, d));
+}
+
+/// By default a tenth of the size, but no more than half a hundredth of the model, which a large size must not melt down.
+double allowed_distance(const BrepData& brep, const RemeshOptions& options) {
+    if (options.max_distance > 0) return options.max_distance;
+    return std::min(options.size / 10, diagonal_of(brep) / 200);
 }
 
 /// The rounds in which a model is remeshed.
@@ -62,12 +66,13 @@ public:
           surface_is_due_(cut.surfaces.size(), 1) {
         rules_.apply(sizes_);
         most_ = sizes_;
+        for (std::uint32_t s = 0; options.method == Method::keep && s < cut.surfaces.size(); ++s) keep(s, "that was asked for");
     }
 
     Result<Remeshed> run();
 
 private:
-    VertexSizes vertex_sizes() const { return {sizes_, most_, options_.growth, rules_.has_distances() ? &limit_ : nullptr}; }
+    VertexSizes vertex_sizes() const { return {sizes_, most_, options_.growth, rules_.has_places() ? &limit_ : nullptr}; }
     bool stopped() const { return options_.monitor != nullptr && options_.monitor->stopped(); }
     double triangles_for(const BrepData::Surface& surface, std::span<const double> sizes) const;
     Result<void> check_number();
@@ -168,9 +173,10 @@ void Rounds::remesh_surfaces() {
     parallel_for_each_index(due.size(), [&](std::size_t i) {
         const std::uint32_t s = due[i];
         if (stopped()) return;
-        surfaces_[s] = is_kept_[s] != 0 ? surface_as_it_was(brep_, s)
-                                        : remeshed_surface(brep_, s, lines_, vertex_sizes(),
-                                                           {allowed_, options_.pattern, options_.size, bridges_[s], options_.monitor});
+        surfaces_[s] = is_kept_[s] != 0
+                           ? surface_as_it_was(brep_, s)
+                           : remeshed_surface(brep_, s, lines_, vertex_sizes(),
+                                              {allowed_, options_.pattern, options_.size, bridges_[s], options_.monitor, options_.method});
     });
 }
 
@@ -410,6 +416,11 @@ Result<Remeshed> Rounds::run() {
 }  // namespace
 
 Result<Remeshed> remesh_model(const BrepData& brep, const RemeshOptions& options) {
+    if (options.method == Method::keep && !(options.size > 0)) {
+        RemeshOptions any = options;  // a size that asks for nothing
+        any.size = diagonal_of(brep);
+        return remesh_model(brep, any);
+    }
     CreaseRules creases;
     creases.height = allowed_distance(brep, options) / 2;
     creases.length = options.size / 2;

@@ -12,12 +12,18 @@
 #include "model/loss.h"
 #include "remesh/pattern.h"
 #include "remesh/size_rules.h"
+#include "remesh/surface_job.h"
 #include "remesh/triangle_quality.h"
 
 namespace geomend::remeshing {
 
+/// How sizes grow with centroidal cells: gently, since as many triangles are then of a better shape in all.
+inline constexpr double centroidal_growth = 0.1;
+
 struct RemeshOptions {
-    double size = 0;                                      ///< of edges, above 0
+    double size = 0;          ///< of edges, above 0
+    std::uint64_t sites = 0;  ///< vertices inside of surfaces, for which remesh_models() finds a size; 0: by size
+    Method method = Method::isotropic;
     std::vector<std::pair<std::string, double>> size_of;  ///< of interfaces or surfaces by name
     std::vector<SizeRule> size_by;                        ///< distances, curvature, properties
     double growth = 0.3;                                  ///< sizes grow by no more than this share of the way

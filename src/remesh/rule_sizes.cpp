@@ -64,10 +64,15 @@ RuleSizes::RuleSizes(const BrepData& brep, std::span<const SizeRule> rules, doub
 
 RuleSizes::~RuleSizes() = default;
 
-bool RuleSizes::has_distances() const { return !zones_.empty(); }
+bool RuleSizes::has_places() const {
+    return !zones_.empty() || std::ranges::any_of(rules_, [](const SizeRule& rule) { return rule.kind == SizeRule::Kind::field; });
+}
 
 double RuleSizes::at(const Vec3& point) const {
     double least = HUGE_VAL;
+    for (const SizeRule& rule : rules_) {
+        if (rule.kind == SizeRule::Kind::field) least = std::min(least, rule.field(point));
+    }
     for (const Zone& zone : zones_) {
         if (zone.tree->size() == 0) continue;
         std::uint32_t triangle = 0;
@@ -129,8 +134,7 @@ void RuleSizes::apply(std::vector<double>& sizes) const {
         if (rule.kind == SizeRule::Kind::curvature) apply_curvature(rule, least);
         if (rule.kind == SizeRule::Kind::property) apply_property(rule, least);
     }
-    if (!zones_.empty())
-        parallel_for_each_index(sizes.size(), [&](std::size_t v) { least[v] = std::min(least[v], at(brep_.vertices[v])); });
+    if (has_places()) parallel_for_each_index(sizes.size(), [&](std::size_t v) { least[v] = std::min(least[v], at(brep_.vertices[v])); });
     const bool makes_larger = std::ranges::any_of(rules_, [&](const SizeRule& rule) {
         return rule.kind != SizeRule::Kind::curvature && std::max(rule.size, rule.largest) > elsewhere_;
     });

@@ -21,9 +21,9 @@ public:
 
     /// Gives the vertices of the model their sizes. \param sizes as entities have them; a rule by which sizes are larger makes them so
     void apply(std::vector<double>& sizes) const;
-    /// By distances at a point; HUGE_VAL where no rule has a say. Cost: some microseconds.
+    /// By distances and fields at a point; HUGE_VAL where no rule has a say. Cost: some microseconds.
     double at(const Vec3& point) const;
-    bool has_distances() const;
+    bool has_places() const;  ///< whether rules say anything by places
 
 private:
     struct Zone;

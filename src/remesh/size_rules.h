@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "base/vec3.h"
 
 namespace geomend::remeshing {
 
@@ -13,16 +16,18 @@ struct SizeRule {
     enum class Kind : unsigned char {
         distance,   ///< from a surface or interface
         curvature,  ///< of surfaces
-        property    ///< of surfaces, at their nodes
+        property,   ///< of surfaces, at their nodes
+        field       ///< any, by places
     };
     Kind kind = Kind::distance;
-    std::string name;      ///< of the surface or interface, or of the property
-    double size = 0;       ///< distance: at the surface; property: where its value is least
-    double largest = 0;    ///< property: where its value is largest
-    double thickness = 0;  ///< distance: so far from the surface the size stays
-    double ratio = 0.8;    ///< distance: sizes of neighbours differ by so much, above 0 and below 1
-    double exponent = 1;   ///< distance: how sizes change between that zone and the rest
-    double degrees = 15;   ///< curvature: an edge turns by no more
+    std::string name;                            ///< of the surface or interface, or of the property
+    double size = 0;                             ///< distance: at the surface; property: where its value is least
+    double largest = 0;                          ///< property: where its value is largest
+    double thickness = 0;                        ///< distance: so far from the surface the size stays
+    double ratio = 0.8;                          ///< distance: sizes of neighbours differ by so much, above 0 and below 1
+    double exponent = 1;                         ///< distance: how sizes change between that zone and the rest
+    double degrees = 15;                         ///< curvature: an edge turns by no more
+    std::function<double(const Vec3&)> field{};  ///< field: the size at a place
 };
 
 /// Over which way a size becomes another one: the sum of sizes that change by a ratio until the next one would not be nearer to it.

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/vectors.h"
+#include "remesh/centroidal.h"
 #include "remesh/crossings.h"
 #include "remesh/isotropic.h"
 #include "remesh/length.h"
@@ -266,6 +267,7 @@ NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePla
     work.most_triangles = most_triangles(*reference, work);
     work.monitor = rules.monitor;
     if (rules.pattern != nullptr) remesh_to_pattern(work, *rules.pattern, s, rules.size);
+    else if (rules.method == Method::centroidal) remesh_centroidal(work, {});
     else remesh_isotropic(work, {});
     if (work.stopped()) return keep("stopped");
     if (work.mesh.triangle_count() >= work.most_triangles)

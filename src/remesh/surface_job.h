@@ -34,12 +34,20 @@ struct NewSurface {
     std::vector<std::pair<std::uint32_t, double>> too_far;
 };
 
+/// How surfaces get new triangles.
+enum class Method : std::uint8_t {
+    keep,       ///< they have none: all stays as it is
+    isotropic,  ///< remesh_isotropic()
+    centroidal  ///< remesh_centroidal()
+};
+
 struct SurfaceRules {
     double max_distance = 0;
     const Pattern* pattern = nullptr;                         ///< what takes the place of even triangles, where it is given
     double size = 0;                                          ///< below which vertices of a surface as it was stay with a pattern
     std::span<const std::array<std::uint32_t, 2>> bridges{};  ///< names of vertices between which no inner edge may run
     const Monitor* monitor = nullptr;
+    Method method = Method::isotropic;  ///< without a pattern
 };
 
 /// A surface as it was, by the names of its vertices; all vertices of its lines must be kept then.

@@ -153,6 +153,10 @@ TEST(Remesh, WrongOptionsAreRefused) {
                                                   {"--size", "10", "--max-distance", "0"},
                                                   {"--size", "10", "--size-of", "fault"},
                                                   {"--size", "10", "--size-of", "fault=x"},
+                                                  {"--size", "10", "--sites", "100"},
+                                                  {"--sites", "0"},
+                                                  {"--size", "10", "--method", "keep"},
+                                                  {"--size", "10", "--method", "best"},
                                                   {}}) {
         std::vector<std::string> arguments{"remesh", sample("layered_box.ml"), "-o", "/dev/null"};
         arguments.insert(arguments.end(), wrong.begin(), wrong.end());
@@ -172,6 +176,60 @@ TEST(Remesh, ModelA1KeepsItsEntitiesAndItsTrianglesBecomeEquilateral) {
     EXPECT_LE(model["distance"]["hausdorff"].get<double>(), model["max_distance"].get<double>());
     EXPECT_GT(model["after"]["above_30"].get<double>(), 0.98);
     EXPECT_EQ(run_geomend({"validate", out}).status, 0);
+}
+
+TEST(Remesh, CentroidsKeepTheModelAndMakeBetterTriangles) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.ml";
+    const json even = remesh(sample("layered_box.ml"), folder / "even.ml", {"--size", "60", "--growth", "0.1"});
+    const json report = remesh(sample("layered_box.ml"), out, {"--size", "60", "--method", "cvt"});
+    ASSERT_TRUE(report.is_object() && report["written"] == true && even["written"] == true);
+    const json &after = report["models"][0]["after"], &other = even["models"][0]["after"];
+    EXPECT_EQ(report["models"][0]["entities"], report["models"][0]["entities_after"]);
+    EXPECT_GT(after["mean_quality"].get<double>(), other["mean_quality"].get<double>() + 0.005);
+    EXPECT_LE(report["models"][0]["distance"]["hausdorff"].get<double>(), report["models"][0]["max_distance"].get<double>());
+    EXPECT_EQ(run_geomend({"validate", out}).status, 0);
+}
+
+TEST(Remesh, ANumberOfSitesIsThatOfVerticesInsideOfSurfaces) {
+    const TemporaryFolder folder;
+    for (const std::string method : {"isotropic", "cvt"}) {
+        const json report = remesh(sample("layered_box.ml"), folder / "out.ml", {"--sites", "3000", "--method", method});
+        ASSERT_TRUE(report.is_object() && report["written"] == true);
+        EXPECT_NEAR(report["models"][0]["vertices"]["inside"].get<double>(), 3000, 150) << method;
+        EXPECT_GT(report["size"].get<double>(), 0) << method;
+    }
+}
+
+TEST(Remesh, KeepLeavesAllTriangles) {
+    const TemporaryFolder folder;
+    const json report = remesh(sample("layered_box.ml"), folder / "out.ml", {"--method", "keep"});
+    ASSERT_TRUE(report.is_object() && report["written"] == true);
+    EXPECT_EQ(report["models"][0]["before"]["triangles"], report["models"][0]["after"]["triangles"]);
+    EXPECT_EQ(report["models"][0]["before"]["mean_quality"], report["models"][0]["after"]["mean_quality"]);
+}
+
+// J. Pellerin (2014), table 4.2: Cloudspin with so many sites, of which this model is a neighbouring version. Distances are by the diagonal
+// that the table states.
+TEST(Remesh, CentroidsOnCloudSpinAreAsGoodAsThoseOfTheThesis) {
+    struct Row {
+        const char* sites;
+        double triangles, shape, small_angles, hausdorff;
+    };
+    const auto in = test::real_data("gocad/CloudSpin_fixed.ml");
+    if (!in) GTEST_SKIP() << "the real files are not there";
+    const TemporaryFolder folder;
+    for (const Row& row : {Row{"5000", 16'494, 0.82, 0.0352, 0.0077}, Row{"10000", 28'725, 0.85, 0.0225, 0.006}}) {
+        SCOPED_TRACE(row.sites);
+        const json report = remesh(in->string(), folder / "out.ml", {"--sites", row.sites, "--method", "cvt", "--lossy"});
+        ASSERT_TRUE(report.is_object() && report["written"] == true);
+        const json& model = report["models"][0];
+        EXPECT_EQ(model["entities"], model["entities_after"]);
+        EXPECT_LE(model["after"]["triangles"].get<double>(), row.triangles);
+        EXPECT_GE(model["after"]["mean_shape"].get<double>(), row.shape);
+        EXPECT_LE(model["after"]["small_angles"].get<double>(), row.small_angles);
+        EXPECT_LE(model["distance"]["hausdorff"].get<double>(), row.hausdorff * 19'339.7);
+    }
 }
 
 TEST(Remesh, NoSurfaceOfTheRealModelsStaysAsItWasAndAnglesAreLargeWhereLinesAllow) {

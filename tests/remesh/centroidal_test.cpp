@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "remesh/centroidal.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vectors.h"
+#include "made_surfaces.h"
+#include "remesh/length.h"
+#include "remesh/triangle_quality.h"
+
+namespace geomend::remeshing {
+namespace {
+
+WorkSurface fixed_at_borders(const EdgeMesh& reference, std::span<const double> sizes) {
+    WorkSurface work = work_surface(reference, {sizes, {}, 0, nullptr});
+    for (VertexKind& kind : work.kinds) kind = kind == VertexKind::old ? VertexKind::fixed : kind;
+    return work;
+}
+
+TriangleQuality all_triangles(const EdgeMesh& mesh) {
+    TriangleQuality sum;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (mesh.has_triangle(t)) sum.add(mesh.triangle(t));
+    }
+    return sum;
+}
+
+RC_GTEST_PROP(Centroidal, TopologyStaysAndVerticesLieOnTheSurface, ()) {
+    const double wave = *rc::gen::inRange(0, 300) / 100.0, length = *rc::gen::inRange(2, 12), size = *rc::gen::inRange(40, 600) / 100.0;
+    const EdgeMesh reference = test::sheet(14, 11, [&](double x, double y) { return wave * std::sin(x / length) * std::cos(y / length); });
+    const std::vector<double> sizes(reference.places.size(), size);
+    WorkSurface work = fixed_at_borders(reference, sizes);
+    remesh_centroidal(work, {});
+    RC_ASSERT(is_consistent(work.mesh));
+    RC_ASSERT(test::numbers_of(work.mesh).euler == test::numbers_of(reference).euler);
+    RC_ASSERT(test::numbers_of(work.mesh).border_edges == test::numbers_of(reference).border_edges);
+    for (std::uint32_t v = 0; v < work.mesh.places.size(); ++v) {
+        if (work.mesh.has_vertex(v) && work.kinds[v] == VertexKind::inner)
+            RC_ASSERT(closest_point(reference, work.mesh.places[v], work.triangles[v]).distance < 0.3 * size);
+    }
+}
+
+TEST(Centroidal, AFlatSheetHasBetterTrianglesThanWithEvenEdgesAlone) {
+    const EdgeMesh reference = test::sheet(30, 30, [](double, double) { return 0.0; });
+    const std::vector<double> sizes(reference.places.size(), 1.0);
+    WorkSurface even = fixed_at_borders(reference, sizes), work = fixed_at_borders(reference, sizes);
+    remesh_isotropic(even, {});
+    remesh_centroidal(work, {});
+    EXPECT_GT(all_triangles(work.mesh).mean_shape(), all_triangles(even.mesh).mean_shape() + 0.01);
+    EXPECT_GT(all_triangles(work.mesh).mean_quality(), 0.95);
+}
+
+// The cells of a regular hexagonal pattern are hexagons around their sites: nothing moves.
+TEST(Centroidal, EquilateralTrianglesStay) {
+    const std::uint32_t n = 8;
+    std::vector<Vec3> places;
+    std::vector<Triangle> triangles;
+    for (std::uint32_t j = 0; j <= n; ++j) {
+        for (std::uint32_t i = 0; i <= n; ++i) places.push_back({i + 0.5 * j, std::sqrt(0.75) * j, 2.0});
+    }
+    std::vector<std::uint32_t> corners, neighbours;
+    const auto at = [&](std::uint32_t i, std::uint32_t j) { return j * (n + 1) + i; };
+    for (std::uint32_t j = 0; j < n; ++j) {
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t t = 2 * (j * n + i);
+            corners.insert(corners.end(), {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+            neighbours.insert(neighbours.end(), {j > 0 ? t - 2 * n + 1 : no_index, t + 1, i > 0 ? t - 1 : no_index,
+                                                 i + 1 < n ? t + 2 : no_index, j + 1 < n ? t + 2 * n : no_index, t});
+        }
+    }
+    const EdgeMesh reference = std::move(fanned_mesh(places, corners, neighbours)->mesh);
+    const std::vector<double> sizes(places.size(), 1.0);
+    WorkSurface work = fixed_at_borders(reference, sizes);
+    EXPECT_EQ(move_to_centroids(work, 1e-9), 0u);
+    for (std::uint32_t v = 0; v < places.size(); ++v) EXPECT_LT(length_of(minus(work.mesh.places[v], reference.places[v])), 1e-9);
+}
+
+}  // namespace
+}  // namespace geomend::remeshing
