@@ -23,12 +23,13 @@ struct MeshOptions : CommonOptions {
     std::string output, split = "none", method, cells = "tet";
     double size = 0, ratio = 1.4, seconds = 120, megabytes = 0, max_distance = 0;
     SizeArguments sizes;
+    ResizeRequest resize;
     bool lossy = false, recombine = false;
 };
 
 /// One line for each region: what it holds, or why it is empty.
 std::string region_lines(const MeshReport& report, bool all_tries, const std::string& split) {
-    std::string text;
+    std::string text = report.resized ? resize_text(*report.resized) : std::string();
     std::uint64_t cells = 0;
     for (const auto& r : report.regions) {
         text += "  region " + geomend::quoted(r.name) + ": ";
@@ -52,6 +53,7 @@ std::string region_lines(const MeshReport& report, bool all_tries, const std::st
         text += counted(report.outside.size(), "surface lies", "surfaces lie") +
                 " outside of all regions, where there are no cells: " + geomend::quoted(report.outside.front()) +
                 (report.outside.size() > 1 ? ", ..." : "") + "\n";
+    if (report.remeshed) text += changed_volumes(*report.remeshed);
     if (report.surface_vertices > 0)
         text += counted(report.surface_vertices, "vertex was", "vertices were") +
                 " added on surfaces and lines, since no cells could be made without; their shape is as it was\n";
@@ -81,18 +83,29 @@ ExitStatus run(const MeshOptions& o) {
     if (!options) return report(options.why());
     if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
     const bool hexes = o.recombine || o.cells != "tet";
-    const std::string method = !o.method.empty() ? o.method : hexes && !o.recombine ? "lattice" : "keep";
-    if (method == "isotropic" && !(o.size > 0))
-        return report(failure(FailureKind::usage, "F018", {}, "--method isotropic needs --size, the length that edges should have"));
+    const bool resizes = !o.resize.file.empty();
+    const std::string method = !o.method.empty() ? o.method : hexes && !o.recombine ? "lattice" : resizes ? "isotropic" : "keep";
+    if (resizes && hexes)
+        return report(failure(FailureKind::usage, "F018", {}, "--resize-by is for tetrahedra: --cells and --recombine do not go with it"));
+    if ((method == "isotropic" || method == "cvt") && !(o.size > 0) && !resizes)
+        return report(failure(FailureKind::usage, "F018", {}, "--method " + method + " needs --size, the length that edges should have"));
+    if (hexes && !(o.sizes.size_of.empty() && o.sizes.size_by.empty()))
+        return report(
+            failure(FailureKind::usage, "F018", {}, "--size-of and --size-by are for tetrahedra: hexahedra have those of a lattice"));
     if (method == "keep" && o.max_distance > 0)
         return report(failure(FailureKind::usage, "F018", {}, "--max-distance is for new triangles: surfaces are kept as they are"));
     if (o.recombine && (method != "keep" || o.size > 0))
         return report(
             failure(FailureKind::usage, "F018", {}, "--recombine takes the tetrahedra as they are: --size and --method do not go with it"));
-    if (method != "isotropic" && !(o.sizes.size_of.empty() && o.sizes.size_by.empty()))
-        return report(failure(FailureKind::usage, "F018", {}, "--size-of and --size-by are for --method isotropic"));
+    if (!o.sizes.size_by.empty() && !(o.size > 0) && !resizes)
+        return report(failure(FailureKind::usage, "F018", {}, "--size-by needs --size, the length that edges should have elsewhere"));
     remeshing::RemeshOptions sizes;
     if (auto taken = take_sizes(o.sizes, sizes); !taken) return report(taken.why());
+    const bool by_curvature = std::ranges::any_of(
+        sizes.size_by, [](const remeshing::SizeRule& rule) { return rule.kind != remeshing::SizeRule::Kind::distance; });
+    if (by_curvature && method != "isotropic" && method != "cvt")
+        return report(failure(FailureKind::usage, "F018", {},
+                              "--size-by curvature and property give sizes to surfaces: they need --method isotropic or cvt"));
     const ThreadBudget budget(o.threads);
     const Monitor monitor = make_monitor(o);
     auto checks = check_options(o, {}, &monitor);
@@ -108,8 +121,13 @@ ExitStatus run(const MeshOptions& o) {
     request.fill.monitor = &monitor;
     request.on_lattice = method == "lattice" || (hexes && !o.recombine);
     request.remesh_on_lattice = method == "lattice";
+    request.size_of = std::move(sizes.size_of);
+    request.size_by = std::move(sizes.size_by);
+    if (resizes) request.resize = o.resize;
     if (method != "keep") {
-        request.remesh.emplace(std::move(sizes));
+        request.remesh.emplace();
+        request.remesh->method = surface_method(method).value_or(remeshing::Method::isotropic);
+        if (method == "cvt") request.remesh->growth = remeshing::centroidal_growth;
         request.remesh->size = o.size;
         request.remesh->max_distance = o.max_distance;
         request.remesh->monitor = &monitor;
@@ -159,17 +177,27 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
     command
         ->add_option(
             "--method", o->method,
-            "What becomes of surfaces: keep (default) leaves them as they are; isotropic gives them new triangles of --size first; "
+            "What becomes of surfaces: keep (default) leaves them as they are; isotropic and cvt give them new triangles of --size first; "
             "lattice (default for hex-dominant) makes halves of squares of them that agree with cells inside")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"keep", "isotropic", "lattice"}));
+        ->check(CLI::IsMember({"keep", "isotropic", "cvt", "lattice"}));
     command
         ->add_option("--max-distance", o->max_distance,
-                     "Largest distance between new and old surfaces with --method isotropic or lattice (default: a tenth of the size, "
+                     "Largest distance between new and old surfaces with --method isotropic, cvt or lattice (default: a tenth of the size, "
                      "1/200 of the model at most)")
         ->type_name("L")
         ->check(is_positive_length());
     add_size_options(*command, o->sizes);
+    command
+        ->add_option("--resize-by", o->resize.file,
+                     "Sizes by the error of a calculation: a file of tetrahedra with their stress; new triangles for surfaces, too")
+        ->type_name("FILE");
+    command->add_option("--error", o->resize.allowed, "With --resize-by: the error that is allowed, as a share (default 0.05)")
+        ->type_name("SHARE")
+        ->check(CLI::Range(1e-6, 1.0));
+    command->add_option("--poisson", o->resize.poisson, "With --resize-by: Poisson's ratio (default 0.25)")
+        ->type_name("RATIO")
+        ->check(CLI::Range(0.0, 0.4999));
     command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
         ->type_name("R")
         ->check(is_length());

@@ -2,17 +2,23 @@
 #include "pipeline/mesh.h"
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <type_traits>
 
+#include "base/nearest_word.h"
 #include "base/wording.h"
 #include "exchange/model_from_brep.h"
+#include "geometry/site_grid.h"
 #include "hexes/lattice.h"
 #include "hexes/sampling.h"
 #include "pipeline/command_options.h"
+#include "pipeline/inner_sizes.h"
 #include "pipeline/json_parts.h"
 #include "pipeline/recombine_cells.h"
 #include "pipeline/record_places.h"
 #include "pipeline/validate.h"
+#include "remesh/rule_sizes.h"
 #include "topology/brep_from_dataset.h"
 #include "topology/lengths.h"
 
@@ -129,11 +135,99 @@ Result<void> recombine(Dataset& dataset, const MeshRequest& request, MeshReport&
     return {};
 }
 
-Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& request, MeshReport& report) {
+/// Sizes by names go to regions, or to the new triangles of surfaces; all names are there.
+Result<void> part_sizes(const Dataset& dataset, MeshRequest& request) {
+    if (request.size_of.empty() && request.size_by.empty()) return {};
+    auto model = model_to_fill(dataset, request);
+    if (!model) return std::move(model).why();
+    std::vector<std::string_view> regions, surfaces;
+    for (const auto& region : model->brep->regions) regions.push_back(region.name);
+    for (const auto& surface : model->brep->surfaces) surfaces.push_back(surface.name);
+    for (const auto& interface : model->brep->interfaces) surfaces.push_back(interface.name);
+    for (const auto& [name, size] : request.size_of) {
+        const bool is_region = std::ranges::find(regions, name) != regions.end();
+        const bool is_surface = std::ranges::find(surfaces, name) != surfaces.end();
+        if (is_region) request.fill.size_of.emplace_back(name, size);
+        if (is_surface && request.remesh) request.remesh->size_of.emplace_back(name, size);
+        if (is_region || (is_surface && request.remesh)) continue;
+        if (is_surface)
+            return failure(FailureKind::usage, "F018", {}, "--size-of " + name + ": surfaces get new sizes with --method isotropic or cvt");
+        regions.insert(regions.end(), surfaces.begin(), surfaces.end());
+        return failure(FailureKind::usage, "F018", {},
+                       "--size-of: no region, surface or interface is called '" + name + "'" + nearest_hint(name, regions));
+    }
+    for (const remeshing::SizeRule& rule : request.size_by) {
+        if (rule.kind != remeshing::SizeRule::Kind::distance || std::ranges::find(surfaces, rule.name) != surfaces.end()) continue;
+        return failure(FailureKind::usage, "F018", {},
+                       "--size-by: no surface or interface is called '" + rule.name + "'" + nearest_hint(rule.name, surfaces));
+    }
+    return {};
+}
+
+/// The nearest of points with sizes: a rule for surfaces.
+remeshing::SizeRule nearest_size(const std::vector<volumes::SizedPoint>& sizes) {
+    struct Field {
+        std::vector<Vec3> places;
+        std::vector<double> sizes;
+        std::optional<SiteGrid> grid;
+    };
+    auto field = std::make_shared<Field>();
+    for (const auto& s : sizes) {
+        field->places.push_back(s.place);
+        field->sizes.push_back(s.size);
+    }
+    field->grid.emplace(field->places);
+    remeshing::SizeRule rule;
+    rule.kind = remeshing::SizeRule::Kind::field;
+    rule.field = [field](const Vec3& at) { return field->sizes[field->grid->nearest(at)]; };
+    return rule;
+}
+
+/// Takes sizes by the error of a calculation, which new triangles get, too.
+Result<std::vector<volumes::SizedPoint>> take_resize(MeshRequest& request, MeshReport& report) {
+    if (!request.resize) return std::vector<volumes::SizedPoint>();
+    auto resized = sizes_by_stress(*request.resize, request.files.load);
+    if (!resized) return std::move(resized).why();
+    report.resized = resized->report;
+    if (!(request.fill.size > 0)) request.fill.size = resized->report.largest_size;
+    for (auto& s : resized->sizes) s.size = std::min(s.size, request.fill.size);
+    if (request.remesh) {
+        request.remesh->size = request.fill.size;
+        request.remesh->size_by.push_back(nearest_size(resized->sizes));
+    }
+    return std::move(resized->sizes);
+}
+
+/// Sizes inside of regions by rules for places, and by points. \pre the request has a size where it has either \param rules of the model
+/// that is filled; they outlive what is returned
+std::function<std::vector<volumes::SizedPoint>(const volumes::RegionFacets&)> inner_sizes(const remeshing::RuleSizes& rules,
+                                                                                          const MeshRequest& request,
+                                                                                          std::span<const volumes::SizedPoint> points) {
+    if (points.empty() && !rules.has_places()) return {};
+    return [&rules, &request, points](const volumes::RegionFacets& facets) {
+        const auto at = [&](const Vec3& place) { return std::min(request.fill.size, rules.at(place)); };
+        double step = request.fill.size;
+        for (const auto& rule : request.size_by) {
+            if (rule.kind == remeshing::SizeRule::Kind::distance) step = std::min(step, rule.size);
+        }
+        std::vector<volumes::SizedPoint> sizes;
+        if (points.empty()) return lattice_of_sizes(facets, step, at);
+        sizes = sizes_around(facets, points);
+        for (auto& s : sizes) s.size = std::min(s.size, at(s.place));
+        return sizes;
+    };
+}
+
+Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& asked, MeshReport& report) {
+    MeshRequest request = asked;
     auto errors = errors_of(dataset, request);
     if (!errors) return std::move(errors).why();
     report.errors = std::move(*errors);
     if (!report.errors.empty()) return cannot_fill(request.files.inputs.front(), "the model has errors");
+    if (auto parted = part_sizes(dataset, request); !parted) return parted;
+    if (request.remesh) request.remesh->size_by = request.size_by;
+    const auto points = take_resize(request, report);
+    if (!points) return points.why();
     std::optional<hexes::RegionLattices> lattices;
     if (request.on_lattice) {
         auto model = model_to_fill(dataset, request);
@@ -154,6 +248,8 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& req
         how.points = [&](const volumes::RegionFacets& facets) { return hexes::points_inside(facets, lattices->at(facets.region)); };
         how.improve = request.recombine && request.recombine->thin_only;  // else it would move points off their lattice
     }
+    const remeshing::RuleSizes rules(*model->brep, request.size_by, request.fill.size);
+    how.sizes = inner_sizes(rules, request, *points);
     auto filled = volumes::fill_dividing_surfaces(*model->brep, model->found, how);
     if (!filled) return std::move(filled).why();
     report.regions = std::move(filled->regions);
@@ -246,6 +342,7 @@ std::string mesh_json(const MeshReport& report) {
     all["surface_vertices_added"] = report.surface_vertices;
     all["split"] = {{"surfaces", report.split.surfaces}, {"vertices", report.split.vertices}, {"pairs", report.split.pairs}};
     if (report.recombined) all["recombine"] = recombined_json(*report.recombined);
+    if (report.resized) all["resize"] = resize_json(*report.resized);
     if (report.remeshed) all["remesh"] = remesh_json_value(*report.remeshed);
     Json errors = Json::array();
     for (const Finding& f : report.errors) errors.push_back(finding_json(f));

@@ -3,12 +3,14 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hexes/recombine.h"
 #include "pipeline/convert.h"
 #include "pipeline/mesh_split.h"
 #include "pipeline/remesh.h"
+#include "pipeline/resize.h"
 #include "validators/registry.h"
 #include "volume/fill.h"
 
@@ -19,8 +21,11 @@ struct MeshRequest {
     ConvertRequest files;
     validators::CheckOptions checks;  ///< by which the model is judged before it is filled
     volumes::FillOptions fill;
-    std::string split = "none";                      ///< along which surfaces, see split_mesh()
-    std::optional<remeshing::RemeshOptions> remesh;  ///< new triangles before regions are filled
+    std::string split = "none";                           ///< along which surfaces, see split_mesh()
+    std::optional<remeshing::RemeshOptions> remesh;       ///< new triangles before regions are filled
+    std::vector<std::pair<std::string, double>> size_of;  ///< sizes of regions, and with new triangles of surfaces and interfaces, by name
+    std::vector<remeshing::SizeRule> size_by;             ///< of new triangles, if there are any, and of cells inside; with a size of cells
+    std::optional<ResizeRequest> resize;                  ///< sizes by the error of a calculation
     /// Vertices inside of regions, and those of new triangles if there are any, are points of a lattice with the size of cells.
     bool on_lattice = false, remesh_on_lattice = false;
     std::optional<hexes::RecombineOptions> recombine;  ///< hexahedra of the tetrahedra
@@ -47,6 +52,7 @@ struct MeshReport {
     ConvertReport written;
     std::vector<Finding> errors;           ///< of the model, for which it was not filled
     std::optional<RemeshReport> remeshed;  ///< where that was asked for
+    std::optional<ResizeReport> resized;   ///< where that was asked for
     std::vector<volumes::FilledRegion> regions;
     std::vector<MeshFaceSet> face_sets;
     std::vector<std::string> outside;                  ///< surfaces that lie in no region: their triangles are faces of no cell

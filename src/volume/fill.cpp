@@ -22,14 +22,22 @@ struct Rung {
     std::string switches;
     VertexOrder order;
     bool has_shapes = false;  ///< and sizes, or points, as asked for
-    bool has_points = false;
+    bool has_points = false, has_sizes = false;
 };
 
 /// The volume of a regular tetrahedron.
 double volume_of_edge(double edge) { return edge * edge * edge / (6 * std::sqrt(2.0)); }
 
-std::vector<Rung> rungs_for(const RegionFacets& facets, const FillOptions& options, bool with_points) {
-    const double edge = options.size > 0 ? options.size : facets.median_edge;
+/// The size of cells in a region.
+double size_in(const RegionFacets& facets, const FillOptions& options, const std::string& name) {
+    for (const auto& [region, size] : options.size_of) {
+        if (region == name) return size;
+    }
+    return options.size > 0 ? options.size : facets.median_edge;
+}
+
+/// \param edge of cells
+std::vector<Rung> rungs_for(double edge, const FillOptions& options, bool with_points) {
     const std::string most = edge > 0 ? "a" + number_text(volume_of_edge(edge)) : std::string();
     std::vector<Rung> rungs;
     if (with_points) {
@@ -40,10 +48,16 @@ std::vector<Rung> rungs_for(const RegionFacets& facets, const FillOptions& optio
         rungs.push_back({"tetgen pY, points inserted", later, {}, true, true});
         rungs.push_back({"tetgen pY, points inserted, shuffled", later, {1}, true, true});
     }
+    const bool with_sizes = static_cast<bool>(options.sizes);
+    if (with_sizes) {
+        const std::string sized = "QpYMT1e-14q" + number_text(options.ratio > 0 ? options.ratio : 2) + "m" + most;
+        rungs.push_back({"tetgen pYqam", sized, {}, true, false, true});
+        rungs.push_back({"tetgen pYqam, shuffled", sized, {1}, true, false, true});
+    }
     if (options.ratio > 0) {
         const std::string good = "QpYMT1e-14q" + number_text(options.ratio) + most;
-        rungs.push_back({"tetgen pYqa", good, {}, true});
-        for (std::uint32_t shuffle = 1; shuffle <= 2; ++shuffle) rungs.push_back({"tetgen pYqa, shuffled", good, {shuffle}, true});
+        rungs.push_back({"tetgen pYqa", good, {}, !with_sizes});
+        for (std::uint32_t shuffle = 1; shuffle <= 2; ++shuffle) rungs.push_back({"tetgen pYqa, shuffled", good, {shuffle}, !with_sizes});
     }
     const std::string any = "QpYMT1e-14";
     rungs.push_back({"tetgen pY", any, {}});
@@ -72,12 +86,17 @@ Improvement improve_proven(const RegionFacets& facets, RegionCells& region, cons
 OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, FilledRegion& report) {
     OneRegion result;
     const auto begin = std::chrono::steady_clock::now();
+    const double edge = size_in(facets, options, report.name);
     const bool with_points = static_cast<bool>(options.points);
     const std::vector<Vec3> points = with_points ? options.points(facets) : std::vector<Vec3>();
+    const std::vector<SizedPoint> sizes = options.sizes ? options.sizes(facets) : std::vector<SizedPoint>();
     std::string too_slow;  // the switches of a try that ran out of time: another order of vertices takes no less
-    for (const Rung& rung : rungs_for(facets, options, with_points)) {
+    for (const Rung& rung : rungs_for(edge, options, with_points)) {
         if (rung.switches == too_slow) continue;
-        const std::span<const Vec3> inside = rung.has_points ? points : std::span<const Vec3>();
+        if (rung.has_sizes && sizes.empty()) continue;
+        Inside inside;
+        if (rung.has_points) inside.points = points;
+        if (rung.has_sizes) inside.sizes = sizes;
         auto all = tetrahedra_of(facets, inside, rung.switches, rung.order, options.limits, options.monitor);
         if (!all && all.why().kind == FailureKind::cancelled) {
             result.stopped = all.why();
@@ -93,7 +112,7 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
             continue;
         }
         report.rung = rung.name;
-        report.as_asked = rung.has_shapes || (!(options.ratio > 0) && !with_points);
+        report.as_asked = rung.has_shapes || (!(options.ratio > 0) && !with_points && sizes.empty());
         result.cells = std::move(*cells);
         break;
     }
@@ -105,7 +124,7 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
     report.surface_volume = facets.volume;
     report.least_dihedral = report.filled() ? result.cells.least_dihedral : 0;
     report.shapes = result.cells.shapes;
-    report.narrow = narrow_cells(facets, result.cells, options.size > 0 ? options.size : facets.median_edge);
+    report.narrow = narrow_cells(facets, result.cells, edge);
     return result;
 }
 

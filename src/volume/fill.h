@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/monitor.h"
@@ -16,12 +17,15 @@
 namespace geomend::volumes {
 
 struct FillOptions {
-    double size = 0;      ///< edges of cells inside, as far as surfaces allow; 0: the median edge of the triangles around each region
+    double size = 0;  ///< edges of cells inside, as far as surfaces allow; 0: the median edge of the triangles around each region
+    std::vector<std::pair<std::string, double>> size_of;  ///< the same of regions by name
     double ratio = 1.4;   ///< most radius of the sphere around a cell by its shortest edge, as far as surfaces allow; 0: any
     bool improve = true;  ///< whether bad cells are worked on when a region is filled
     /// Vertices that a region should have inside, on no facet of it, and no others but what is needed: shapes and sizes are theirs.
     /// Where cells are not improved, flat ones between points of a lattice stay.
     std::function<std::vector<Vec3>(const RegionFacets&)> points;
+    /// Sizes of cells at points in and around a region, between which they change, in place of one size for all of it.
+    std::function<std::vector<SizedPoint>(const RegionFacets&)> sizes;
     ChildLimits limits;  ///< for each try
     const Monitor* monitor = nullptr;
 };

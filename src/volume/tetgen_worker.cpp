@@ -40,6 +40,22 @@ void fill_input(const WorkerFacets& facets, tetgenio& in) {
     }
 }
 
+/// Tetrahedra between points with sizes, from which TetGen interpolates those at its vertices.
+void take_sizes(const std::vector<SizedPoint>& sizes, tetgenio& background) {
+    std::vector<Vec3> places;
+    for (const SizedPoint& s : sizes) places.push_back(s.place);
+    tetgenio in;
+    take_points(places, in);
+    tetgenbehavior behaviour;
+    std::string switches = "Q";
+    if (!behaviour.parse_commandline(switches.data())) return;
+    ::tetrahedralize(&behaviour, &in, &background);
+    if (background.numberofpoints != in.numberofpoints) return;
+    background.numberofpointmtrs = 1;
+    background.pointmtrlist = new REAL[sizes.size()];
+    for (std::size_t i = 0; i < sizes.size(); ++i) background.pointmtrlist[i] = sizes[i].size;
+}
+
 Tetrahedra taken(const tetgenio& out, std::size_t known_vertices) {
     Tetrahedra all;
     for (std::size_t i = known_vertices; i < static_cast<std::size_t>(out.numberofpoints); ++i)
@@ -96,13 +112,15 @@ int tetrahedra_worker(const std::vector<std::string>& arguments) {
         tetgenbehavior behaviour;
         std::string switches = arguments[0];
         if (!behaviour.parse_commandline(switches.data())) return 1;
-        tetgenio in, added, out;
+        tetgenio in, added, background, out;
         fill_input(*facets, in);
         std::vector<Vec3> points = facets->positions;
         if (behaviour.insertaddpoints != 0) take_points(facets->points, added);
         else points.insert(points.end(), facets->points.begin(), facets->points.end());
         take_points(points, in);
-        ::tetrahedralize(&behaviour, &in, &out, behaviour.insertaddpoints != 0 ? &added : nullptr);
+        if (!facets->sizes.empty()) take_sizes(facets->sizes, background);
+        ::tetrahedralize(&behaviour, &in, &out, behaviour.insertaddpoints != 0 ? &added : nullptr,
+                         facets->sizes.empty() ? nullptr : &background);
         return write_whole(result, worker_answer(taken(out, facets->positions.size()))) ? 0 : 1;
     } catch (int number) {
         std::fprintf(stderr, "\n%s", reason(number));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "base/vectors.h"
 #include "base/wording.h"
@@ -73,6 +74,32 @@ std::string last_line(std::string text) {
     return text.substr(text.rfind('\n') + 1);
 }
 
+/// Sizes, and those at the corners of a box around them and the facets, as at the nearest of them: so every vertex lies between some.
+std::vector<SizedPoint> with_corners(std::span<const SizedPoint> sizes, std::span<const Vec3> positions) {
+    std::vector<SizedPoint> all(sizes.begin(), sizes.end());
+    if (sizes.empty()) return all;
+    Vec3 low = sizes.front().place, high = low;
+    const auto take = [&](const Vec3& p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    };
+    for (const SizedPoint& s : sizes) take(s.place);
+    for (const Vec3& p : positions) take(p);
+    const Vec3 across = minus(high, low), margin = times(0.1, across);
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        Vec3 place{};
+        for (std::size_t k = 0; k < 3; ++k) place[k] = (corner >> k & 1) != 0 ? high[k] + margin[k] : low[k] - margin[k];
+        const auto far = [&](const SizedPoint& s) {
+            const Vec3 d = minus(s.place, place);
+            return dot(d, d);
+        };
+        all.push_back({place, std::ranges::min_element(sizes, {}, far)->size});
+    }
+    return all;
+}
+
 Failure failure_of(const WorkerEnd& end, const ChildLimits& limits) {
     switch (end.how) {
         case WorkerEnd::How::stopped:
@@ -92,7 +119,7 @@ Failure failure_of(const WorkerEnd& end, const ChildLimits& limits) {
 
 }  // namespace
 
-Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, std::span<const Vec3> points, const std::string& switches, VertexOrder order,
+Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const Inside& inside, const std::string& switches, VertexOrder order,
                                  const ChildLimits& limits, const Monitor* monitor) {
     const Vec3 origin = round_origin(facets.positions);
     const auto vertices = ordered(facets.positions.size(), order);
@@ -104,9 +131,11 @@ Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, std::span<const Vec
     }
     std::vector<Triangle> triangles = facets.triangles;
     for (Triangle& t : triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
-    std::vector<Vec3> more(points.begin(), points.end());
+    std::vector<Vec3> more(inside.points.begin(), inside.points.end());
     for (Vec3& p : more) p = minus(p, origin);
-    const MemoryFile file(worker_question(positions, triangles, more));
+    std::vector<SizedPoint> sizes = with_corners(inside.sizes, facets.positions);
+    for (SizedPoint& s : sizes) s.place = minus(s.place, origin);
+    const MemoryFile file(worker_question({std::move(positions), std::move(triangles), std::move(more), std::move(sizes)}));
     if (!file.ok()) return failure(FailureKind::limit, "F023", {}, "not enough memory for what TetGen is to fill");
     WorkerJob job;
     job.command = limits.program.empty() ? std::vector<std::string>{this_program()} : limits.program;
@@ -117,7 +146,7 @@ Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, std::span<const Vec
     auto end = run_worker(job, monitor);
     if (!end) return std::move(end).why();
     if (end->how != WorkerEnd::How::exited || end->number != 0) return failure_of(*end, limits);
-    auto all = worker_tetrahedra(end->output, positions.size());
+    auto all = worker_tetrahedra(end->output, vertices.size());
     if (!all) return gave_up("TetGen's answer is damaged");
     for (Vec3& p : all->new_vertices) p = plus(p, origin);
     for (auto& cell : all->cells) {

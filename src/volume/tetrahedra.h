@@ -31,12 +31,25 @@ struct VertexOrder {
     std::uint32_t shuffle = 0;  ///< 0: as they are; else a seed
 };
 
+/// How long edges are to be near a point.
+struct SizedPoint {
+    Vec3 place{};
+    double size = 0;
+};
+
+/// What is wanted inside of a region.
+struct Inside {
+    /// Vertices besides those of the facets, inside of the region or outside, on no facet; their numbers, where cells use them, follow
+    /// those of the facets' vertices. With the switch i they are inserted when the facets are in.
+    std::span<const Vec3> points{};
+    std::span<const SizedPoint> sizes{};  ///< with the switch m: between these sizes are interpolated, and outside of them the nearest hold
+};
+
 /// All tetrahedra that TetGen makes of the facets, outside of the region too where facets close there. `switches` as of tetgen(1);
-/// with Y facets stay as they are. \param points vertices besides those of the facets, inside of the region or outside, on no facet;
-/// their numbers, where cells use them, follow those of the facets' vertices. With the switch i they are inserted when the facets are in.
+/// with Y facets stay as they are.
 /// Failure (limit) where the child ran out of time (F023), crashed, ran out of memory or gave up (F026); the message says which. Cost: that
 /// of a process.
-Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, std::span<const Vec3> points, const std::string& switches, VertexOrder order,
+Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const Inside& inside, const std::string& switches, VertexOrder order,
                                  const ChildLimits& limits, const Monitor* monitor);
 
 /// The first argument of a child process, by which main() knows it.

@@ -50,25 +50,40 @@ bool are_below(std::span<const Second> all, std::size_t count) {
 
 }  // namespace
 
-std::string worker_question(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::span<const Vec3> points) {
-    std::vector<Vec3> all(positions.begin(), positions.end());
-    all.insert(all.end(), points.begin(), points.end());
-    const std::uint64_t known = positions.size();
-    std::string bytes(sizeof known, '\0');
-    std::memcpy(bytes.data(), &known, sizeof known);
-    return bytes + message<Triangle>(all, triangles);
+std::string worker_question(const WorkerFacets& facets) {
+    std::vector<Vec3> all(facets.positions);
+    all.insert(all.end(), facets.points.begin(), facets.points.end());
+    const std::string first = message<Triangle>(all, facets.triangles);
+    std::vector<Vec3> places;
+    std::vector<double> sizes;
+    for (const SizedPoint& s : facets.sizes) {
+        places.push_back(s.place);
+        sizes.push_back(s.size);
+    }
+    const Counts head{facets.positions.size(), first.size()};
+    std::string bytes(sizeof head, '\0');
+    std::memcpy(bytes.data(), &head, sizeof head);
+    return bytes + first + message<double>(places, sizes);
 }
 
 std::optional<WorkerFacets> worker_facets(std::string_view bytes) {
     WorkerFacets facets;
-    std::uint64_t known = 0;
-    if (bytes.size() < sizeof known) return std::nullopt;
-    std::memcpy(&known, bytes.data(), sizeof known);
-    bytes.remove_prefix(sizeof known);
-    if (!parts(bytes, facets.positions, facets.triangles) || known > facets.positions.size()) return std::nullopt;
-    facets.points.assign(facets.positions.begin() + static_cast<std::ptrdiff_t>(known), facets.positions.end());
-    facets.positions.resize(known);
-    if (!are_finite(facets.points)) return std::nullopt;
+    Counts head{};
+    if (bytes.size() < sizeof head) return std::nullopt;
+    std::memcpy(&head, bytes.data(), sizeof head);
+    bytes.remove_prefix(sizeof head);
+    if (head[1] > bytes.size() || !parts(bytes.substr(0, head[1]), facets.positions, facets.triangles)) return std::nullopt;
+    std::vector<Vec3> places;
+    std::vector<double> sizes;
+    if (head[0] > facets.positions.size() || !parts(bytes.substr(head[1]), places, sizes) || places.size() != sizes.size())
+        return std::nullopt;
+    facets.points.assign(facets.positions.begin() + static_cast<std::ptrdiff_t>(head[0]), facets.positions.end());
+    facets.positions.resize(head[0]);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        if (!std::isfinite(sizes[i]) || !(sizes[i] > 0)) return std::nullopt;
+        facets.sizes.push_back({places[i], sizes[i]});
+    }
+    if (!are_finite(facets.points) || !are_finite(places)) return std::nullopt;
     if (!are_finite(facets.positions) || !are_below<Triangle>(facets.triangles, facets.positions.size())) return std::nullopt;
     return facets;
 }

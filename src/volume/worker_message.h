@@ -18,11 +18,12 @@ namespace geomend::volumes {
 struct WorkerFacets {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
-    std::vector<Vec3> points;  ///< that are to be vertices of cells, too
+    std::vector<Vec3> points;       ///< that are to be vertices of cells, too
+    std::vector<SizedPoint> sizes;  ///< how long edges are to be
 };
 
-std::string worker_question(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::span<const Vec3> points);
-/// Nothing where sizes or vertex numbers do not fit.
+std::string worker_question(const WorkerFacets& facets);
+/// Nothing where counts or vertex numbers do not fit, or a position or size is not finite.
 std::optional<WorkerFacets> worker_facets(std::string_view bytes);
 
 std::string worker_answer(const Tetrahedra& all);

@@ -184,6 +184,59 @@ TEST(Mesh, OptionsThatAreNoNumbersAreRefused) {
     EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu", "--size", "0"}).status, 2);
 }
 
+TEST(Mesh, CellsNearASurfaceAreSmallWhereADistanceFromItSaysSoAndSurfacesStay) {
+    const TemporaryFolder folder;
+    const std::string size = "150";
+    const json even = mesh(sample("layered_box.ml"), folder / "even.vtu", {"--size", size});
+    const json near = mesh(sample("layered_box.ml"), folder / "near.vtu", {"--size", size, "--size-by", "distance=fault:25:30"});
+    ASSERT_TRUE(even.is_object() && even["written"] == true && near.is_object() && near["written"] == true);
+    std::uint64_t few = 0, many = 0;
+    for (const json& r : even["regions"]) few += r["cells"]["tetrahedron"].get<std::uint64_t>();
+    for (const json& r : near["regions"]) {
+        many += r["cells"]["tetrahedron"].get<std::uint64_t>();
+        EXPECT_EQ(r["rung"], "tetgen pYqam") << r["name"];
+        EXPECT_EQ(r["as_asked"], true);
+    }
+    EXPECT_GT(many, 3 * few);
+    EXPECT_EQ(even["face_sets"], near["face_sets"]);
+    EXPECT_EQ(run_geomend({"validate", folder / "near.vtu"}).status, 0);
+    const auto wrong =
+        run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--size", size, "--size-by", "distance=fautl:25"});
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.err.find("'fault'"), std::string::npos) << wrong.err;
+    EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--size-by", "distance=fault:25"}).status, 2);
+}
+
+TEST(Mesh, ARegionHasASizeOfItsOwn) {
+    const TemporaryFolder folder;
+    const json even = mesh(sample("layered_box.ml"), folder / "even.vtu", {"--size", "150"});
+    const std::string name = even["regions"][0]["name"];
+    const json one = mesh(sample("layered_box.ml"), folder / "one.vtu", {"--size", "150", "--size-of", name + "=40"});
+    ASSERT_TRUE(one.is_object() && one["written"] == true);
+    for (std::size_t r = 0; r < one["regions"].size(); ++r) {
+        const auto before = even["regions"][r]["cells"]["tetrahedron"].get<std::uint64_t>(),
+                   after = one["regions"][r]["cells"]["tetrahedron"].get<std::uint64_t>();
+        if (r == 0) EXPECT_GT(after, 3 * before);
+        else EXPECT_EQ(after, before);
+    }
+    const auto wrong = run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--size-of", "fautl=40"});
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.err.find("'fault'"), std::string::npos) << wrong.err;
+    EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--size-of", "fault=40"}).status, 2);
+}
+
+TEST(Mesh, AResultWithoutStressIsRefused) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "cells.vtu"}).status, 0);
+    const auto no_stress = run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--resize-by", folder / "cells.vtu"});
+    EXPECT_EQ(no_stress.status, 4);
+    EXPECT_NE(no_stress.err.find("six components"), std::string::npos) << no_stress.err;
+    const auto no_cells = run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--resize-by", sample("layered_box.ml")});
+    EXPECT_EQ(no_cells.status, 4);
+    const auto no_file = run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--resize-by", folder / "none.vtu"});
+    EXPECT_EQ(no_file.status, 3);
+}
+
 TEST(Mesh, SurfacesWithoutARegionAreRefused) {
     const TemporaryFolder folder;
     const auto run = run_geomend({"mesh", sample("open_layers.ts"), "-o", folder / "out.vtu"});

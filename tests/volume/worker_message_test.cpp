@@ -39,13 +39,18 @@ TEST(WorkerMessage, QuestionsAreReadAsTheyWereAsked) {
     const std::vector<Vec3> positions = {{0, 0, 0}, {1e9 + 0.1, 0, 0}, {0, 1, -1e-300}};
     const std::vector<Triangle> triangles = {{0, 1, 2}};
     const std::vector<Vec3> points = {{4, 5, 6}};
-    const auto read = worker_facets(worker_question(positions, triangles, points));
+    const std::vector<SizedPoint> sizes = {{{7, 8, 9}, 0.5}, {{-1, 0, 2}, 3}};
+    const auto read = worker_facets(worker_question({positions, triangles, points, sizes}));
     ASSERT_TRUE(read.has_value());
+    ASSERT_EQ(read->sizes.size(), 2u);
+    EXPECT_EQ(read->sizes[1].place, sizes[1].place);
+    EXPECT_EQ(read->sizes[1].size, 3);
     EXPECT_EQ(read->points, points);
     EXPECT_EQ(read->positions, positions);
     EXPECT_EQ(read->triangles, triangles);
     const std::vector<Triangle> beyond = {{0, 1, 3}};
-    EXPECT_FALSE(worker_facets(worker_question(positions, beyond, points)).has_value());
+    EXPECT_FALSE(worker_facets(worker_question({positions, beyond, points, sizes})).has_value());
+    EXPECT_FALSE(worker_facets(worker_question({positions, triangles, points, {{{7, 8, 9}, -1}}})).has_value());
 }
 
 }  // namespace
