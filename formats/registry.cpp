@@ -89,7 +89,15 @@ const Format* claiming_format(std::string_view bytes, std::string_view base_name
 Result<const Format*> format_for_reading(const Input& input) {
     if (input.bytes().empty()) return unreadable("F002", {input.name()}, "the file is empty");
     const Format* best = claiming_format(input.bytes().substr(0, std::size_t{1} << 16), input.base_name());
-    if (best == nullptr) return unreadable("F003", {input.name()}, "no known format fits: name it with --from (see 'geomend formats')");
+    if (best == nullptr) {
+        const std::string extension = extension_of(input.base_name());
+        for (const Format& format : all_formats()) {
+            if (format.read == nullptr && has_extension(format, extension))
+                return unreadable("F003", {input.name()},
+                                  "no known format fits, and '" + extension + "' is written only (" + std::string(format.title) + ")");
+        }
+        return unreadable("F003", {input.name()}, "no known format fits: name it with --from (see 'geomend formats')");
+    }
     return best;
 }
 
@@ -104,6 +112,12 @@ Result<const Format*> format_for_writing(const std::string& path) {
     if (extension.empty())
         return failure(FailureKind::usage, "F018", {path},
                        "no extension says which format to write: name it with --to (see 'geomend formats')");
+    for (const Format& format : all_formats()) {
+        if (has_extension(format, extension))
+            return failure(FailureKind::usage, "F018", {path},
+                           "'" + extension + "' is read only (" + std::string(format.title) +
+                               "): choose another extension, or name the format with --to (see 'geomend formats')");
+    }
     return failure(FailureKind::usage, "F018", {path},
                    "no format that can be written has the extension '" + extension + "': name it with --to (see 'geomend formats')");
 }

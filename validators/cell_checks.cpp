@@ -60,7 +60,7 @@ void tell_turned_types(const CellScope& scope, const std::map<CellType, double>&
         if (type != CellType::polyhedron && signs.at(type) < 0) cells.push_back(cell);
     }
     findings.push_back(cells_of_mesh_finding(scope, "M35",
-                                             "all or most cells" + in_mesh(scope) + " of one type are inside out: " + types +
+                                             "all or most cells" + in_mesh(scope) + " of this type are inside out: " + types +
                                                  "; their volumes are negative in VTK's order of nodes",
                                              cells));
 }
@@ -89,9 +89,13 @@ void check_cell_volumes(const CellScope& scope, std::vector<Finding>& findings) 
     }
     tell_turned_types(scope, signs, findings);
     if (wrong.empty()) return;
-    std::string message = counted(wrong.size(), "cell", "cells") + in_mesh(scope) + ": ";
-    if (empty < wrong.size()) message += std::to_string(wrong.size() - empty) + " turned inside out against the others";
-    if (empty > 0) message += std::string(empty < wrong.size() ? ", " : "") + std::to_string(empty) + " without volume";
+    const std::uint64_t turned = wrong.size() - empty;
+    std::string message;
+    if (turned > 0)
+        message = counted(turned, "cell", "cells") + in_mesh(scope) + (turned == 1 ? " is" : " are") + " inside out, unlike the others";
+    if (empty > 0)
+        message += (turned > 0 ? ", and " + std::to_string(empty) : counted(empty, "cell", "cells") + in_mesh(scope)) +
+                   (empty == 1 ? " has no volume" : " have no volume");
     findings.push_back(cells_of_mesh_finding(scope, "M20", std::move(message), wrong));
 }
 
@@ -256,7 +260,9 @@ void check_cell_points(const CellScope& scope, std::vector<Finding>& findings) {
     finding.element_kind = "node";
     finding.message = counted(finding.count, "node", "nodes") + in_mesh(scope) + (finding.count == 1 ? " lies" : " lie") + " within " +
                       rounded(scope.lengths().tolerance) + " of another one" +
-                      (equal > 0 ? ", " + std::to_string(equal) + " of them at the same position" : "");
+                      (equal == 0              ? std::string()
+                       : equal < finding.count ? ", " + std::to_string(equal) + " of them at the same position"
+                                               : ", at the same position");
     findings.push_back(std::move(finding));
 }
 

@@ -34,7 +34,8 @@ void check_coordinates(const GridScope& scope, std::vector<Finding>& findings) {
     if (found.count == 0) return;
     findings.push_back(cells_finding(scope, "C02",
                                      counted(found.count, "cell has", "cells have") +
-                                         " a corner or a pillar that is not finite, or as large as 1e20; no other check judges them",
+                                         " a corner or a pillar that is not finite, or as large as 1e20; no other check judges " +
+                                         (found.count == 1 ? "it" : "them"),
                                      found));
 }
 

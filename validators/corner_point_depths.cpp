@@ -111,8 +111,10 @@ void check_collapsed(const GridScope& scope, std::vector<Finding>& findings) {
         return Judgement{collapsed_pillars(scope, i, j, k) == 4};
     });
     if (found.count == 0) return;
-    findings.push_back(cells_finding(
-        scope, "C05", counted(found.count, "active cell has", "active cells have") + " no thickness: simulators drop them", found));
+    findings.push_back(cells_finding(scope, "C05",
+                                     counted(found.count, "active cell has", "active cells have") + " no thickness: simulators drop " +
+                                         (found.count == 1 ? "it" : "them"),
+                                     found));
 }
 
 void check_wedges(const GridScope& scope, std::vector<Finding>& findings) {

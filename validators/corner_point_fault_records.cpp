@@ -66,7 +66,9 @@ void tell_idle(const GridScope& scope, const std::vector<const Fault*>& faults, 
     for (const std::size_t cell : cells) found.add(cell, 0);
     std::string message = counted(faults.size(), "fault lies", "faults lie") + " between no active cells: '" + faults[0]->name +
                           (faults.size() > 1 ? "', ..." : "'");
-    if (without_record > 0) message += "; " + std::to_string(without_record) + " of them without any FAULTS record here";
+    if (without_record > 0)
+        message += faults.size() > 1 ? "; " + std::to_string(without_record) + " of them without any FAULTS record here"
+                                     : "; it has no FAULTS record here";
     if (multiplied) message += faults.size() > 1 ? "; their multipliers have no effect" : "; its multiplier has no effect";
     Finding f = cells_finding(scope, "C25", std::move(message), found);
     if (multiplied) use_other_severity(f);

@@ -55,7 +55,7 @@ void check_parts(const GridScope& scope, std::vector<Finding>& findings) {
     Finding f = cells_finding(scope, "C17",
                               "the active cells form " + std::to_string(number) +
                                   " parts that are not connected: " + counted(size[largest], "cell", "cells") + " in the largest, " +
-                                  counted(found.count, "cell", "cells") + " elsewhere, which are listed",
+                                  counted(found.count, "cell", "cells") + " elsewhere, as listed",
                               found);
     f.measures = {{"parts", static_cast<double>(number)}, {"largest_part", static_cast<double>(size[largest])}};
     findings.push_back(std::move(f));

@@ -134,11 +134,11 @@ void check_local_grids(std::span<const CornerPointGrid* const> grids, std::vecto
                 else owner[cell] = static_cast<std::uint32_t>(locals.size());
             }
             if (other == nullptr) continue;
-            Finding f =
-                make_finding("C30",
-                             "local grids '" + other->info.name + "' and '" + local->info.name + "' refine the same " +
-                                 counted(shared.count, "cell", "cells") + ", the first is " + cell_text(*host, shared.first.front()),
-                             {}, shared.count);
+            Finding f = make_finding("C30",
+                                     "local grids '" + other->info.name + "' and '" + local->info.name + "' refine the same " +
+                                         (shared.count == 1 ? "cell, " : counted(shared.count, "cell", "cells") + ", the first is ") +
+                                         cell_text(*host, shared.first.front()),
+                                     {}, shared.count);
             f.entities = {{"corner-point-grid", other->info.name}, {"corner-point-grid", local->info.name}};
             list_cells(*host, shared, f);
             place_cells(*host, f);

@@ -129,7 +129,7 @@ void tell_scattered(const GridScope& scope, const RegionParts& parts, const std:
                               std::to_string(parts_of_region.size()) + " of " + counted(regions.size(), "region", "regions") + " of " +
                                   name + (parts_of_region.size() == 1 ? " falls" : " fall") +
                                   " into parts that are not connected (region " + list_regions(parts_of_region) +
-                                  "): " + counted(found.count, "cell", "cells") + " outside of the largest parts, which are listed",
+                                  "): " + counted(found.count, "cell", "cells") + " outside of the largest parts, as listed",
                               found);
     for (const auto& [region, count] : parts_of_region) {
         if (f.entities.size() <= listed_elements) f.entities.push_back({"region", region_name(name, region)});

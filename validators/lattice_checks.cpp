@@ -97,14 +97,16 @@ void check_lattice_cells(const ObjectScope& scope, std::vector<Finding>& finding
         return Judgement{worst < 0, -worst, 0};
     });
     if (turned.count > 0) {
-        findings.push_back(
-            lattice_finding(scope, cells, "M20",
-                            counted(turned.count, "cell", "cells") + of_object(scope) + ": turned inside out against the others", turned));
+        findings.push_back(lattice_finding(scope, cells, "M20",
+                                           counted(turned.count, "cell", "cells") + of_object(scope) +
+                                               (turned.count == 1 ? " is" : " are") + " inside out, unlike the others",
+                                           turned));
     }
     if (empty.count > 0) {
         // Layers that pinch out are drawn so on purpose.
-        findings.push_back(
-            lattice_finding(scope, cells, "M20", counted(empty.count, "cell", "cells") + of_object(scope) + ": without volume", empty));
+        findings.push_back(lattice_finding(
+            scope, cells, "M20",
+            counted(empty.count, "cell", "cells") + of_object(scope) + (empty.count == 1 ? " has no volume" : " have no volume"), empty));
         use_other_severity(findings.back());
         findings.back().measures.emplace_back("pinched", static_cast<double>(empty.count));
     }

@@ -53,7 +53,8 @@ void check_isolated_points(const ModelScope& scope, std::vector<Finding>& findin
         for (const std::uint32_t node : surface.polygons.corners) used[node] = 1;
         const auto count = static_cast<std::uint64_t>(std::ranges::count(used, 0));
         if (count == 0) return std::nullopt;
-        Finding finding = finding_of("M02", counted(count, "point", "points") + " of " + quoted(surface.name) + " belong to no triangle");
+        Finding finding = finding_of("M02", counted(count, "point", "points") + " of " + quoted(surface.name) +
+                                                (count == 1 ? " belongs" : " belong") + " to no triangle");
         finding.entities.push_back(surface_ref(scope, s));
         finding.element_kind = "point";
         finding.count = count;
@@ -125,7 +126,7 @@ void check_repeats(const ModelScope& scope, std::vector<Finding>& findings) {
         std::ranges::sort(repeats);
         return polygons_finding(scope, "M04", s,
                                 counted(repeats.size(), "triangle", "triangles") + " of " + quoted(surface.name) +
-                                    " repeat another one of the same three vertices",
+                                    (repeats.size() == 1 ? " repeats" : " repeat") + " another one of the same three vertices",
                                 repeats);
     });
 }

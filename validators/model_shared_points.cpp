@@ -88,6 +88,7 @@ void check_shared_points(const ModelScope& scope, std::vector<Finding>& findings
         finding.entities = {surface_ref(scope, pair.first), surface_ref(scope, pair.second)};
         finding.element_kind = "point";
         finding.count = vertices.size();
+        finding.measures = {{"shared_points", static_cast<double>(vertices.size())}};
         for (const std::uint32_t v : vertices) {
             if (finding.points.size() < listed_elements) finding.points.push_back(brep.vertices[v]);
         }

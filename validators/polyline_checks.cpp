@@ -158,7 +158,7 @@ void tell_meetings(const ObjectScope& scope, const PolylineSet& set, bool one_li
     add(found.overlapping, "overlapping");
     std::string message = one_line ? "a line" + of_object(scope) + " meets itself where it has no point"
                                    : "lines" + of_object(scope) + " meet where they share no point";
-    message += ": pairs of edges " + kinds + (broken_off ? "; there are more, which were not counted" : "");
+    message += ": pairs of edges: " + kinds + (broken_off ? "; there are more, which were not counted" : "");
     Finding finding = object_finding(scope, one_line ? "M13" : "M14", std::move(message));
     list_edges(set, found.edges, finding);
     finding.count = found.all();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/wording.h"
 #include "formats/eclipse/grid_arrays.h"
 #include "formats/eclipse/read_egrid.h"
 
@@ -186,9 +187,11 @@ Result<void> PropertyGrids::take_pores_as_activity(const PropertyPart& part, con
         }
         const std::size_t before = active_count(grid);
         if (auto done = activity_from_volumes(file, *volumes, dual, grid); !done) return done.why();
-        findings.push_back(make_finding("F134",
-                                        "cells are active in the grid file, but have no pore volume and no values: they are inactive",
-                                        {file_.input.name()}, before - active_count(grid)));
+        const std::size_t idle = before - active_count(grid);
+        findings.push_back(make_finding(
+            "F134",
+            counted(idle, "cell is", "cells are") + " active in the grid file, but without pore volume and values here: taken as inactive",
+            {file_.input.name()}, idle));
         return true;
     };
     const auto own = take(file_, part);

@@ -65,6 +65,7 @@ void read_shape(Reading& r, Scanner& s, CellMesh::Entity& entity) {
     for (std::uint64_t i = 0; i < boundaries && !s.failed(); ++i) entity.boundary.push_back(s.integer("a tag of a bounding entity"));
 }
 
+constexpr std::array<const char*, 4> entity_words = {"point", "curve", "surface", "volume"};
 constexpr std::array<const char*, 4> count_names = {"number of points", "number of curves", "number of surfaces", "number of volumes"};
 
 // Gmsh saves only entities of physical groups, if there are groups, and leaves the bounds of these as they are.
@@ -76,8 +77,10 @@ void drop_unknown_bounds(Reading& r, const Scanner& s) {
             const bool found =
                 tag != std::numeric_limits<std::int64_t>::min() && r.entity_of.contains({entity.dimension - 1, std::abs(tag)});
             if (!found && count++ == 0) {
-                first = "entity " + std::to_string(entity.tag) + " of dimension " + std::to_string(entity.dimension) + " by entity " +
-                        std::to_string(tag) + " of dimension " + std::to_string(entity.dimension - 1);
+                const auto named = [](int dimension, std::int64_t number) {
+                    return std::string(entity_words.at(static_cast<std::size_t>(dimension))) + ' ' + std::to_string(number);
+                };
+                first = named(entity.dimension, entity.tag) + " names " + named(entity.dimension - 1, tag);
             }
             return !found;
         });

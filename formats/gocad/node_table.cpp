@@ -104,7 +104,9 @@ void NodeTable::read_tail(TextCursor& line, bool with_values) {
         return flag;
     });
     if (!with_values && values_.given() != 0) {
-        scanner_.log.add("F118", line.line(), 0, "a line whose keyword has no P has property values");
+        scanner_.log.add(
+            "F118", line.line(), 0,
+            "a VRTX or ATOM line, which is for nodes without properties, has values: they are read as those of a PVRTX or PATOM");
     }
 }
 

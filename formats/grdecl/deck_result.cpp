@@ -105,13 +105,19 @@ Result<Dataset> DeckReader::finish() {
     if (unknown_count_ > 0) {
         std::string names;
         for (const std::string& name : unknown_) names += (names.empty() ? "" : ", ") + name;
-        findings_.push_back(
-            finding("F102", first_unknown_, "keywords that are not known are kept as they stand: " + names, unknown_count_));
+        findings_.push_back(finding("F102", first_unknown_,
+                                    (unknown_.size() == 1 ? "a keyword that is not known is kept as it stands: "
+                                                          : "keywords that are not known are kept as they stand: ") +
+                                        names,
+                                    unknown_count_));
     }
     if (unread_count_ > 0) {
         std::string names;
         for (const std::string& name : unread_) names += (names.empty() ? "" : ", ") + name;
-        findings_.push_back(finding("F149", first_unread_, "OPM Flow does not know the keywords: " + names, unread_count_));
+        findings_.push_back(
+            finding("F149", first_unread_,
+                    (unread_.size() == 1 ? "OPM Flow does not know the keyword " : "OPM Flow does not know the keywords: ") + names,
+                    unread_count_));
     }
     if (remarks_ > 0)
         findings_.push_back(finding("F144", first_remark_, "text behind a keyword on its line is taken as a remark", remarks_));

@@ -52,7 +52,8 @@ void add_common_options(CLI::App& command, CommonOptions& o, bool writes) {
     command.add_option("--from", o.from, "Input format (else by content, then by extension)")->type_name("FORMAT");
     if (writes) command.add_option("--to", o.to, "Output format (else by extension)")->type_name("FORMAT");
     command.add_flag("--json", o.json, "Machine-readable result on standard output");
-    command.add_flag("-q,--quiet", o.quiet, "Nothing on standard error but errors");
+    command.add_flag("-q,--quiet", o.quiet,
+                     "Nothing but errors on standard error, and no text report; with --json the result all the same");
     command.add_flag("-v,--verbose", o.verbose, "Also what is merely worth knowing");
     command.add_flag("--accept-unterminated", o.accept_unterminated, "Take a last object that has no END");
     command.add_option("-j,--threads", o.threads, "Number of threads for the whole run (default: all processors)")
@@ -67,7 +68,9 @@ void add_common_options(CLI::App& command, CommonOptions& o, bool writes) {
     command.add_option("--near", o.near, "Search length for near misses in checks; not used by reading and converting")
         ->type_name("L")
         ->check(is_length());
-    command.add_option("--option", o.options, "Format option, may be repeated")->type_name("KEY=VALUE")->allow_extra_args(false);
+    command.add_option("--option", o.options, "Option of a format or of the command, may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
 }
 
 CLI::Validator is_length() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -101,6 +102,12 @@ std::string fault_line(const gridding::FaultReport& r) {
     return text + "\n";
 }
 
+/// "0.2 % above", "3 % below", "equal to": less than a millionth part is none.
+std::string differs(double share) {
+    if (std::abs(share) < 1e-6) return "equal to";
+    return rounded(100 * std::abs(share)) + (share > 0 ? " % above" : " % below");
+}
+
 std::string summary(const GridMade& made) {
     std::string text = std::to_string(made.dims[0]) + " x " + std::to_string(made.dims[1]) + " x " + std::to_string(made.dims[2]) +
                        " cells, " + std::to_string(made.made.active) + " active, " +
@@ -108,11 +115,14 @@ std::string summary(const GridMade& made) {
                        " degrees\n";
     for (std::size_t z = 0; z < made.made.zones.size(); ++z) {
         const auto& r = made.made.zones[z];
-        text += "  zone " + std::to_string(z + 1) + " " + geomend::quoted(r.name) + ": layers " + std::to_string(r.first_layer + 1) +
-                " to " + std::to_string(r.last_layer + 1) + ", volume " + short_number(r.volume);
+        text +=
+            "  zone " + std::to_string(z + 1) + " " + geomend::quoted(r.name) + ": " +
+            (r.last_layer == r.first_layer ? "layer " + std::to_string(r.first_layer + 1)
+                                           : "layers " + std::to_string(r.first_layer + 1) + " to " + std::to_string(r.last_layer + 1)) +
+            ", volume " + short_number(r.volume);
         if (z < made.map_volumes.size() && made.map_volumes[z].maps > 0)
-            text += " (where the maps have values " + rounded(100 * (made.map_volumes[z].grid / made.map_volumes[z].maps - 1)) +
-                    " % from that between them)";
+            text +=
+                " (where the maps have values " + differs(made.map_volumes[z].grid / made.map_volumes[z].maps - 1) + " that between them)";
         if (r.without_thickness > 0) text += ", " + counted(r.without_thickness, "cell", "cells") + " without thickness";
         text += "\n";
     }

@@ -165,7 +165,7 @@ ExitStatus run(const MeshOptions& o) {
 }  // namespace
 
 void add_mesh(CLI::App& program, ExitStatus& status) {
-    auto* command = program.add_subcommand("mesh", "Fill the regions of a sealed model with tetrahedra");
+    auto* command = program.add_subcommand("mesh", "Fill the regions of a sealed model with tetrahedra, hexahedra or prisms");
     auto o = std::make_shared<MeshOptions>();
     command->add_option("IN", o->inputs, "Input files, taken as one model; - is standard input")->required();
     command->add_option("-o,--output", o->output, "Output file; - is standard output")->required()->type_name("OUT");

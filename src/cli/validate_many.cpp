@@ -51,7 +51,7 @@ void add_worker_arguments(CLI::App& command, WorkerArguments& a) {
                 a.seconds = seconds;
                 a.limits_given = true;
             },
-            "Most time for one file of many; 0 is no limit (default 600)")
+            "Most time for a file; 0 is no limit (default 600)")
         ->type_name("SECONDS")
         ->check(CLI::NonNegativeNumber);
     command
@@ -61,7 +61,7 @@ void add_worker_arguments(CLI::App& command, WorkerArguments& a) {
                 a.megabytes = megabytes;
                 a.limits_given = true;
             },
-            "Most memory for one file of many; 0 is no limit (default four fifths of the machine's)")
+            "Most memory for a file; 0 is no limit (default four fifths of the machine's)")
         ->type_name("MB")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--worker", a.parent)->group("");

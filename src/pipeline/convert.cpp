@@ -120,6 +120,7 @@ Failure cannot_hold(const std::string& output, const Format& format, const std::
     Failure why = failure(FailureKind::cannot_hold, "F021", {output},
                           std::string(format.title.substr(0, format.title.find(':'))) +
                               " cannot hold all of this model: nothing was written (--lossy writes what fits)");
+    why.error.measures = {{"losses", static_cast<double>(losses.size())}};
     for (const Loss& loss : losses) {
         if (loss.loss_class != LossClass::substance) continue;
         Finding f = make_finding(
@@ -181,7 +182,11 @@ Result<ConvertReport> convert_unguarded(const ConvertRequest& request, const Dat
     OutputSet output(request.output);
     const WriteOptions how{options.options, monitor};
     auto written = mesh != nullptr ? write_mesh(*dataset, *mesh, output, how) : (*format)->write(*dataset, output, how);
-    if (!written) return std::move(written).why();
+    if (!written) {
+        Failure why = std::move(written).why();
+        if (why.error.where.file.empty()) why.error.where.file = request.output;
+        return why;
+    }
     for (Loss& loss : *written) add_loss(report.losses, std::move(loss));
     std::ranges::stable_sort(report.losses, {}, &Loss::loss_class);
     if (!request.lossy && loses_substance(report.losses)) return cannot_hold(request.output, **format, report.losses);

@@ -19,10 +19,19 @@ std::string full_figure(double value) {
     return text;
 }
 
-/// A plural, or a type or role, which is the same word for one and for many.
-std::string counted(std::uint64_t n, const std::string& what) {
+/// A plural, or a role, which is the same word for one and for many. Words of names stand apart: "active_cells".
+std::string counted(std::uint64_t n, std::string what) {
+    std::ranges::replace(what, '_', ' ');
     if (n != 1 || !what.ends_with('s')) return geomend::counted(n, what, what);
     return "1 " + (what == "vertices" ? std::string("vertex") : what.substr(0, what.size() - 1));
+}
+
+/// Cells of a type: "1 tetrahedron", "2 tetrahedra", "2 hexagonal prisms".
+std::string counted_cells(std::uint64_t n, std::string type) {
+    std::ranges::replace(type, '_', ' ');
+    if (n == 1) return "1 " + type;
+    if (type.ends_with("hedron")) return std::to_string(n) + ' ' + type.substr(0, type.size() - 2) + 'a';
+    return std::to_string(n) + ' ' + (type.ends_with("vertex") ? type.substr(0, type.size() - 2) + "ices" : type + 's');
 }
 
 std::string joined(const std::vector<std::string>& parts, const char* between) {
@@ -52,7 +61,7 @@ std::string counts_line(const ObjectSummary& o) {
     }
     std::string text = joined(parts, ", ");
     std::vector<std::string> types;
-    for (const auto& [type, n] : o.cell_types) types.push_back(counted(n, type));
+    for (const auto& [type, n] : o.cell_types) types.push_back(counted_cells(n, type));
     if (!types.empty()) text += " (" + joined(types, ", ") + ')';
     return text;
 }
@@ -168,7 +177,7 @@ std::string info_text(const FileSummary& f, bool verbose) {
     if (!f.variant.empty()) text += ", " + f.variant;
     text += ", " + counted(f.objects.size(), f.objects.size() == 1 ? "object" : "objects") + '\n';
     if (f.crs.stated) {
-        text += "  coordinate system '" + f.crs.name + "'";
+        text += f.crs.name.empty() ? "  coordinate system without a name" : "  coordinate system '" + f.crs.name + "'";
         if (!f.crs.projection.empty()) text += ", projection " + f.crs.projection;
         if (!f.crs.datum.empty()) text += ", datum " + f.crs.datum;
         text += f.crs.z_positive == ZPositive::depth ? ", z is depth\n" : ", z is elevation\n";

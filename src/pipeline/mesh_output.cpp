@@ -38,8 +38,12 @@ bool is_of(const BrepData* model, std::uint32_t object) {
 
 Result<VolumeMesh> volume_mesh_in(Dataset& dataset, std::vector<Loss>& losses) {
     const auto found = std::ranges::find_if(dataset.objects, is_volume_mesh);
-    if (found == dataset.objects.end())
-        return failure(FailureKind::cannot_hold, "F021", {}, "there are no cells: this format holds a mesh of cells that fills volumes");
+    if (found == dataset.objects.end()) {
+        Failure why =
+            failure(FailureKind::cannot_hold, "F021", {}, "there are no cells: this format holds a mesh of cells that fills volumes");
+        why.error.measures = {{"without_cells", 1}};
+        return why;
+    }
     if (dataset.breps.empty()) topology::build_breps(dataset);
     const auto object = static_cast<std::uint32_t>(found - dataset.objects.begin());
     const BrepData* model = model_of(dataset, object);

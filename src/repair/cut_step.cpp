@@ -14,8 +14,8 @@ namespace geomend::repair {
 
 namespace {
 
-std::string message_of(const arrangement::Arrangement& a) {
-    if (a.cut + a.merged + a.collapsed + a.doubled + a.made == 0) return "nothing crosses";
+std::string message_of(const arrangement::Arrangement& a, const char* nothing) {
+    if (a.cut + a.merged + a.collapsed + a.doubled + a.made == 0) return nothing;
     return counted(a.cut, "triangle was cut", "triangles were cut") + ", " + counted(a.made, "vertex", "vertices") + " made, " +
            counted(a.merged, "vertex", "vertices") + " merged, " + counted(a.collapsed, "triangle", "triangles") +
            " without area left out, " + counted(a.doubled, "double", "doubles") + " left out";
@@ -58,13 +58,14 @@ struct Arranged {
 };
 
 /// \param reach share of the tolerance within which a vertex becomes a part of an edge or a face
-Result<Arranged> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach) {
+/// \param nothing what the report says where nothing was done
+Result<Arranged> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach, const char* nothing) {
     note_uncut_borders(model);
     auto cut = arrangement::arrange(model.model.soup, {.tolerance = model.lengths.tolerance, .reach = reach, .monitor = options.monitor});
     if (!cut) return std::move(cut).why();
     Arranged arranged{{}, cut->clean};
     StepOutcome& outcome = arranged.outcome;
-    outcome.what.message = message_of(*cut);
+    outcome.what.message = message_of(*cut, nothing);
     if (!cut->clean) outcome.what.message += "; after " + counted(cut->rounds, "round", "rounds") + " something still crosses";
     outcome.changed = cut->cut + cut->merged + cut->collapsed + cut->doubled;
     const Displacement d = displacement(model.model.soup, cut->soup, cut->becomes);
@@ -89,7 +90,7 @@ StepOutcome one_after_the_other(StepOutcome first, StepOutcome second, const std
 
 Result<StepOutcome> weld_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
     constexpr double nearly_all = 0.99;  // vertices keep the tolerance from each other, so that edges bend and do not fold
-    auto welded = arrange_model(model, options, nearly_all);
+    auto welded = arrange_model(model, options, nearly_all, "nothing lies within the tolerance of something else, and nothing crosses");
     if (!welded) return std::move(welded).why();
     if (welded->clean) return std::move(welded->outcome);
     auto cut = cut_surfaces(model, options);
@@ -98,7 +99,7 @@ Result<StepOutcome> weld_surfaces(SurfaceModel& model, const SurfaceStepOptions&
 }
 
 Result<StepOutcome> cut_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
-    auto cut = arrange_model(model, options, arrangement::ArrangeOptions().reach);
+    auto cut = arrange_model(model, options, arrangement::ArrangeOptions().reach, "nothing crosses");
     if (!cut) return std::move(cut).why();
     return std::move(cut->outcome);
 }

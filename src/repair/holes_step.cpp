@@ -114,7 +114,8 @@ Result<StepOutcome> fill_holes(SurfaceModel& model, const SurfaceStepOptions& op
         ++holes;
     }
     outcome.what.message =
-        counted(holes, "hole was filled", "holes were filled") + " with " + counted(outcome.changed, "triangle", "triangles");
+        holes == 0 ? std::string("no hole was filled")
+                   : counted(holes, "hole was filled", "holes were filled") + " with " + counted(outcome.changed, "triangle", "triangles");
     if (left > 0) outcome.what.message += "; " + counted(left, "hole is", "holes are") + " wider than " + rounded(limit) + " and left";
     if (outcome.changed > 0) {
         const auto first = static_cast<std::uint32_t>(soup.triangles.size());

@@ -18,7 +18,8 @@ namespace geomend {
 namespace {
 
 constexpr std::size_t shown_elements = 8;
-constexpr std::size_t few_notes = 8;  // so many are told one by one in any case
+constexpr std::size_t few_notes = 8;      // so many are told one by one in any case
+constexpr std::size_t most_listed = 100;  // a finding lists no more elements; where it lists fewer, these are all, whatever it counts
 
 class Text {
 public:
@@ -77,7 +78,9 @@ private:
     }
 
     /// "surface 'H2_2' (TFACE 4 of 'H2')": what the file calls it, too.
-    std::string named(const EntityRef& e) const { return e.kind + " '" + e.name + "'" + in_file(e); }
+    std::string named(const EntityRef& e) const {
+        return e.name.empty() ? e.kind + " without a name" : e.kind + " '" + e.name + "'" + in_file(e);
+    }
     std::string in_file(const EntityRef& e) const {
         const auto found = about_->names.find({e.kind, e.name});
         return found == about_->names.end() || found->second.name.empty() ? std::string() : " (" + found->second.name + ")";
@@ -196,16 +199,16 @@ private:
     }
 
     void elements(const Finding& f) {
-        if (f.elements.empty()) return;
+        if (f.elements.empty() || f.element_kind.empty()) return;
         const std::size_t width = numbers_of_element(f), listed = f.elements.size() / width, shown = std::min(listed, shown_elements);
-        const std::string kind = f.element_kind.empty() ? "element" : element_kind(f);
-        text_ += indent() + kind + (f.count == 1 ? "" : "s");
+        const std::uint64_t all = listed < most_listed ? listed : f.count;
+        text_ += indent() + element_kind(f) + (all == 1 ? "" : "s");
         for (std::size_t e = 0; e < shown; ++e) {
             text_ += width > 1 ? " (" : " ";
             for (std::size_t n = 0; n < width; ++n) text_ += (n > 0 ? "," : "") + std::to_string(f.elements[e * width + n]);
             if (width > 1) text_ += ')';
         }
-        if (f.count > shown) text_ += " and " + std::to_string(f.count - shown) + " more";
+        if (all > shown) text_ += " and " + std::to_string(all - shown) + " more";
         text_ += '\n';
     }
 

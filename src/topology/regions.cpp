@@ -17,7 +17,7 @@ constexpr std::size_t most_elements = 100;
 
 std::string list_of_names(const BrepData& brep, const std::vector<SurfaceId>& surfaces) {
     std::string text;
-    for (std::size_t i = 0; i < surfaces.size() && i < 5; ++i) text += (i == 0 ? "" : ", ") + brep.surfaces[surfaces[i].value].name;
+    for (std::size_t i = 0; i < surfaces.size() && i < 5; ++i) text += (i == 0 ? "'" : ", '") + brep.surfaces[surfaces[i].value].name + "'";
     if (surfaces.size() > 5) text += ", ...";
     return text;
 }

@@ -99,6 +99,37 @@ TEST(CommandLine, AnExtensionNamesAFormat) {
     EXPECT_FALSE(says(unknown, "--from")) << unknown.err;
 }
 
+TEST(CommandLine, AFormatThatGoesOneWayOnlyIsSaidToBeThat) {
+    const TemporaryFolder folder;
+    write_file(folder / "t.ts", one_triangle);
+    const ProgramRun written = run_geomend({"convert", (folder / "t.ts").string(), "-o", (folder / "a.csv").string()});
+    EXPECT_EQ(written.status, 2);
+    EXPECT_TRUE(says(written, "'.csv' is read only")) << written.err;
+    write_file(folder / "script.geo", "Point(1) = {0, 0, 0, 1};\n");
+    const ProgramRun read = run_geomend({"info", (folder / "script.geo").string()});
+    EXPECT_EQ(read.status, 3);
+    EXPECT_TRUE(says(read, "'.geo' is written only")) << read.err;
+}
+
+TEST(CommandLine, WhatTheTargetCannotHoldAtAllIsToldFromALossThatCanBeAccepted) {
+    const TemporaryFolder folder;
+    write_file(folder / "t.ts", one_triangle);
+    const ProgramRun no_cells = run_geomend({"convert", (folder / "t.ts").string(), "-o", (folder / "a.inp").string()});
+    EXPECT_EQ(no_cells.status, 4);
+    EXPECT_TRUE(says(no_cells, "a.inp: there are no cells")) << no_cells.err;
+    EXPECT_TRUE(says(no_cells, "geomend mesh fills")) << no_cells.err;
+    const std::string model = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.ml";
+    const ProgramRun lossy = run_geomend({"convert", model, "-o", (folder / "a.stl").string()});
+    EXPECT_EQ(lossy.status, 4);
+    EXPECT_TRUE(says(lossy, "accept the loss with --lossy")) << lossy.err;
+}
+
+TEST(CommandLine, FormatsSayWhatIsKeptOfCornerPointGridsAndFaults) {
+    const ProgramRun run = run_geomend({"formats", "grdecl"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_NE(run.out.find("keeps: corner_point_grids, fault_faces, connections"), std::string::npos) << run.out;
+}
+
 TEST(CommandLine, APipeThatAPatternMatchesIsPassedOver) {
     const TemporaryFolder folder;
     write_file(folder / "t.ts", one_triangle);

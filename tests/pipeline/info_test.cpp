@@ -74,5 +74,17 @@ TEST(Info, CountsCellsByDimension) {
     EXPECT_EQ(counts["edges"], 1);
 }
 
+TEST(Info, TextCountsCellsInWords) {
+    Dataset d;
+    CellMesh m;
+    m.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+    const std::uint32_t one[] = {0, 1, 2, 3}, two[] = {1, 2, 3, 4};
+    m.add_cell(CellType::tetrahedron, one);
+    m.add_cell(CellType::tetrahedron, two);
+    d.objects.emplace_back(m);
+    const std::string text = info_text(summarise("a.vtu", d), false);
+    EXPECT_NE(text.find("(2 tetrahedra)"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace geomend

@@ -179,9 +179,31 @@ TEST(Report, TextGroupsByEntityWithTheWorstFirst) {
     ASSERT_NE(one, std::string::npos);
     EXPECT_LT(two, one);
     EXPECT_EQ(text.find("'one'", one + 1), std::string::npos) << "each entity once";
-    EXPECT_NE(text.find("cells (1,2,3) (4,5,6) and 248 more"), std::string::npos) << text;
+    EXPECT_NE(text.find("cells (1,2,3) (4,5,6)\n"), std::string::npos) << text;
     EXPECT_EQ(text.find('\033'), std::string::npos);
     EXPECT_NE(report_text(made_report(), true).find('\033'), std::string::npos);
+}
+
+TEST(Report, TextSaysHowManyElementsAreNotListedAndNeverMoreThanThereAre) {
+    Report report = made_report();
+    Finding& f = report.files.front().findings[1];
+    f.elements = {3, 11};
+    f.element_kind = "triangle";
+    f.count = 5;  // pairs of two triangles with others
+    EXPECT_NE(report_text(report, false).find("triangles 3 11\n"), std::string::npos) << report_text(report, false);
+    f.elements.clear();
+    for (std::int64_t i = 1; i <= 100; ++i) f.elements.push_back(i);
+    f.count = 250;
+    EXPECT_NE(report_text(report, false).find("triangles 1 2 3 4 5 6 7 8 and 242 more\n"), std::string::npos) << report_text(report, false);
+    f.elements = {7};
+    f.element_kind.clear();  // a number that only programs know the meaning of
+    EXPECT_EQ(report_text(report, false).find(" 7\n"), std::string::npos) << report_text(report, false);
+}
+
+TEST(Report, TextSaysOfAnEntityWithoutANameThatItHasNone) {
+    Report report = made_report();
+    report.files.front().findings[1].entities.front().name.clear();
+    EXPECT_NE(report_text(report, false).find("  corner-point-grid without a name\n"), std::string::npos) << report_text(report, false);
 }
 
 TEST(Report, JunitIsUtf8WhateverNamesAre) {

@@ -237,6 +237,9 @@ function drawFilters() {
 
 // ---- the chosen finding
 
+// A finding lists no more elements; where it lists fewer, these are all, whatever it counts.
+const mostListed = 100;
+
 function listing(items, most, total) {
   const text = items.slice(0, most).join(' ');
   return total > Math.min(most, items.length) ? `${text} and ${grouped(total - Math.min(most, items.length))} more` : text;
@@ -253,7 +256,7 @@ function drawDetail() {
   line('To mend it', f.fix, 'fix');
   line('Where', f.entities.map((e) => `${e.kind} ${e.name}${e.in_file ? ` (${e.in_file})` : ''}`).join(', '));
   line('At', f.place);
-  if (f.elements) line(f.element_kind || 'Elements', listing(f.elements.map(elementText), 24, f.count || f.elements.length));
+  if (f.elements) line(f.element_kind || 'Elements', listing(f.elements.map(elementText), 24, f.elements.length < mostListed ? f.elements.length : f.count));
   else if (f.count) line('Number', grouped(f.count));
   line('Measures', Object.entries(f.measures || {}).map(([name, value]) => `${name} ${figure(value)}`).join(' · '));
   if (f.location) line('In the file', `${f.location.file}${f.location.line > 0 ? `:${f.location.line}` : ''}${f.location.column ? `:${f.location.column}` : ''}`);
