@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/common_options.h"
 #include "cli/size_arguments.h"
+#include "hexes/heuristics.h"
 #include "pipeline/recombine_cells.h"
 
 namespace geomend::cli {
@@ -20,7 +21,8 @@ namespace {
 
 struct MeshOptions : CommonOptions {
     std::vector<std::string> inputs;
-    std::string output, split = "none", method, cells = "tet";
+    std::string output, split = "none", method, cells, select = "search";
+    std::vector<std::string> stated;  ///< options for filling that were given
     double size = 0, ratio = 1.4, seconds = 120, megabytes = 0, max_distance = 0;
     SizeArguments sizes;
     ResizeRequest resize;
@@ -78,11 +80,28 @@ ExitStatus status_of(const MeshReport& report) {
     return limit ? ExitStatus::limit : ExitStatus::invalid_result;
 }
 
+std::string heuristics_but_search() {
+    std::string all;
+    for (const std::string_view name : hexes::heuristic_names) {
+        if (name != "search") all += (all.empty() ? "" : ", ") + std::string(name);
+    }
+    return all;
+}
+
 ExitStatus run(const MeshOptions& o) {
     auto options = format_options(o.options);
     if (!options) return report(options.why());
     if (const auto both = json_in_the_way(o.json, o.output)) return report(*both);
-    const bool hexes = o.recombine || o.cells != "tet";
+    const std::string cells = !o.cells.empty() ? o.cells : o.recombine ? "hex-dominant" : "tet";
+    const bool hexes = cells != "tet";
+    if (o.recombine && !hexes)
+        return report(failure(FailureKind::usage, "F018", {},
+                              "--recombine makes hexahedra or, with --cells hybrid, prisms: --cells tet does not go with it"));
+    if (o.recombine && !o.stated.empty())
+        return report(failure(FailureKind::usage, "F018", {},
+                              "--recombine takes the tetrahedra as they are: " + o.stated.front() + " is for filling regions"));
+    if (o.select != "search" && cells != "hex-dominant")
+        return report(failure(FailureKind::usage, "F018", {}, "--select is for hexahedra: --cells hex-dominant or --recombine"));
     const bool resizes = !o.resize.file.empty();
     const std::string method = !o.method.empty() ? o.method : hexes && !o.recombine ? "lattice" : resizes ? "isotropic" : "keep";
     if (resizes && hexes)
@@ -135,7 +154,8 @@ ExitStatus run(const MeshOptions& o) {
     request.fills = !o.recombine;
     if (hexes) {
         request.recombine.emplace();
-        request.recombine->thin_only = o.cells == "hybrid";
+        request.recombine->thin_only = cells == "hybrid";
+        request.recombine->select = hexes::heuristic_named(o.select).value_or(hexes::Heuristic::search);
         request.recombine->monitor = &monitor;
     }
     const auto made = mesh(request);
@@ -208,6 +228,11 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
         ->type_name("CELLS")
         ->check(CLI::IsMember({"tet", "hex-dominant", "hybrid"}));
     command->add_flag("--recombine", o->recombine, "Fill nothing: make hexahedra of the tetrahedra of the inputs");
+    command
+        ->add_option("--select", o->select,
+                     "How hexahedra are selected: search (default), or by a heuristic for comparison: " + heuristics_but_search())
+        ->type_name("RULE")
+        ->check(CLI::IsMember(std::vector<std::string>(hexes::heuristic_names.begin(), hexes::heuristic_names.end())));
     command->add_option("--split", o->split, "Double the points along surfaces: none (default), faults, all, or names between commas")
         ->type_name("WHICH");
     command->add_option("--time-limit", o->seconds, "Most time for one try to fill a region; 0 is no limit (default 120)")
@@ -216,7 +241,12 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
     command->add_option("--memory-limit", o->megabytes, "Most memory for it; 0 is no limit (default)")->type_name("MB")->check(is_length());
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
     add_common_options(*command, *o, true);
-    command->callback([o, &status] { status = run(*o); });
+    command->callback([o, command, &status] {
+        for (const char* name : {"--ratio", "--time-limit", "--memory-limit"}) {
+            if (command->count(name) > 0) o->stated.emplace_back(name);
+        }
+        status = run(*o);
+    });
 }
 
 }  // namespace geomend::cli

@@ -28,6 +28,17 @@ void add(Candidates& all, CellType type, const Corners& corners, double quality,
     all.tet_offsets.push_back(all.tets.size());
 }
 
+/// Room for so many, so that no array is moved while it grows.
+void reserve(Candidates& all, std::size_t count, std::size_t tets) {
+    all.types.reserve(count);
+    all.corners.reserve(count);
+    all.quality.reserve(count);
+    all.volume.reserve(count);
+    all.diagonals.reserve(count);
+    all.tet_offsets.reserve(count + 1);
+    all.tets.reserve(tets);
+}
+
 /// What both searches have: the mesh, where cells go, and the tests that cells have to pass.
 class Search {
 public:
@@ -191,6 +202,12 @@ Candidates search(const TetMesh& m, const QuadTable& quads, const SearchOptions&
         if (options.monitor != nullptr) options.monitor->progress(what, static_cast<double>(part) / static_cast<double>(parts.size()));
     });
     Candidates all;
+    std::size_t count = 0, tets = 0;
+    for (const Candidates& part : parts) {
+        count += part.size();
+        tets += part.tets.size();
+    }
+    reserve(all, count, tets);
     for (Candidates& part : parts) {
         all.append(part);
         part = {};

@@ -5,17 +5,51 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "hexes/pair_set.h"
 #include "model/cell_faces.h"
 
 namespace geomend::hexes {
 
 namespace {
 
-/// Where a pair of vertices goes once it has a number.
-struct Use {
-    std::uint64_t pair;
-    std::uint64_t place;  ///< twice the index into edges, or twice that into diagonals and one
+/// Numbers of pairs of vertices, ascending by the lower one, then the other.
+class PairNumbers {
+public:
+    /// \param each calls what it is given with both vertices of each pair, as often as there are some; twice in the same order
+    template <class Each>
+    PairNumbers(std::size_t vertices, const Each& each) : first_(vertices + 1, 0) {
+        each([&](std::uint32_t a, std::uint32_t b) { ++first_[std::min(a, b) + 1]; });
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        others_.resize(first_.back());
+        std::vector<std::uint64_t> next(first_.begin(), first_.end() - 1);
+        each([&](std::uint32_t a, std::uint32_t b) { others_[next[std::min(a, b)]++] = std::max(a, b); });
+        leave_once();
+    }
+    std::uint32_t of(std::uint32_t a, std::uint32_t b) const {
+        const auto begin = others_.begin() + static_cast<std::ptrdiff_t>(first_[std::min(a, b)]),
+                   end = others_.begin() + static_cast<std::ptrdiff_t>(first_[std::min(a, b) + 1]);
+        return static_cast<std::uint32_t>(std::lower_bound(begin, end, std::max(a, b)) - others_.begin());
+    }
+    std::size_t size() const { return others_.size(); }
+
+private:
+    void leave_once() {
+        std::uint64_t next = 0;
+        for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
+            const auto begin = others_.begin() + static_cast<std::ptrdiff_t>(first_[v]),
+                       end = others_.begin() + static_cast<std::ptrdiff_t>(first_[v + 1]);
+            std::sort(begin, end);
+            first_[v] = next;
+            for (auto at = begin; at != end; ++at) {
+                if (at == begin || *at != others_[next - 1]) others_[next++] = *at;
+            }
+        }
+        first_.back() = next;
+        others_.resize(next);
+        others_.shrink_to_fit();
+    }
+
+    std::vector<std::uint64_t> first_;
+    std::vector<std::uint32_t> others_;
 };
 
 bool has_edge(const Candidates& all, std::uint32_t i, std::uint32_t a, std::uint32_t b) {
@@ -84,32 +118,40 @@ Conflicts::Conflicts(const Candidates& candidates, std::size_t tets) : all_(cand
 }
 
 void Conflicts::number_pairs() {
-    std::vector<Use> uses;
+    std::size_t vertices = 0;
     for (std::uint32_t i = 0; i < all_.size(); ++i) {
+        for (const std::uint32_t v : all_.corners_of(i)) vertices = std::max(vertices, std::size_t{v} + 1);
+    }
+    const auto visit_edges = [&](std::uint32_t i, const auto& visit) {
         const auto& c = all_.corners[i];
-        for (const auto& e : geomend::edges_of(all_.types[i])) {
-            uses.push_back({pair_key(c[e[0]], c[e[1]]), 2 * edges_.size()});
-            edges_.push_back(0);
-        }
+        for (const auto& e : geomend::edges_of(all_.types[i])) visit(c[e[0]], c[e[1]]);
+    };
+    const auto visit_diagonals = [&](std::uint32_t i, const auto& visit) {
+        const auto& c = all_.corners[i];
         for (const LocalFace& face : faces_of(all_.types[i])) {
             const auto f = face.corners();
-            if (f.size() != 4) continue;
-            for (std::size_t k = 0; k < 2; ++k) {
-                uses.push_back({pair_key(c[f[k]], c[f[k + 2]]), 2 * diagonals_.size() + 1});
-                diagonals_.push_back({0, 0, i});
-            }
+            for (std::size_t k = 0; f.size() == 4 && k < 2; ++k) visit(c[f[k]], c[f[k + 2]]);
         }
+    };
+    std::size_t edges = 0, diagonals = 0;
+    const PairNumbers numbers(vertices, [&](const auto& visit) {
+        edges = diagonals = 0;
+        for (std::uint32_t i = 0; i < all_.size(); ++i) {
+            visit_edges(i, [&](std::uint32_t a, std::uint32_t b) { ++edges, visit(a, b); });
+            visit_diagonals(i, [&](std::uint32_t a, std::uint32_t b) { ++diagonals, visit(a, b); });
+        }
+    });
+    pairs_ = numbers.size();
+    edges_.reserve(edges);
+    diagonals_.reserve(diagonals);
+    edge_offsets_.reserve(all_.size() + 1);
+    diagonal_offsets_.reserve(all_.size() + 1);
+    for (std::uint32_t i = 0; i < all_.size(); ++i) {
+        visit_edges(i, [&](std::uint32_t a, std::uint32_t b) { edges_.push_back(numbers.of(a, b)); });
+        visit_diagonals(i, [&](std::uint32_t a, std::uint32_t b) { diagonals_.push_back({numbers.of(a, b), 0, i}); });
         edge_offsets_.push_back(edges_.size());
         diagonal_offsets_.push_back(diagonals_.size());
     }
-    std::ranges::sort(uses, {}, [](const Use& u) { return std::pair(u.pair, u.place); });
-    for (std::size_t u = 0; u < uses.size(); ++u) {
-        if (u > 0 && uses[u].pair != uses[u - 1].pair) ++pairs_;
-        const auto number = static_cast<std::uint32_t>(pairs_);
-        if (uses[u].place % 2 == 0) edges_[uses[u].place / 2] = number;
-        else diagonals_[uses[u].place / 2].pair = number;
-    }
-    if (!uses.empty()) ++pairs_;
     for (std::size_t d = 0; d < diagonals_.size(); ++d) diagonals_[d].other = diagonals_[d ^ 1].pair;
 }
 

@@ -79,18 +79,27 @@ std::vector<std::uint32_t> without(const std::vector<std::uint32_t>& all, const 
     return left;
 }
 
-/// Selects and closes. What cannot be closed without a loss is not selected again, and the search goes on from what is left; in the
-/// last rounds nothing new is taken.
+/// Selects and closes. What cannot be closed without a loss, or leaves flat cells beside it, is not selected again, and the search goes on
+/// from what is left; in the last rounds nothing new is taken.
 MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<const double> order, std::vector<double> weights,
                  const RecombineOptions& options, RecombineReport& report) {
-    constexpr int rounds = 24, searching_rounds = 8;
+    // In a small mesh a round costs little: what failed may be taken again then, where its neighbours have changed.
+    const bool is_small = conflicts.size() < 300'000;
+    const int rounds = is_small ? 40 : 24, searching_rounds = is_small ? 24 : 8, forgiving_rounds = is_small ? 12 : 0;
+    constexpr int most_flat_rounds = 4;
+    int flat_rounds = 0;
     LocalSearch search;
     search.steps = options.steps != 0 ? options.steps : std::min<std::uint64_t>(1000 * conflicts.size(), 200'000'000);
     search.monitor = options.monitor;
-    std::vector<std::uint32_t> selected = select_greedily(conflicts, order, Greedy::weight);
+    const bool searches = options.select == Heuristic::search || options.thin_only;
+    std::vector<std::uint32_t> selected = searches
+                                              ? select_greedily(conflicts, order, Greedy::weight)
+                                              : select_by(options.select, tets, conflicts, weights_by_angles(tets, conflicts.candidates()));
     // Where all is hexahedra there is nothing to gain.
-    if (options.thin_only || volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * volume_of(tets)) search.steps = 0;
-    selected = search_selection(conflicts, weights, selected, search);
+    const double whole = volume_of(tets);
+    if (options.thin_only || volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * whole) search.steps = 0;
+    if (searches) selected = search_selection(conflicts, weights, selected, search);
+    report.first_share = whole > 0 ? volume_of(conflicts.candidates(), selected) / whole : 0;
     search.heat = 0.02;
     search.steps /= 20;
     for (int round = 1;; ++round) {
@@ -98,10 +107,19 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
         report.closing = {};
         report.selected = selected.size();
         MixedMesh mesh = close(tets, conflicts.candidates(), selected, options.closing, report.closing, failed);
-        if (failed.empty() || options.closing == Closing::split || round == rounds) return mesh;
-        for (const std::uint32_t i : failed) weights[i] = 0;
+        const bool is_last = options.closing == Closing::split || round == rounds;
+        if (failed.empty() || is_last) {
+            std::vector<std::uint32_t> beside;
+            improve_leftovers(mesh, tets, options.monitor, report.leftovers, beside);
+            if (is_last || beside.empty() || ++flat_rounds > most_flat_rounds) return mesh;
+            for (const std::uint32_t cell : beside) {
+                failed.push_back(selected[cell]);
+                weights[selected[cell]] = 0;
+            }
+        }
+        for (const std::uint32_t i : failed) weights[i] *= round <= forgiving_rounds ? 0.5 : 0;
         selected = without(selected, failed);
-        if (round < searching_rounds) selected = search_selection(conflicts, weights, selected, search);
+        if (searches && round < searching_rounds) selected = search_selection(conflicts, weights, selected, search);
     }
 }
 

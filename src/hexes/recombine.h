@@ -9,6 +9,8 @@
 #include "base/monitor.h"
 #include "base/result.h"
 #include "hexes/closing.h"
+#include "hexes/heuristics.h"
+#include "hexes/leftovers.h"
 #include "hexes/selection.h"
 #include "hexes/thin_cells.h"
 #include "model/volume_mesh.h"
@@ -20,6 +22,7 @@ struct RecombineOptions {
     double least_quality = 0.3;  ///< scaled Jacobian of every hexahedron; also of prisms
     std::uint64_t steps = 0;     ///< of the local search; 0: 1000 for each candidate, 200 million at most
     Closing closing = Closing::open;
+    Heuristic select = Heuristic::search;
     int passes = 5;  ///< of smoothing
     const Monitor* monitor = nullptr;
 };
@@ -36,7 +39,9 @@ struct RecombineReport {
     std::uint64_t tetrahedra = 0;  ///< of the mesh given
     std::uint64_t candidates = 0;  ///< hexahedra
     std::uint64_t selected = 0;    ///< of them
+    double first_share = 0;        ///< of the volume that those have which were selected first, before any had to give way
     ClosingCounts closing;
+    LeftoverCounts leftovers;
     ThinCounts thin;                                     ///< where only thin parts were asked for
     std::uint64_t moves = 0;                             ///< of vertices, by which the worst cell around became better
     std::vector<TypeShare> shares;                       ///< by region, then type

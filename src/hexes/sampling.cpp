@@ -22,6 +22,7 @@ using remeshing::SurfacePoint;
 
 constexpr double clear = 0.4999;  // of the least step, from borders
 constexpr double apart = 0.45;    // of it, between points
+constexpr double nothing = 1e-7;  // of an edge: nearer to a vertex than that a point is the vertex, since coordinates are rounded
 
 std::size_t greatest(const Vec3& v) { return static_cast<std::size_t>(std::ranges::max_element(v) - v.begin()); }
 
@@ -59,6 +60,12 @@ private:
     std::vector<double> way_;
 };
 
+/// The vertex itself where that is as good as there.
+LineSample sample_at(std::uint32_t segment, double share) {
+    if (share < nothing) return {segment, 0};
+    return share > 1 - nothing ? LineSample{segment + 1, 0} : LineSample{segment, share};
+}
+
 /// Crossings with the planes of the lattice, in order.
 std::vector<LineSample> crossings_of(const Lattice& lattice, std::span<const Vec3> points) {
     std::vector<Vec3> at;
@@ -76,7 +83,7 @@ std::vector<LineSample> crossings_of(const Lattice& lattice, std::span<const Vec
         const std::size_t axis = own[most] >= 0.5 * length ? most : greatest(own);
         const double a = at[i][axis], b = at[i + 1][axis];
         if (i > 0 && a == std::round(a)) all.push_back({i, 0});
-        visit_between(a, b, [&](double k) { all.push_back({i, (k - a) / (b - a)}); });
+        visit_between(a, b, [&](double k) { all.push_back(sample_at(i, (k - a) / (b - a))); });
     }
     return all;
 }
@@ -212,7 +219,7 @@ void visit_crossings(const std::array<Vec3, 3>& at, std::size_t axis, const Visi
             }
             if (std::ranges::any_of(weights, [&](double w) { return w < -slack; })) continue;
             double sum = 0;
-            for (double& w : weights) sum += w = std::max(w, 0.0);
+            for (double& w : weights) sum += w = w < nothing ? 0 : w;
             for (double& w : weights) w /= sum;
             visit(weights);
         }

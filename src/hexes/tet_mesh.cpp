@@ -39,20 +39,6 @@ void take_tets(const VolumeMesh& mesh, TetMesh& m, std::vector<std::uint32_t>& t
     }
 }
 
-void find_across(TetMesh& m) {
-    std::vector<FacetKey> keys(4 * m.tets.size());
-    for (std::uint32_t f = 0; f < keys.size(); ++f) keys[f] = {sorted(m.facet(f)), f};
-    std::ranges::sort(keys);
-    m.across.assign(m.tets.size(), {no_index, no_index, no_index, no_index});
-    for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
-        if (keys[i].corners != keys[i + 1].corners) continue;
-        const std::uint32_t a = keys[i].number, b = keys[i + 1].number;
-        m.across[a / 4][a % 4] = b;
-        m.across[b / 4][b % 4] = a;
-        ++i;
-    }
-}
-
 /// The facet of a tetrahedron that is a local face of its cell.
 std::uint32_t facet_of(const TetMesh& m, std::uint32_t tet, const std::vector<std::uint32_t>& nodes) {
     for (std::uint32_t k = 0; k < 4; ++k) {
@@ -177,6 +163,20 @@ std::array<std::uint32_t, 3> TetMesh::facet(std::uint32_t number) const {
     const auto& corners = facet_corners[number % 4];
     const auto& tet = tets[number / 4];
     return {tet[corners[0]], tet[corners[1]], tet[corners[2]]};
+}
+
+void find_across(TetMesh& m) {
+    std::vector<FacetKey> keys(4 * m.tets.size());
+    for (std::uint32_t f = 0; f < keys.size(); ++f) keys[f] = {sorted(m.facet(f)), f};
+    std::ranges::sort(keys);
+    m.across.assign(m.tets.size(), {no_index, no_index, no_index, no_index});
+    for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+        if (keys[i].corners != keys[i + 1].corners) continue;
+        const std::uint32_t a = keys[i].number, b = keys[i + 1].number;
+        m.across[a / 4][a % 4] = b;
+        m.across[b / 4][b % 4] = a;
+        ++i;
+    }
 }
 
 TetMesh tet_mesh_of(const VolumeMesh& mesh) {

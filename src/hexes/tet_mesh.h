@@ -35,6 +35,9 @@ struct TetMesh {
 /// The corners of facet k of a tetrahedron, wound outwards.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> facet_corners{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
+/// Finds what lies across each facet: facets with the same three corners are two sides of one. Cost: n log n
+void find_across(TetMesh& mesh);
+
 /// Takes the tetrahedra of a mesh. Walls are facets in sets of faces, between regions, and at the end of the mesh; lines are the
 /// edges of sets of edges, and those where other than two facets of one wall meet, or two at more than 40 degrees.
 /// Cost: n log n. \pre the mesh is not split (exchange::joined())

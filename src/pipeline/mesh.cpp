@@ -129,6 +129,12 @@ Result<void> recombine(Dataset& dataset, const MeshRequest& request, MeshReport&
     if (!made) return std::move(made).why();
     report.blocks.clear();
     for (const auto& b : (*made)->blocks) report.blocks.push_back({(*made)->regions[b.region], b.type, b.first, b.count});
+    for (const auto& s : report.recombined->shares) {
+        const std::string& name = (*made)->regions[s.region];
+        if (report.mixed_regions.empty() || report.mixed_regions.back().name != name) report.mixed_regions.push_back({name, 0, {}});
+        report.mixed_regions.back().volume += s.volume;
+        report.mixed_regions.back().cells.emplace_back(s.type, s.count);
+    }
     report.face_sets.clear();
     for (const auto& set : (*made)->face_sets)
         report.face_sets.push_back({set.name, set.role, set.side == FaceSide::none ? "" : to_string(set.side), set.faces.size()});
@@ -275,6 +281,22 @@ Result<void> make_cells(Dataset& dataset, const Format& target, const MeshReques
     return {};
 }
 
+Json mixed_region_json(const MeshRegion& region) {
+    Json cells = Json::object();
+    for (const auto& [type, count] : region.cells) cells[to_string(type)] = count;
+    return {{"name", region.name}, {"volume", region.volume}, {"cells", std::move(cells)}};
+}
+
+/// What is said of the cells of a filled region is that of the cells that are written.
+void put_mixed_regions(const MeshReport& report, Json& regions) {
+    for (const MeshRegion& mixed : report.mixed_regions) {
+        const Json now = mixed_region_json(mixed);
+        const auto found = std::ranges::find_if(regions, [&](const Json& r) { return r["name"] == mixed.name; });
+        if (found == regions.end()) regions.push_back(now);
+        else found->update(now);
+    }
+}
+
 }  // namespace
 
 Result<MeshReport> mesh(const MeshRequest& request) {
@@ -320,6 +342,7 @@ std::string mesh_json(const MeshReport& report) {
         for (std::size_t i = 0; i < shapes.least_dihedral.size(); ++i) shapes.least_dihedral[i] += r.shapes.least_dihedral[i];
         for (std::size_t i = 0; i < shapes.shape.size(); ++i) shapes.shape[i] += r.shapes.shape[i];
     }
+    put_mixed_regions(report, regions);
     for (const MeshBlock& b : report.blocks)
         blocks.push_back({{"region", b.region}, {"type", to_string(b.type)}, {"first", b.first}, {"count", b.count}});
     for (const MeshFaceSet& s : report.face_sets)

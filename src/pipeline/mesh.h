@@ -47,6 +47,13 @@ struct MeshFaceSet {
     std::uint64_t count = 0;
 };
 
+/// The cells of a region where hexahedra were made, and their volume: that of their (tri)linear maps.
+struct MeshRegion {
+    std::string name;
+    double volume = 0;
+    std::vector<std::pair<CellType, std::uint64_t>> cells;  ///< how many of each type
+};
+
 /// What came of it.
 struct MeshReport {
     ConvertReport written;
@@ -58,6 +65,7 @@ struct MeshReport {
     std::vector<std::string> outside;                  ///< surfaces that lie in no region: their triangles are faces of no cell
     std::uint64_t surface_vertices = 0;                ///< added on lines and surfaces, since cells could not be made without
     std::optional<hexes::RecombineReport> recombined;  ///< where that was asked for
+    std::vector<MeshRegion> mixed_regions;             ///< then, by region
     std::vector<MeshBlock> blocks;
     SplitReport split;
     bool is_written = false;

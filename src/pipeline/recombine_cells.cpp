@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/recombine_cells.h"
 
-#include <map>
+#include <algorithm>
+#include <array>
+#include <set>
 #include <utility>
 
 #include "base/wording.h"
 #include "exchange/cell_mesh_of.h"
 #include "exchange/split_mesh.h"
+#include "model/attribute_operations.h"
 #include "pipeline/mesh_output.h"
 
 namespace geomend {
@@ -28,12 +31,63 @@ const char* plural(CellType type) {
     }
 }
 
+/// Lines and points without names, which a volume mesh would not keep, get some of their own.
+std::vector<std::string> name_lines_and_points(Dataset& dataset) {
+    std::set<std::string> known;
+    for (Object& object : dataset.objects) {
+        if (const auto* mesh = std::get_if<CellMesh>(&object)) {
+            for (const auto& e : mesh->entities) known.insert(e.name);
+            for (const auto& g : mesh->groups) known.insert(g.name);
+        }
+    }
+    std::vector<std::string> made;
+    for (Object& object : dataset.objects) {
+        auto* mesh = std::get_if<CellMesh>(&object);
+        if (mesh == nullptr) continue;
+        for (std::size_t e = 0; e < mesh->entities.size(); ++e) {
+            auto& entity = mesh->entities[e];
+            const bool is_named =
+                !entity.name.empty() || std::ranges::any_of(entity.groups, [&](auto g) { return !mesh->groups[g].name.empty(); });
+            if (entity.dimension > 1 || is_named) continue;
+            std::string name = (entity.dimension == 1 ? "line " : "corner ") + std::to_string(made.size() + 1);
+            while (!known.insert(name).second) name += '_';
+            entity.name = name;
+            made.push_back(std::move(name));
+        }
+    }
+    return made;
+}
+
+/// Takes these names away again: lines stay without, and sets of nodes become points of the mesh once more.
+void forget_names(CellMesh& mesh, const std::vector<std::string>& made) {
+    const std::set<std::string> names(made.begin(), made.end());
+    for (auto& entity : mesh.entities) {
+        if (entity.dimension == 1 && names.contains(entity.name)) entity.name.clear();
+    }
+    for (const NamedSet& set : mesh.info.sets) {
+        if (set.location != AttributeLocation::point || !names.contains(set.name)) continue;
+        CellMesh::Entity entity;
+        entity.dimension = 0;
+        entity.tag = static_cast<std::int64_t>(mesh.entities.size()) + 1;
+        mesh.entities.push_back(std::move(entity));
+        for (const std::uint32_t node : set.members) {
+            mesh.add_cell(CellType::vertex, std::array{node});
+            mesh.cell_entity.push_back(static_cast<std::uint32_t>(mesh.entities.size() - 1));
+        }
+    }
+    std::erase_if(mesh.info.sets, [&](const NamedSet& set) { return names.contains(set.name); });
+    for (Attribute& a : mesh.info.attributes) {
+        if (a.location == AttributeLocation::cell) resize_with_missing(a, mesh.cell_count());
+    }
+}
+
 std::string percent(double part) { return rounded(100 * part) + " %"; }
 
 }  // namespace
 
 Result<VolumeMesh> recombine_cells(Dataset& dataset, const hexes::RecombineOptions& options, hexes::RecombineReport& report,
                                    std::vector<Loss>& losses) {
+    const std::vector<std::string> names = name_lines_and_points(dataset);
     auto mesh = volume_mesh_in(dataset, losses);
     if (!mesh) return std::move(mesh).why();
     if (!(*mesh)->vertex_origins.empty() || !(*mesh)->split_pairs.empty()) {
@@ -46,7 +100,9 @@ Result<VolumeMesh> recombine_cells(Dataset& dataset, const hexes::RecombineOptio
     dataset.models.clear();
     dataset.breps.clear();
     dataset.findings.clear();
-    dataset.objects.emplace_back(exchange::cell_mesh_of(*made));
+    CellMesh cells = exchange::cell_mesh_of(*made);
+    forget_names(cells, names);
+    dataset.objects.emplace_back(std::move(cells));
     return made;
 }
 
@@ -54,10 +110,19 @@ Json recombined_json(const hexes::RecombineReport& report) {
     const hexes::ThinCounts& t = report.thin;
     Json thin{{"triangles", t.triangles}, {"prisms", t.prisms},       {"pyramids", t.pyramids},   {"tetrahedra", t.tetrahedra},
               {"ignored", t.ignored},     {"undefined", t.undefined}, {"unmatched", t.unmatched}, {"invalid", t.invalid}};
-    Json all{{"tetrahedra", report.tetrahedra}, {"candidates", report.candidates},     {"selected", report.selected},
-             {"quads", report.closing.quads},   {"absorbed", report.closing.absorbed}, {"pyramids", report.closing.pyramids},
-             {"opened", report.closing.opened}, {"split", report.closing.split},       {"moves", report.moves},
-             {"folded", report.folded}};
+    Json all{
+        {"tetrahedra", report.tetrahedra},
+        {"candidates", report.candidates},
+        {"selected", report.selected},
+        {"first_share", report.first_share},
+        {"quads", report.closing.quads},
+        {"absorbed", report.closing.absorbed},
+        {"pyramids", report.closing.pyramids},
+        {"opened", report.closing.opened},
+        {"split", report.closing.split},
+        {"moves", report.moves},
+        {"folded", report.folded},
+        {"leftovers", {{"flips", report.leftovers.flips}, {"new_vertices", report.leftovers.placed}, {"flat", report.leftovers.flat}}}};
     if (t.triangles > 0) all["thin"] = std::move(thin);
     return all;
 }

@@ -22,7 +22,8 @@ constexpr double gain = 1e-6;                        // less is none
 /// Edges and faces of facets, which stay.
 class FixedParts {
 public:
-    explicit FixedParts(std::span<const Triangle> triangles) {
+    FixedParts(std::span<const Triangle> triangles, std::span<const std::array<std::uint32_t, 2>> edges) {
+        for (const auto& e : edges) edges_.insert(key(e[0], e[1]));
         for (const Triangle& t : triangles) {
             Triangle sorted = t;
             std::ranges::sort(sorted);
@@ -241,8 +242,8 @@ private:
 
 class Improver {
 public:
-    Improver(const RegionFacets& facets, RegionCells& region)
-        : first_free_(static_cast<std::uint32_t>(facets.positions.size())), fixed_(facets.triangles), mesh_(facets, region) {}
+    Improver(const RegionFacets& facets, RegionCells& region, std::span<const std::array<std::uint32_t, 2>> kept = {})
+        : first_free_(static_cast<std::uint32_t>(facets.positions.size())), fixed_(facets.triangles, kept), mesh_(facets, region) {}
 
     void run(const Monitor* monitor) {
         done.bad_before = count_bad();
@@ -416,8 +417,9 @@ Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region) {
     return improver.done;
 }
 
-Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor) {
-    Improver improver(facets, region);
+Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor,
+                    std::span<const std::array<std::uint32_t, 2>> kept) {
+    Improver improver(facets, region, kept);
     improver.run(monitor);
     improver.cells().put_back(facets, region);
     return improver.done;

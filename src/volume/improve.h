@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 #include "base/monitor.h"
 #include "volume/region_cells.h"
@@ -20,7 +22,9 @@ struct Improvement {
 /// (exactly), and fill the same region. Results depend on the cells alone. Cost: as the number of bad cells and of those around them.
 /// Source: L. Freitag, C. Ollivier-Gooch, Tetrahedral mesh improvement using swapping and smoothing (1997); the ring around an edge is
 /// filled as by G. Klincsek (1980); A. Botella (2016), 2.6.4, for moves that make no cell around worse.
-Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor);
+/// \param kept more edges that stay, over the same vertices
+Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor,
+                    std::span<const std::array<std::uint32_t, 2>> kept = {});
 
 /// Removes cells that are flat on two facets, by the one edge inside that they have: where a surface is even all four vertices of a cell
 /// may lie in it. Others stay as they are. Cost: linear, and as the cells around these.
