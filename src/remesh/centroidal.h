@@ -11,7 +11,7 @@ struct CentroidalRules {
     IsotropicRules start;        ///< how the first vertices are found
     unsigned most_rounds = 120;  ///< in each of which all vertices move
     double least_step = 0.003;   ///< rounds end where no more than a hundredth of the vertices move by more than this share of its size
-    double polished_below = 34;  ///< degrees, as of IsotropicRules
+    double polished_below = 38;  ///< degrees, as of IsotropicRules
 };
 
 /// Vertices of a surface as a centroidal Voronoi tessellation of it, its border fixed: each inner vertex lies at the centroid of its

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,19 +51,13 @@ void tell_overlaps(const SurfaceModel& model, const std::vector<LeftOverlap>& le
     }
 }
 
-struct Arranged {
-    StepOutcome outcome;
-    bool clean = true;  ///< nothing crosses any more
-};
-
 /// \param reach share of the tolerance within which a vertex becomes a part of an edge or a face
 /// \param nothing what the report says where nothing was done
-Result<Arranged> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach, const char* nothing) {
+Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach, const char* nothing) {
     note_uncut_borders(model);
     auto cut = arrangement::arrange(model.model.soup, {.tolerance = model.lengths.tolerance, .reach = reach, .monitor = options.monitor});
     if (!cut) return std::move(cut).why();
-    Arranged arranged{{}, cut->clean};
-    StepOutcome& outcome = arranged.outcome;
+    StepOutcome outcome;
     outcome.what.message = message_of(*cut, nothing);
     if (!cut->clean) outcome.what.message += "; after " + counted(cut->rounds, "round", "rounds") + " something still crosses";
     outcome.changed = cut->cut + cut->merged + cut->collapsed + cut->doubled;
@@ -73,35 +66,18 @@ Result<Arranged> arrange_model(SurfaceModel& model, const SurfaceStepOptions& op
     outcome.mean_displacement = d.mean;
     take_soup(model, std::move(cut->soup), cut->origin);
     tell_overlaps(model, leave_out_overlaps(model), outcome);
-    return arranged;
-}
-
-/// One step of two: what the second one did is told behind the first.
-StepOutcome one_after_the_other(StepOutcome first, StepOutcome second, const std::string& between) {
-    first.what.message += between + second.what.message;
-    first.what.entities.insert(first.what.entities.end(), second.what.entities.begin(), second.what.entities.end());
-    first.changed += second.changed;
-    first.max_displacement += second.max_displacement;
-    first.mean_displacement = std::max(first.mean_displacement, second.mean_displacement);
-    return first;
+    return outcome;
 }
 
 }  // namespace
 
 Result<StepOutcome> weld_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
     constexpr double nearly_all = 0.99;  // vertices keep the tolerance from each other, so that edges bend and do not fold
-    auto welded = arrange_model(model, options, nearly_all, "nothing lies within the tolerance of something else, and nothing crosses");
-    if (!welded) return std::move(welded).why();
-    if (welded->clean) return std::move(welded->outcome);
-    auto cut = cut_surfaces(model, options);
-    if (!cut) return std::move(cut).why();
-    return one_after_the_other(std::move(welded->outcome), std::move(*cut), ", so that it was cut: ");
+    return arrange_model(model, options, nearly_all, "nothing lies within the tolerance of something else, and nothing crosses");
 }
 
 Result<StepOutcome> cut_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
-    auto cut = arrange_model(model, options, arrangement::ArrangeOptions().reach, "nothing crosses");
-    if (!cut) return std::move(cut).why();
-    return std::move(cut->outcome);
+    return arrange_model(model, options, arrangement::ArrangeOptions().reach, "nothing crosses");
 }
 
 }  // namespace geomend::repair

@@ -210,13 +210,13 @@ TEST(Mesh, CellsNearASurfaceAreSmallWhereADistanceFromItSaysSoAndSurfacesStay) {
 TEST(Mesh, ARegionHasASizeOfItsOwn) {
     const TemporaryFolder folder;
     const json even = mesh(sample("layered_box.ml"), folder / "even.vtu", {"--size", "150"});
-    const std::string name = even["regions"][0]["name"];
+    const std::string name = even["regions"][1]["name"];  // the first one has too few triangles around for smaller cells
     const json one = mesh(sample("layered_box.ml"), folder / "one.vtu", {"--size", "150", "--size-of", name + "=40"});
     ASSERT_TRUE(one.is_object() && one["written"] == true);
     for (std::size_t r = 0; r < one["regions"].size(); ++r) {
         const auto before = even["regions"][r]["cells"]["tetrahedron"].get<std::uint64_t>(),
                    after = one["regions"][r]["cells"]["tetrahedron"].get<std::uint64_t>();
-        if (r == 0) EXPECT_GT(after, 3 * before);
+        if (r == 1) EXPECT_GT(after, 3 * before);
         else EXPECT_EQ(after, before);
     }
     const auto wrong = run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--size-of", "fautl=40"});
