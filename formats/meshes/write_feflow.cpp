@@ -112,8 +112,6 @@ void write_features(const VolumeMesh& mesh, OutputFile& file) {
 
 Result<std::vector<Loss>> write_feflow(const VolumeMesh& mesh, OutputSet& out, const WriteOptions&) {
     std::vector<Loss> losses = common_losses(mesh, "FEFLOW");
-    for (const auto& set : mesh->face_sets)
-        add_loss(losses, {LossClass::identity, set.name, "set of faces", "FEFLOW problems have sets of cells only", set.faces.size()});
     OutputFile& file = out.main_file();
     write_head(mesh, file);
     write_elements(mesh, file);

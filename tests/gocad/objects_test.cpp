@@ -185,7 +185,8 @@ TEST(GocadTSurf, RegionBitsBecomeNodeSets) {
 TEST(GocadTSurf, ARegionWithoutANameIsWrittenByItsBit) {
     Dataset d = dataset_of("GOCAD TSurf 1\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nTRGL 1 2 3\nEND\n");
     info_of(d.objects[0]).sets.push_back({"", AttributeLocation::point, {1}});
-    const ObjectInfo& info = surface_at(dataset_of(written(d, "gocad-ts")), 0).info;
+    const Dataset back = dataset_of(written(d, "gocad-ts"));
+    const ObjectInfo& info = surface_at(back, 0).info;
     ASSERT_EQ(info.sets.size(), 1u);
     EXPECT_EQ(info.sets[0].name, "region_0");
     EXPECT_EQ(info.sets[0].members, std::vector<std::uint32_t>{1});
