@@ -11,7 +11,7 @@ namespace geomend {
 
 namespace {
 
-constexpr double most_points = 20'000;
+constexpr double most_points = 4'000;  // TetGen takes long for tetrahedra between more of them
 
 struct Box {
     Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};

@@ -11,7 +11,7 @@
 namespace geomend {
 
 /// Sizes at the points of a lattice over a region: a function of places. \param step the lattice's, which is larger where there would be
-/// more than some 20,000 points. Cost: that of so many calls.
+/// more than some 4,000 points. Cost: that of so many calls.
 std::vector<volumes::SizedPoint> lattice_of_sizes(const volumes::RegionFacets& facets, double step,
                                                   const std::function<double(const Vec3&)>& size);
 

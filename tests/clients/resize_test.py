@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(os.environ.get("GEOMEND_SOURCE_DIR", pathlib.Path(__file__).parents[2])).resolve()
-YOUNG, POISSON, PRESSURE, WEIGHT = 1e10, 0.25, 1e7, 2.4e4  # pascal, pascal for each metre
+YOUNG, POISSON, PRESSURE, WEIGHT = 1e10, 0.25, 2e7, 2.4e4  # pascal, pascal for each metre
 ROUNDS = 6
 
 wrong = []
