@@ -31,7 +31,7 @@ StepReport drop(CornerPointGrid& grid, const std::vector<std::size_t>& cells, co
     validators::list_cells(grid, found, report);
     report.message = cells.empty() ? "no active cell is " + what
                                    : counted(found.count, "active cell", "active cells") + " that " + (cells.size() == 1 ? "is " : "are ") +
-                                         what + (cells.size() == 1 ? " became inactive" : " became inactive");
+                                         what + " became inactive";
     if (cells.empty()) return report;
     const auto leads = [&](std::uint64_t cell) { return dropped[cell % grid.cell_count()]; };
     const auto connections = std::ranges::count_if(grid.connections, [&](const auto& c) { return leads(c.first) || leads(c.second); });
