@@ -4,20 +4,11 @@
 #include <tbb/parallel_sort.h>
 
 #include "base/parallel.h"
+#include "geometry/spread_bits.h"
 
 namespace geomend {
 
 namespace {
-
-/// The lowest 21 bits of a number, two places between each and the next.
-std::uint64_t spread(std::uint64_t x) {
-    x &= 0x1fffff;
-    x = (x | x << 32) & 0x1f00000000ffff;
-    x = (x | x << 16) & 0x1f0000ff0000ff;
-    x = (x | x << 8) & 0x100f00f00f00f00f;
-    x = (x | x << 4) & 0x10c30c30c30c30c3;
-    return (x | x << 2) & 0x1249249249249249;
-}
 
 BoxTree::Corners around(std::span<const BoxTree::Corners> boxes) {
     BoxTree::Corners all = boxes.front();
@@ -47,7 +38,7 @@ BoxTree::BoxTree(std::span<const Corners> boxes) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const double extent = all[1][k] - all[0][k];
                 const double share = extent > 0 ? (0.5 * (boxes[i][0][k] + boxes[i][1][k]) - all[0][k]) / extent : 0;
-                code |= spread(static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * 0x1fffff)) << k;
+                code |= spread_bits(static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * 0x1fffff)) << k;
             }
             places[i] = {code, static_cast<std::uint32_t>(i)};
         }

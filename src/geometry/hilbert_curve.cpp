@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "geometry/spread_bits.h"
+
 namespace geomend {
 
 namespace {
@@ -88,20 +90,10 @@ constexpr TwoSteps make_two_steps() {
 
 constexpr TwoSteps two_steps = make_two_steps();
 
-/// The lowest 21 bits of a number with two empty places between each two.
-std::uint64_t spread(std::uint64_t x) {
-    x &= 0x1fffff;
-    x = (x | x << 32) & 0x001f00000000ffff;
-    x = (x | x << 16) & 0x001f0000ff0000ff;
-    x = (x | x << 8) & 0x100f00f00f00f00f;
-    x = (x | x << 4) & 0x10c30c30c30c30c3;
-    return (x | x << 2) & 0x1249249249249249;
-}
-
 }  // namespace
 
 std::uint64_t hilbert_place(const std::array<std::uint32_t, 3>& x, unsigned bits) {
-    const std::uint64_t octants = spread(x[0]) | spread(x[1]) << 1 | spread(x[2]) << 2;
+    const std::uint64_t octants = spread_bits(x[0]) | spread_bits(x[1]) << 1 | spread_bits(x[2]) << 2;
     std::uint64_t place = 0;
     std::uint8_t state = 0;
     unsigned left = bits;
