@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text_cursor.h"
 #include "base/wording.h"
 #include "volume/stress_error.h"
 
@@ -14,10 +15,6 @@ namespace {
 
 Failure no_stress(const ResizeRequest& request, const std::string& why) {
     return failure(FailureKind::cannot_hold, "F026", {request.file}, "--resize-by: " + why);
-}
-
-bool is_called(const Attribute& a, std::string_view name) {
-    return std::ranges::equal(a.name, name, [](char x, char y) { return (x >= 'A' && x <= 'Z' ? x + ('a' - 'A') : x) == y; });
 }
 
 /// Only faces and lines beside tetrahedra.
@@ -39,7 +36,7 @@ Result<const Attribute*> stress_of(const CellMesh& mesh, const ResizeRequest& re
         const bool fits = a.location == AttributeLocation::cell && (a.components == 6 || a.components == 9);
         if (!fits || std::holds_alternative<std::vector<std::string>>(a.values)) continue;
         all.push_back(&a);
-        if (named == nullptr && (is_called(a, "stress") || is_called(a, "s"))) named = &a;
+        if (named == nullptr && (same_word(a.name, "stress") || same_word(a.name, "s"))) named = &a;
     }
     if (named != nullptr) return named;
     if (all.size() == 1) return all.front();
@@ -58,7 +55,7 @@ Result<StressedCells> stressed_cells(const CellMesh& mesh, const Attribute& stre
     made.points = mesh.points;
     const Attribute* young = nullptr;
     for (const Attribute& a : mesh.info.attributes) {
-        if (a.location == AttributeLocation::cell && a.components == 1 && is_called(a, "young")) young = &a;
+        if (a.location == AttributeLocation::cell && a.components == 1 && same_word(a.name, "young")) young = &a;
     }
     for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
         if (is_beside(mesh.types[c])) continue;

@@ -15,25 +15,14 @@
 namespace geomend::remeshing {
 namespace {
 
-WorkSurface fixed_at_borders(const EdgeMesh& reference, std::span<const double> sizes) {
-    WorkSurface work = work_surface(reference, {sizes, {}, 0, nullptr});
-    for (VertexKind& kind : work.kinds) kind = kind == VertexKind::old ? VertexKind::fixed : kind;
-    return work;
-}
-
-TriangleQuality all_triangles(const EdgeMesh& mesh) {
-    TriangleQuality sum;
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-        if (mesh.has_triangle(t)) sum.add(mesh.triangle(t));
-    }
-    return sum;
-}
+using test::quality_of;
+using test::with_fixed_borders;
 
 RC_GTEST_PROP(Centroidal, TopologyStaysAndVerticesLieOnTheSurface, ()) {
     const double wave = *rc::gen::inRange(0, 300) / 100.0, length = *rc::gen::inRange(2, 12), size = *rc::gen::inRange(40, 600) / 100.0;
     const EdgeMesh reference = test::sheet(14, 11, [&](double x, double y) { return wave * std::sin(x / length) * std::cos(y / length); });
     const std::vector<double> sizes(reference.places.size(), size);
-    WorkSurface work = fixed_at_borders(reference, sizes);
+    WorkSurface work = with_fixed_borders(reference, sizes);
     remesh_centroidal(work, {});
     RC_ASSERT(is_consistent(work.mesh));
     RC_ASSERT(test::numbers_of(work.mesh).euler == test::numbers_of(reference).euler);
@@ -47,11 +36,11 @@ RC_GTEST_PROP(Centroidal, TopologyStaysAndVerticesLieOnTheSurface, ()) {
 TEST(Centroidal, AFlatSheetHasBetterTrianglesThanWithEvenEdgesAlone) {
     const EdgeMesh reference = test::sheet(30, 30, [](double, double) { return 0.0; });
     const std::vector<double> sizes(reference.places.size(), 0.7);  // so that its squares go: they are at rest as they are
-    WorkSurface even = fixed_at_borders(reference, sizes), work = fixed_at_borders(reference, sizes);
+    WorkSurface even = with_fixed_borders(reference, sizes), work = with_fixed_borders(reference, sizes);
     remesh_isotropic(even, {});
     remesh_centroidal(work, {});
-    EXPECT_GT(all_triangles(work.mesh).mean_shape(), all_triangles(even.mesh).mean_shape() + 0.01);
-    EXPECT_GT(all_triangles(work.mesh).mean_quality(), 0.95);
+    EXPECT_GT(quality_of(work.mesh).mean_shape(), quality_of(even.mesh).mean_shape() + 0.01);
+    EXPECT_GT(quality_of(work.mesh).mean_quality(), 0.95);
 }
 
 // The cells of a regular hexagonal pattern are hexagons around their sites: nothing moves.
@@ -74,7 +63,7 @@ TEST(Centroidal, EquilateralTrianglesStay) {
     }
     const EdgeMesh reference = std::move(fanned_mesh(places, corners, neighbours)->mesh);
     const std::vector<double> sizes(places.size(), 1.0);
-    WorkSurface work = fixed_at_borders(reference, sizes);
+    WorkSurface work = with_fixed_borders(reference, sizes);
     EXPECT_EQ(move_to_centroids(work, 1e-9), 0u);
     for (std::uint32_t v = 0; v < places.size(); ++v) EXPECT_LT(length_of(minus(work.mesh.places[v], reference.places[v])), 1e-9);
 }

@@ -20,6 +20,8 @@ namespace geomend::remeshing {
 namespace {
 
 using test::numbers_of;
+using test::quality_of;
+using test::with_fixed_borders;
 
 /// The places of the vertices on borders.
 std::set<Vec3> border_places(const EdgeMesh& mesh) {
@@ -28,21 +30,6 @@ std::set<Vec3> border_places(const EdgeMesh& mesh) {
         if (mesh.has_vertex(v) && mesh.on_border(v)) places.insert(mesh.places[v]);
     }
     return places;
-}
-
-/// All vertices of borders stay.
-WorkSurface with_fixed_borders(const EdgeMesh& reference, std::span<const double> sizes) {
-    WorkSurface work = work_surface(reference, {sizes, {}, 0, nullptr});
-    for (VertexKind& kind : work.kinds) kind = kind == VertexKind::old ? VertexKind::fixed : kind;
-    return work;
-}
-
-TriangleQuality quality_of(const EdgeMesh& mesh) {
-    TriangleQuality sum;
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-        if (mesh.has_triangle(t)) sum.add(mesh.triangle(t));
-    }
-    return sum;
 }
 
 RC_GTEST_PROP(Isotropic, TopologyAndBordersStayAndVerticesLieOnTheSurface, ()) {

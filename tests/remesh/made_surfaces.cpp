@@ -8,6 +8,9 @@
 namespace geomend::test {
 
 using remeshing::EdgeMesh;
+using remeshing::TriangleQuality;
+using remeshing::VertexKind;
+using remeshing::WorkSurface;
 
 EdgeMesh mesh_of(const std::vector<Vec3>& places, const std::vector<std::uint32_t>& corners) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
@@ -82,6 +85,20 @@ MeshNumbers numbers_of(const EdgeMesh& mesh) {
     numbers.euler = static_cast<std::int64_t>(numbers.vertices) - static_cast<std::int64_t>((halves + numbers.border_edges) / 2) +
                     static_cast<std::int64_t>(numbers.triangles);
     return numbers;
+}
+
+WorkSurface with_fixed_borders(const EdgeMesh& reference, std::span<const double> sizes) {
+    WorkSurface work = work_surface(reference, {sizes, {}, 0, nullptr});
+    for (VertexKind& kind : work.kinds) kind = kind == VertexKind::old ? VertexKind::fixed : kind;
+    return work;
+}
+
+TriangleQuality quality_of(const EdgeMesh& mesh) {
+    TriangleQuality sum;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (mesh.has_triangle(t)) sum.add(mesh.triangle(t));
+    }
+    return sum;
 }
 
 }  // namespace geomend::test

@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "remesh/edge_mesh.h"
+#include "remesh/triangle_quality.h"
+#include "remesh/work_surface.h"
 
 namespace geomend::test {
 
@@ -24,5 +27,11 @@ struct MeshNumbers {
     bool operator==(const MeshNumbers&) const = default;
 };
 MeshNumbers numbers_of(const remeshing::EdgeMesh& mesh);
+
+/// A mesh to remesh, of which all vertices of borders stay.
+remeshing::WorkSurface with_fixed_borders(const remeshing::EdgeMesh& reference, std::span<const double> sizes);
+
+/// Of all triangles that there are.
+remeshing::TriangleQuality quality_of(const remeshing::EdgeMesh& mesh);
 
 }  // namespace geomend::test
