@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <utility>
 
 namespace geomend::gocad {
 
@@ -59,8 +60,10 @@ private:
     using Wanted = std::map<std::pair<RecordQuery::Kind, std::int64_t>, std::vector<std::size_t>>;
 
     void line(std::string_view rest, std::uint64_t number) {
+        if (rest.starts_with("TRGL ")) return triangle(number);  // nearly all lines are this, or points
+        if (!wants_points_ && (rest.starts_with("VRTX ") || rest.starts_with("PVRTX "))) return;
         const std::string_view whole = rest, word = take_word(rest);
-        if (word == "TRGL") return found(RecordQuery::triangle, ++triangles_, number);
+        if (word == "TRGL") return triangle(number);
         if (word == "VRTX" || word == "PVRTX" || word == "ATOM" || word == "PATOM")
             return wants_points_ ? found(RecordQuery::point, number_in(take_word(rest)), number) : void();
         if (word == "BORDER") return found(RecordQuery::border, number_in(take_word(rest)), number);
@@ -82,12 +85,21 @@ private:
         }
     }
 
+    /// Triangles are wanted by their numbers, which ascend: the next one is known.
+    void triangle(std::uint64_t number) {
+        ++triangles_;
+        if (wanted_ == nullptr || next_ == wanted_->end() || next_->first != std::pair(RecordQuery::triangle, triangles_)) return;
+        take(next_->second, number);
+        ++next_;
+    }
+
     void name(std::string_view text) {
         is_named_ = true;
         const std::string object(name_at_end(text.substr(0, text.find('}'))));
         ++times_[object];
         const auto at = of_object_.find(object);
         wanted_ = at == of_object_.end() ? nullptr : &at->second;
+        if (wanted_ != nullptr) next_ = wanted_->lower_bound({RecordQuery::triangle, triangles_ + 1});
         wants_points_ =
             wanted_ != nullptr && std::ranges::any_of(*wanted_, [](const auto& entry) { return entry.first.first == RecordQuery::point; });
     }
@@ -95,8 +107,11 @@ private:
     void found(RecordQuery::Kind kind, std::int64_t id, std::uint64_t number) {
         if (wanted_ == nullptr) return;
         const auto at = wanted_->find({kind, id});
-        if (at == wanted_->end()) return;
-        for (const std::size_t q : at->second) {
+        if (at != wanted_->end()) take(at->second, number);
+    }
+
+    void take(std::span<const std::size_t> queries, std::uint64_t number) {
+        for (const std::size_t q : queries) {
             if (lines_[q] == 0) lines_[q] = number;
         }
     }
@@ -124,6 +139,7 @@ private:
     std::map<std::string, unsigned> times_;
     std::map<std::pair<RecordQuery::Kind, std::string>, unsigned> list_times_;
     const Wanted* wanted_ = nullptr;
+    Wanted::const_iterator next_;  ///< of those the next triangle; where there are any
     bool is_named_ = false, is_model_ = false, wants_points_ = false;
     std::int64_t triangles_ = 0;
 };

@@ -59,21 +59,27 @@ struct Features {
 };
 
 Features features_near(const std::array<Vec3, 3>& own, const Body& other, double near) {
-    const std::array<Vec3, 3> ways{minus(own[0], other.corners[0]), minus(own[1], other.corners[0]), minus(own[2], other.corners[0])};
+    Vec3 heights{};
     double reach = 0;
-    for (const Vec3& way : ways) reach = std::max(reach, std::abs(way[0]) + std::abs(way[1]) + std::abs(way[2]));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 way = minus(own[k], other.corners[0]);
+        reach = std::max(reach, std::abs(way[0]) + std::abs(way[1]) + std::abs(way[2]));
+        heights[k] = dot(other.normal, way);
+    }
     const double beyond = other.limit + other.rounding * reach, wide = near * (1 + 1e-6);
+    Features found;
+    // Most are: their boxes are near each other, since that is how they were found.
+    found.is_apart = std::min({heights[0], heights[1], heights[2]}) > beyond || std::max({heights[0], heights[1], heights[2]}) < -beyond;
+    if (found.is_apart) return found;
     // Of each corner, the sides of the other's box and plane on which it is too far away.
     std::array<unsigned, 3> sides{};
     for (std::size_t k = 0; k < 3; ++k) {
-        const double height = dot(other.normal, ways[k]);
-        sides[k] = unsigned{height > beyond} | unsigned{height < -beyond} << 1;
+        sides[k] = unsigned{heights[k] > beyond} | unsigned{heights[k] < -beyond} << 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double x = own[k][axis];
             sides[k] |= unsigned{x - other.high[axis] > wide} << (2 + 2 * axis) | unsigned{other.low[axis] - x > wide} << (3 + 2 * axis);
         }
     }
-    Features found;
     found.is_apart = (sides[0] & sides[1] & sides[2]) != 0;
     for (std::size_t k = 0; k < 3; ++k) {
         found.vertices |= static_cast<std::uint8_t>(unsigned{sides[k] == 0} << k);

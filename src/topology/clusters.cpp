@@ -21,41 +21,71 @@ bool counts(const UsedPoints& used, std::uint32_t t, std::span<const std::uint8_
     return std::ranges::none_of(used.triangles[t], [&](std::uint32_t v) { return left_out[v] != 0; });
 }
 
-void widen(PartExtent& part, const ObjectInfo& info, const Vec3& p) {
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Bounds {
+    Vec3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
+
+    void widen(const Vec3& p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+};
+
+/// Adds what one object has of a part. The largest coordinates, as they are stored, are at the bounds, since rounding keeps order.
+void widen(PartExtent& part, const ObjectInfo& info, const Bounds& bounds) {
     double& largest = info.precision == CoordinatePrecision::single_precision ? part.largest_single : part.largest_double;
     for (std::size_t k = 0; k < 3; ++k) {
-        part.low[k] = std::min(part.low[k], p[k]);
-        part.high[k] = std::max(part.high[k], p[k]);
-        largest = std::max(largest, std::abs(p[k] - info.stored_around[k]));
+        if (bounds.low[k] > bounds.high[k]) continue;
+        part.low[k] = std::min(part.low[k], bounds.low[k]);
+        part.high[k] = std::max(part.high[k], bounds.high[k]);
+        for (const double x : {bounds.low[k], bounds.high[k]}) largest = std::max(largest, std::abs(x - info.stored_around[k]));
     }
 }
 
+/// Sums over the triangles of a part.
+struct PartSums {
+    double weight = 0;
+    Vec3 origin{}, weighted{}, plain{};
+    std::uint64_t triangles = 0;
+
+    void add(const std::array<Vec3, 3>& corners, double share) {
+        if (triangles++ == 0) origin = corners[0];
+        const Vec3 sum = plus(minus(corners[0], origin), plus(minus(corners[1], origin), minus(corners[2], origin)));
+        plain = plus(plain, sum);
+        weighted = plus(weighted, times(share / 3, sum));
+        weight += share;
+    }
+    Vec3 centroid() const {
+        return plus(origin, weight > 0 ? times(1 / weight, weighted) : times(1 / (3 * static_cast<double>(triangles)), plain));
+    }
+};
+
 PartExtent extent_of(const Dataset& dataset, const UsedPoints& used, std::span<const std::uint32_t> triangles,
                      std::span<const std::uint8_t> left_out) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
     PartExtent part;
     part.low = {infinite, infinite, infinite};
     part.high = {-infinite, -infinite, -infinite};
-    Vec3 origin{}, weighted{}, plain{};
-    std::uint64_t corners = 0;
-    for (const std::uint32_t t : triangles) {
-        if (!counts(used, t, left_out)) continue;
-        const ObjectInfo& info = info_of(dataset.objects[used.object[t]]);
-        const double weight = used.weight(t);
-        const auto triangle = used.corners(t);
-        if (part.empty) origin = triangle[0];
-        part.empty = false;
-        part.weight += weight;
-        for (const Vec3& p : triangle) {
-            const Vec3 d = minus(p, origin);
-            plain = plus(plain, d);
-            weighted = plus(weighted, times(weight / 3, d));
-            widen(part, info, p);
+    PartSums sums;
+    // Triangles come object by object.
+    for (std::size_t i = 0; i < triangles.size();) {
+        const std::uint32_t object = used.object[triangles[i]];
+        Bounds bounds;
+        for (; i < triangles.size() && used.object[triangles[i]] == object; ++i) {
+            const std::uint32_t t = triangles[i];
+            if (!counts(used, t, left_out)) continue;
+            const auto corners = used.corners(t);
+            sums.add(corners, used.weights[t]);
+            for (const Vec3& p : corners) bounds.widen(p);
         }
-        corners += 3;
+        widen(part, info_of(dataset.objects[object]), bounds);
     }
+    part.empty = sums.triangles == 0;
     if (part.empty) return part;
-    part.centroid = plus(origin, part.weight > 0 ? times(1 / part.weight, weighted) : times(1 / static_cast<double>(corners), plain));
+    part.weight = sums.weight;
+    part.centroid = sums.centroid();
     double square = 0;
     for (const std::uint32_t t : triangles) {
         if (!counts(used, t, left_out)) continue;

@@ -28,13 +28,12 @@ struct Cluster {
 
 /// The middle one of the three edges.
 double middle_edge(const std::array<Vec3, 3>& t) {
-    std::array<double, 3> squares{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 d = minus(t[i], t[(i + 1) % 3]);
-        squares[i] = dot(d, d);
-    }
-    std::ranges::sort(squares);
-    return std::sqrt(squares[1]);
+    const auto square = [&](std::size_t i, std::size_t j) {
+        const Vec3 d = minus(t[i], t[j]);
+        return dot(d, d);
+    };
+    const double a = square(0, 1), b = square(1, 2), c = square(2, 0);
+    return std::sqrt(std::max(std::min(a, b), std::min(std::max(a, b), c)));
 }
 
 /// Everything that lengths are worked out from.
@@ -136,7 +135,7 @@ void Survey::measure_cluster(Cluster& cluster) const {
             cluster.radius = std::max(cluster.radius, dot(d, d));
         }
         if (!used_.is_weighted(t)) return;
-        edges.emplace_back(middle_edge(corners), used_.weight(t));
+        edges.emplace_back(middle_edge(corners), used_.weights[t]);
         if (used_.volumes[used_.object[t]].empty()) faces.push_back(corners);
     });
     cluster.radius = std::sqrt(cluster.radius);
@@ -152,7 +151,7 @@ std::vector<std::uint32_t> Survey::clusters_of_objects() const {
         for (std::uint32_t t = used_.first_triangle[o]; t < used_.first_triangle[o + 1]; ++t) {
             const auto& corners = used_.triangles[t];
             const bool counts = std::ranges::none_of(corners, [&](std::uint32_t v) { return left_out_[v] != 0; });
-            weights[cluster_of_[parts_.of_vertex[corners[0]]]] += counts ? used_.weight(t) : 0;
+            weights[cluster_of_[parts_.of_vertex[corners[0]]]] += counts ? used_.weights[t] : 0;
         }
         const auto larger = [&](const auto& a, const auto& b) {
             return std::pair(a.second, clusters_[a.first].radius) < std::pair(b.second, clusters_[b.first].radius);

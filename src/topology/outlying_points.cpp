@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <span>
@@ -21,10 +23,17 @@ constexpr double often_from = 9999;  // smaller ones are depths of something mor
 
 bool is_among(std::span<const double> numbers, double height) {
     const auto z = static_cast<float>(std::abs(height));
-    return z >= 999 && std::ranges::any_of(numbers, [&](double usual) { return static_cast<float>(usual) == z; });
+    return std::ranges::any_of(numbers, [&](double usual) { return static_cast<float>(usual) == z; });
 }
 bool is_odd(double height) { return is_among(odd_heights, height); }
-bool is_usual(double height) { return is_among(round_heights, height) || is_odd(height); }
+bool is_usual(double height) { return std::abs(height) > 998 && (is_among(round_heights, height) || is_odd(height)); }
+
+/// Of each vertex whether its height is a usual one, so that its triangles need not ask.
+std::vector<std::uint8_t> usual_heights(std::span<const Vec3> positions) {
+    std::vector<std::uint8_t> usual(positions.size());
+    for (std::size_t v = 0; v < positions.size(); ++v) usual[v] = is_usual(positions[v][2]) ? 1 : 0;
+    return usual;
+}
 
 template <class Visit>
 void each_edge(const std::array<std::uint32_t, 3>& t, const Visit& visit) {
@@ -32,13 +41,14 @@ void each_edge(const std::array<std::uint32_t, 3>& t, const Visit& visit) {
 }
 
 /// The usual ones of one object.
-void mark_usual(const UsedPoints& used, std::uint32_t object, std::vector<Outlying>& marks) {
+/// \param usual see usual_heights()
+void mark_usual(const UsedPoints& used, std::span<const std::uint8_t> usual, std::uint32_t object, std::vector<Outlying>& marks) {
     const auto triangles =
         std::span(used.triangles).subspan(used.first_triangle[object], used.first_triangle[object + 1] - used.first_triangle[object]);
     std::vector<std::uint32_t> vertices, suspects;
     for (const auto& t : triangles) {
         for (const std::uint32_t v : t) {
-            if (is_usual(used.positions[v][2])) suspects.push_back(v);
+            if (usual[v] != 0) suspects.push_back(v);
         }
     }
     if (suspects.empty()) return;
@@ -60,7 +70,7 @@ void mark_usual(const UsedPoints& used, std::uint32_t object, std::vector<Outlyi
     bool upright = false;                                                        // of those to suspects one is
     for (const auto& t : triangles) {
         each_edge(t, [&](std::uint32_t a, std::uint32_t b) {
-            const bool first = is_usual(used.positions[a][2]), second = is_usual(used.positions[b][2]);
+            const bool first = usual[a] != 0, second = usual[b] != 0;
             if (first && second) return;
             const Vec3 d = minus(used.positions[a], used.positions[b]);
             const double rise = std::abs(d[2]), way = std::hypot(d[0], d[1]), steepness = rise > 0 ? rise / way : 0;
@@ -105,6 +115,8 @@ private:
     bool counts(const std::array<std::uint32_t, 3>& t) const {
         return std::ranges::all_of(t, [&](std::uint32_t v) { return marks_[v] == Outlying::no; });
     }
+    /// What ilogb() gives of a positive number, -1023 for those below the smallest normal one.
+    static int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023; }
     double length(std::uint32_t a, std::uint32_t b) const {
         const Vec3 d = minus(used_.positions[a], used_.positions[b]);
         return std::sqrt(dot(d, d));
@@ -117,7 +129,7 @@ private:
             if (!counts(used_.triangles[t])) continue;
             each_edge(used_.triangles[t], [&](std::uint32_t a, std::uint32_t b) {
                 const double l = length(a, b);
-                if (l > 0) there[static_cast<std::size_t>(std::clamp(std::ilogb(l), -middle, octaves - 1 - middle) + middle)] = 1;
+                if (l > 0) there[static_cast<std::size_t>(std::clamp(exponent_of(l), -middle, octaves - 1 - middle) + middle)] = 1;
             });
         }
         int highest = octaves - 1;
@@ -196,7 +208,8 @@ private:
 
 std::vector<Outlying> find_outlying(const UsedPoints& used, const HangingParts& parts) {
     std::vector<Outlying> marks(used.positions.size(), Outlying::no);
-    for (std::uint32_t object = 0; object + 1 < used.first_triangle.size(); ++object) mark_usual(used, object, marks);
+    const std::vector<std::uint8_t> usual = usual_heights(used.positions);
+    for (std::uint32_t object = 0; object + 1 < used.first_triangle.size(); ++object) mark_usual(used, usual, object, marks);
     for (std::size_t p = 0; p < parts.size(); ++p) {
         if (parts[p].size() < 4) continue;
         Group one(used, parts[p], marks);

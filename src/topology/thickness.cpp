@@ -67,38 +67,55 @@ private:
     double weight_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;
 };
 
+/// Pairs of a length and its weight, in bins of lengths: what several quantiles have in common.
+class WeightedLengths {
+public:
+    /// \pre not empty; the lengths must outlive this
+    explicit WeightedLengths(std::span<const std::pair<double, double>> lengths) : lengths_(lengths) {
+        for (const auto& [length, weight] : lengths) {
+            total_ += weight;
+            low_ = std::min(low_, length);
+            high_ = std::max(high_, length);
+        }
+        scale_ = high_ > low_ ? bins / (high_ - low_) : 0;
+        for (const auto& [length, weight] : lengths) weights_[bin_of(length)] += weight;
+    }
+
+    /// The bin that the quantile lies in, then the members of that bin in order.
+    double quantile(double share) const {
+        double wanted = share * total_;
+        std::size_t bin = 0;
+        while (bin + 1 < bins && weights_[bin] <= wanted) wanted -= weights_[bin++];
+        while (weights_[bin] == 0 && bin > 0) --bin;  // rounding went past the last
+        std::vector<std::pair<double, double>> members;
+        for (const auto& length : lengths_) {
+            if (bin_of(length.first) == bin) members.push_back(length);
+        }
+        if (members.empty()) return high_;  // no length has a weight
+        std::ranges::sort(members);
+        for (const auto& [length, weight] : members) {
+            if (wanted < weight) return length;
+            wanted -= weight;
+        }
+        return members.back().first;
+    }
+
+private:
+    static constexpr std::size_t bins = 1024;
+    std::span<const std::pair<double, double>> lengths_;
+    double total_ = 0, low_ = HUGE_VAL, high_ = -HUGE_VAL, scale_ = 0;
+    std::array<double, bins> weights_{};
+
+    std::size_t bin_of(double length) const {
+        const double bin = scale_ * (length - low_);
+        return bin >= 0 ? static_cast<std::size_t>(std::min(bin, bins - 1.0)) : std::size_t{0};  // no number where the scale overflows
+    }
+};
+
 }  // namespace
 
 double weighted_quantile(std::span<const std::pair<double, double>> lengths, double share) {
-    constexpr std::size_t bins = 1024;
-    double wanted = 0, low = HUGE_VAL, high = -HUGE_VAL;
-    for (const auto& [length, weight] : lengths) {
-        wanted += weight * share;
-        low = std::min(low, length);
-        high = std::max(high, length);
-    }
-    // The bin that the quantile lies in, then the members of that bin in order.
-    const double scale = high > low ? bins / (high - low) : 0;
-    const auto bin_of = [&](double length) {
-        const double bin = scale * (length - low);
-        return bin >= 0 ? static_cast<std::size_t>(std::min(bin, bins - 1.0)) : std::size_t{0};  // no number where the scale overflows
-    };
-    std::array<double, bins> weights{};
-    for (const auto& [length, weight] : lengths) weights[bin_of(length)] += weight;
-    std::size_t bin = 0;
-    while (bin + 1 < bins && weights[bin] <= wanted) wanted -= weights[bin++];
-    while (weights[bin] == 0 && bin > 0) --bin;  // rounding went past the last
-    std::vector<std::pair<double, double>> members;
-    for (const auto& length : lengths) {
-        if (bin_of(length.first) == bin) members.push_back(length);
-    }
-    if (members.empty()) return high;  // no length has a weight
-    std::ranges::sort(members);
-    for (const auto& [length, weight] : members) {
-        if (wanted < weight) return length;
-        wanted -= weight;
-    }
-    return members.back().first;
+    return WeightedLengths(lengths).quantile(share);
 }
 
 Slab slab_of(std::span<const std::array<Vec3, 3>> triangles) {
@@ -119,8 +136,8 @@ Slab slab_of(std::span<const std::array<Vec3, 3>> triangles) {
             seen.add(middle, ahead / 3);
         }
     }
-    const double low = weighted_quantile(heights, outer);
-    slab.thickness = weighted_quantile(heights, 1 - outer) - low;
+    const WeightedLengths spread(heights);
+    slab.thickness = spread.quantile(1 - outer) - spread.quantile(outer);
     slab.sheets = seen.sheets();
     return slab;
 }

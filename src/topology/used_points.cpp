@@ -2,6 +2,7 @@
 #include "topology/used_points.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/disjoint_sets.h"
 #include "topology/weld.h"
@@ -84,6 +85,20 @@ void add_mesh(const CellMesh& mesh, Collector& collector) {
     }
 }
 
+/// The weight of each triangle, once for all who ask.
+void weigh(UsedPoints& used) {
+    used.weights.assign(used.triangles.size(), 0);
+    for (std::size_t o = 0; o < used.first_unweighted.size(); ++o) {
+        const std::vector<double>& volumes = used.volumes[o];
+        const std::uint32_t first = used.first_triangle[o];
+        for (std::uint32_t t = first; t < used.first_unweighted[o]; ++t) {
+            const auto [a, b, c] = used.corners(t);
+            const Vec3 n = cross(minus(b, a), minus(c, a));
+            used.weights[t] = volumes.empty() ? 0.5 * std::sqrt(dot(n, n)) : volumes[t - first];
+        }
+    }
+}
+
 }  // namespace
 
 UsedPoints used_points(const Dataset& dataset) {
@@ -113,6 +128,7 @@ UsedPoints used_points(const Dataset& dataset) {
         collector.weighted_end();
     }
     collector.end();
+    weigh(used);
     return used;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,19 +22,12 @@ struct UsedPoints {
     std::vector<std::uint32_t> first_unweighted;
     /// Per object with cells of three dimensions only and triangle its share of the volume of its cell; else empty: the area counts.
     std::vector<std::vector<double>> volumes;
+    std::vector<double> weights;  ///< per triangle its area, or its share of a volume; 0 where it only says what hangs together
 
     std::array<Vec3, 3> corners(std::uint32_t t) const {
         return {positions[triangles[t][0]], positions[triangles[t][1]], positions[triangles[t][2]]};
     }
     bool is_weighted(std::uint32_t t) const { return t < first_unweighted[object[t]]; }
-    double weight(std::uint32_t t) const {
-        const std::uint32_t o = object[t];
-        if (t >= first_unweighted[o]) return 0;
-        if (!volumes[o].empty()) return volumes[o][t - first_triangle[o]];
-        const auto [a, b, c] = corners(t);
-        const Vec3 n = cross(minus(b, a), minus(c, a));
-        return 0.5 * std::sqrt(dot(n, n));
-    }
 };
 
 /// Cost: linear.
