@@ -91,6 +91,15 @@ CLI::Validator is_positive_length() {
     return CLI::Validator(check, std::string());
 }
 
+CLI::Validator is_number_within(double low, double high) {
+    const auto check = [low, high](const std::string& text) {
+        double value = 0;
+        const bool good = parse_real(text, value) == NumberStatus::ok && value >= low && value <= high;
+        return good ? std::string() : "expected a number from " + rounded(low) + " to " + rounded(high) + "; found '" + text + "'";
+    };
+    return CLI::Validator(check, std::string());
+}
+
 Result<FormatOptions> format_options(const std::vector<std::string>& texts) {
     FormatOptions all;
     for (const std::string& text : texts) {

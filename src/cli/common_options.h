@@ -47,6 +47,9 @@ CLI::Validator is_length();
 /// The same, above 0.
 CLI::Validator is_positive_length();
 
+/// A number from low to high; one that is no number (nan) is none of them.
+CLI::Validator is_number_within(double low, double high);
+
 /// KEY=VALUE texts as pairs; failure (usage) where one has no '='.
 Result<FormatOptions> format_options(const std::vector<std::string>& texts);
 

@@ -267,7 +267,7 @@ void add_grid(CLI::App& program, ExitStatus& status) {
         ->check(is_length());
     command->add_option("--least-dip", o->least_dip, "Faults that are flatter are refused (default 30)")
         ->type_name("DEGREES")
-        ->check(CLI::Range(0.0, 90.0));
+        ->check(is_number_within(0, 90));
     command->add_option("--fault-sides", o->fault_sides, "Whether FAULTS names faces from one cell or both (default one)")
         ->type_name("one|both")
         ->check(CLI::IsMember({"one", "both"}));

@@ -106,6 +106,9 @@ ExitStatus run(const MeshOptions& o) {
     const std::string method = !o.method.empty() ? o.method : hexes && !o.recombine ? "lattice" : resizes ? "isotropic" : "keep";
     if (resizes && hexes)
         return report(failure(FailureKind::usage, "F018", {}, "--resize-by is for tetrahedra: --cells and --recombine do not go with it"));
+    if (resizes && method == "lattice")
+        return report(
+            failure(FailureKind::usage, "F018", {}, "--method lattice has cells of one size: --resize-by needs isotropic, cvt or keep"));
     if ((method == "isotropic" || method == "cvt") && !(o.size > 0) && !resizes)
         return report(failure(FailureKind::usage, "F018", {}, "--method " + method + " needs --size, the length that edges should have"));
     if (hexes && !(o.sizes.size_of.empty() && o.sizes.size_by.empty()))
@@ -214,10 +217,10 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
         ->type_name("FILE");
     command->add_option("--error", o->resize.allowed, "With --resize-by: the error that is allowed, as a share (default 0.05)")
         ->type_name("SHARE")
-        ->check(CLI::Range(1e-6, 1.0));
+        ->check(is_number_within(1e-6, 1));
     command->add_option("--poisson", o->resize.poisson, "With --resize-by: Poisson's ratio (default 0.25)")
         ->type_name("RATIO")
-        ->check(CLI::Range(0.0, 0.4999));
+        ->check(is_number_within(0, 0.4999));
     command->add_option("--ratio", o->ratio, "Most radius of the sphere around a cell by its shortest edge; 0 is any (default 1.4)")
         ->type_name("R")
         ->check(is_length());

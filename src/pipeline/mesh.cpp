@@ -190,9 +190,14 @@ remeshing::SizeRule nearest_size(const std::vector<volumes::SizedPoint>& sizes) 
 }
 
 /// Takes sizes by the error of a calculation, which new triangles get, too.
-Result<std::vector<volumes::SizedPoint>> take_resize(MeshRequest& request, MeshReport& report) {
+Result<std::vector<volumes::SizedPoint>> take_resize(const Dataset& dataset, MeshRequest& request, MeshReport& report) {
     if (!request.resize) return std::vector<volumes::SizedPoint>();
-    auto resized = sizes_by_stress(*request.resize, request.files.load);
+    std::vector<Vec3> points;
+    for (const Object& object : dataset.objects) {
+        if (const auto* surface = std::get_if<Surface>(&object))
+            points.insert(points.end(), surface->points.begin(), surface->points.end());
+    }
+    auto resized = sizes_by_stress(*request.resize, request.files.load, points);
     if (!resized) return std::move(resized).why();
     report.resized = resized->report;
     if (!(request.fill.size > 0)) request.fill.size = resized->report.largest_size;
@@ -232,7 +237,7 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& ask
     if (!report.errors.empty()) return cannot_fill(request.files.inputs.front(), "the model has errors");
     if (auto parted = part_sizes(dataset, request); !parted) return parted;
     if (request.remesh) request.remesh->size_by = request.size_by;
-    const auto points = take_resize(request, report);
+    const auto points = take_resize(dataset, request, report);
     if (!points) return points.why();
     std::optional<hexes::RegionLattices> lattices;
     if (request.on_lattice) {

@@ -2,103 +2,104 @@
 #include "pipeline/resize.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "base/text_cursor.h"
 #include "base/wording.h"
+#include "pipeline/stressed_cells.h"
 #include "volume/stress_error.h"
 
 namespace geomend {
 
 namespace {
 
-Failure no_stress(const ResizeRequest& request, const std::string& why) {
-    return failure(FailureKind::cannot_hold, "F026", {request.file}, "--resize-by: " + why);
-}
+/// The corners of the box around points.
+struct BoxAround {
+    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
-/// Only faces and lines beside tetrahedra.
-bool is_beside(CellType type) { return type < CellType::tetrahedron; }
-
-/// The tetrahedra of a file, with their stress.
-struct StressedCells {
-    std::vector<Vec3> points;
-    std::vector<std::array<std::uint32_t, 4>> cells;
-    std::vector<std::array<double, 6>> stress;
-    std::vector<std::uint32_t> groups;
-    std::vector<double> young;
+    void add(const Vec3& p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+    /// \pre not empty
+    double volume() const {
+        double product = 1;
+        for (std::size_t k = 0; k < 3; ++k) product *= std::max(0.0, high[k] - low[k]);
+        return product;
+    }
 };
 
-Result<const Attribute*> stress_of(const CellMesh& mesh, const ResizeRequest& request) {
-    std::vector<const Attribute*> all;
-    const Attribute* named = nullptr;
-    for (const Attribute& a : mesh.info.attributes) {
-        const bool fits = a.location == AttributeLocation::cell && (a.components == 6 || a.components == 9);
-        if (!fits || std::holds_alternative<std::vector<std::string>>(a.values)) continue;
-        all.push_back(&a);
-        if (named == nullptr && (same_word(a.name, "stress") || same_word(a.name, "s"))) named = &a;
+BoxAround common_box(const BoxAround& a, const BoxAround& b) {
+    BoxAround both;
+    for (std::size_t k = 0; k < 3; ++k) {
+        both.low[k] = std::max(a.low[k], b.low[k]);
+        both.high[k] = std::min(a.high[k], b.high[k]);
     }
-    if (named != nullptr) return named;
-    if (all.size() == 1) return all.front();
-    if (all.empty()) return no_stress(request, "no property of cells has the six components of a stress, or the nine of a matrix");
-    return no_stress(request, "several properties of cells have as many components as a stress, and none is called stress or S");
+    return both;
 }
 
-std::array<double, 6> stress_at(const Attribute& a, std::size_t cell) {
-    const auto at = [&](std::size_t i) { return value_as_double(a, cell * a.components + i); };
-    if (a.components == 6) return {at(0), at(1), at(2), at(3), at(4), at(5)};
-    return {at(0), at(4), at(8), at(1), at(5), at(2)};
+std::string box_text(const BoxAround& box) {
+    std::string text;
+    for (std::size_t k = 0; k < 3; ++k) {
+        text += std::string(k == 0 ? "" : ", ") + "xyz"[k] + " " + short_number(box.low[k]) + " to " + short_number(box.high[k]);
+    }
+    return text;
 }
 
-Result<StressedCells> stressed_cells(const CellMesh& mesh, const Attribute& stress, const ResizeRequest& request) {
-    StressedCells made;
-    made.points = mesh.points;
-    const Attribute* young = nullptr;
-    for (const Attribute& a : mesh.info.attributes) {
-        if (a.location == AttributeLocation::cell && a.components == 1 && same_word(a.name, "young")) young = &a;
+/// Whether a result lies where the model does: it may leave out a part of it, or reach farther, which is told.
+Result<std::string> compare_places(const StressedCells& cells, std::span<const Vec3> model, const std::string& file) {
+    constexpr double least = 0.5, most = 0.95;  // shares of the boxes
+    BoxAround own, other;
+    for (const Vec3& p : model) own.add(p);
+    for (const auto& cell : cells.cells) {
+        for (const std::uint32_t v : cell) other.add(cells.points[v]);
     }
-    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-        if (is_beside(mesh.types[c])) continue;
-        if (mesh.types[c] != CellType::tetrahedron)
-            return no_stress(request, "cells that are no tetrahedra: the error is estimated for linear tetrahedra");
-        const auto nodes = mesh.cell_nodes(c);
-        made.cells.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
-        made.stress.push_back(stress_at(stress, c));
-        if (!std::ranges::all_of(made.stress.back(), [](double v) { return std::isfinite(v); }))
-            return no_stress(request, "cell " + std::to_string(c) + " (from 0) has no stress");
-        if (!mesh.cell_entity.empty()) made.groups.push_back(mesh.cell_entity[c]);
-        if (young == nullptr) continue;
-        made.young.push_back(value_as_double(*young, c));
-        if (!(made.young.back() > 0) || !std::isfinite(made.young.back()))
-            return no_stress(request, "cell " + std::to_string(c) + " (from 0) has a young that is not above 0");
+    if (model.empty() || !(own.volume() > 0)) return std::string();
+    const double common = common_box(own, other).volume(), covered = common / own.volume(), used = common / other.volume();
+    const std::string places = "it lies in " + box_text(other) + ", the model in " + box_text(own);
+    if (!(covered >= least)) return no_stress(file, "the result is not of this model: " + places);
+    if (covered < most) return "the result leaves out a part of the model, where cells get the sizes at its end: " + places;
+    if (used < least) return "the model is a part of where the result lies: " + places;
+    return std::string();
+}
+
+/// Divides stress by its largest component: errors are shares, and so neither overflow nor vanish.
+void scale(std::vector<std::array<double, 6>>& stress) {
+    double largest = 0;
+    for (const auto& s : stress) {
+        for (const double v : s) largest = std::max(largest, std::abs(v));
     }
-    return made;
+    if (!(largest > 0)) return;
+    for (auto& s : stress) {
+        for (double& v : s) v /= largest;
+    }
 }
 
 }  // namespace
 
-Result<Resized> sizes_by_stress(const ResizeRequest& request, const LoadOptions& options) {
+Result<Resized> sizes_by_stress(const ResizeRequest& request, const LoadOptions& options, std::span<const Vec3> model) {
     LoadOptions own;
     own.monitor = options.monitor;
     auto dataset = load(request.file, own);
     if (!dataset) return std::move(dataset).why();
-    const auto has_cells = [](const Object& o) {
-        const auto* mesh = std::get_if<CellMesh>(&o);
-        return mesh != nullptr && std::ranges::any_of(mesh->types, [](CellType t) { return !is_beside(t); });
-    };
-    const auto found = std::ranges::find_if(dataset->objects, has_cells);
-    if (found == dataset->objects.end()) return no_stress(request, "there are no tetrahedra");
-    const auto& mesh = std::get<CellMesh>(*found);
-    const auto stress = stress_of(mesh, request);
-    if (!stress) return stress.why();
-    const auto all = stressed_cells(mesh, **stress, request);
-    if (!all) return all.why();
+    auto all = stressed_cells(*dataset, request.file);
+    if (!all) return std::move(all).why();
+    auto place = compare_places(*all, model, request.file);
+    if (!place) return std::move(place).why();
+    scale(all->stress);
     const volumes::StressField field{all->points, all->cells, all->stress, all->groups, all->young, request.poisson};
     const volumes::StressError error = volumes::stress_error(field, request.allowed);
     Resized made;
     made.sizes = volumes::sizes_at_points(field, error);
     ResizeReport& report = made.report;
-    report.stress = (*stress)->name;
+    report.stress = all->property;
+    report.place = std::move(*place);
     report.cells = all->cells.size();
     report.above = error.above;
     report.without_energy = error.without_energy;
@@ -106,7 +107,7 @@ Result<Resized> sizes_by_stress(const ResizeRequest& request, const LoadOptions&
     report.whole = error.whole;
     report.largest = error.largest;
     const auto [least, largest] = std::ranges::minmax_element(made.sizes, {}, &volumes::SizedPoint::size);
-    if (!(least->size > 0)) return no_stress(request, "a tetrahedron has no volume and no edges");
+    if (!(least->size > 0)) return no_stress(request.file, "a tetrahedron has no volume and no edges");
     report.least_size = least->size;
     report.largest_size = largest->size;
     return made;
@@ -120,6 +121,7 @@ Json resize_json(const ResizeReport& report) {
             {"largest", report.largest},
             {"above", report.above},
             {"without_energy", report.without_energy},
+            {"place", report.place},
             {"least_size", report.least_size},
             {"largest_size", report.largest_size}};
 }
@@ -128,7 +130,8 @@ std::string resize_text(const ResizeReport& report) {
     const auto percent = [](double share) { return rounded(100 * share) + " %"; };
     return "stress of " + counted(report.cells, "tetrahedron", "tetrahedra") + ": the error of the whole is " + percent(report.whole) +
            ", of single cells up to " + percent(report.largest) + "; " + std::to_string(report.above) + " of them are above " +
-           percent(report.allowed) + (report.above > 0 ? ": edges become shorter there\n" : "\n");
+           percent(report.allowed) + (report.above > 0 ? ": edges become shorter there\n" : "\n") +
+           (report.place.empty() ? std::string() : report.place + "\n");
 }
 
 }  // namespace geomend

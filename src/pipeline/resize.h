@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct ResizeRequest {
 /// What the stress of the file says.
 struct ResizeReport {
     std::string stress;                                      ///< the name of the property
+    std::string place;                                       ///< where the result and the model do not lie in one place; else empty
     std::uint64_t cells = 0, above = 0, without_energy = 0;  /// as of volumes::StressError
     double allowed = 0, whole = 0, largest = 0;
     double least_size = 0, largest_size = 0;  ///< that cells should have
@@ -31,11 +33,10 @@ struct Resized {
     std::vector<volumes::SizedPoint> sizes;
 };
 
-/// Reads tetrahedra with six (or, as a whole matrix, nine) components of stress for each, estimates the error, and gives the sizes that
-/// cells should have at their points. Stress may jump between the regions that the file states; of the properties with as many components
-/// it is the only one, or that called stress or S. Where cells have a property called young it is their modulus.
-/// Failure as of load(), or (cannot_hold, F026) where there are no tetrahedra, other cells, or no such property.
-Result<Resized> sizes_by_stress(const ResizeRequest& request, const LoadOptions& options);
+/// Reads tetrahedra with their stress, see stressed_cells(), estimates the error, and gives the sizes that cells should have at their
+/// points. \param model points of the model that is meshed: the result must lie there Failure as of load() and stressed_cells(); the
+/// latter, too, where the result covers less than half of the box around the model.
+Result<Resized> sizes_by_stress(const ResizeRequest& request, const LoadOptions& options, std::span<const Vec3> model);
 
 Json resize_json(const ResizeReport& report);
 std::string resize_text(const ResizeReport& report);

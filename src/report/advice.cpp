@@ -124,6 +124,10 @@ constexpr std::array advice = {
     Advice{"F025", "report it with the file; the other files were checked all the same"},
     Advice{"F026", "write each model to a file of its own, and fill them one by one", "several_models"},
     Advice{"F026", "give the surfaces of the model: wells, points, lines and maps have none", "no_surfaces"},
+    Advice{"F026",
+           "give what a calculation on the cells of geomend mesh has as its result: tetrahedra of first order in the place of the model, "
+           "each with six components of stress; or leave out --resize-by",
+           "no_stress"},
     Advice{"F026", "geomend convert writes its cells for simulators and viewers", "grid"},
     Advice{"F026",
            "geomend validate shows where the surfaces are open; geomend repair closes gaps, and adds the sides of a box with --box"},

@@ -235,6 +235,19 @@ TEST(Mesh, AResultWithoutStressIsRefused) {
     EXPECT_EQ(no_cells.status, 4);
     const auto no_file = run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--resize-by", folder / "none.vtu"});
     EXPECT_EQ(no_file.status, 3);
+    EXPECT_NE(no_stress.err.find("leave out --resize-by"), std::string::npos) << no_stress.err;
+}
+
+TEST(Mesh, NumbersThatAreNoneAreRefusedForResults) {
+    const TemporaryFolder folder;
+    for (const auto& [option, value] : {std::pair("--error", "nan"), {"--error", "0"}, {"--poisson", "nan"}, {"--poisson", "0.5"}}) {
+        const auto run = run_geomend(
+            {"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--resize-by", sample("layered_box.ml"), option, value});
+        EXPECT_EQ(run.status, 2) << option << ' ' << value;
+    }
+    const auto lattice = run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "no.vtu", "--size", "100", "--method", "lattice",
+                                      "--resize-by", sample("layered_box.ml")});
+    EXPECT_EQ(lattice.status, 2) << lattice.err;
 }
 
 TEST(Mesh, SurfacesWithoutARegionAreRefused) {
