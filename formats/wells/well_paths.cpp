@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +21,7 @@ namespace geomend::wells {
 
 namespace {
 
-enum class Column : std::uint8_t { well, measured_depth, x, y, elevation, depth, depth_below_bushing, other };
+enum class Column : std::uint8_t { well, measured_depth, x, y, elevation, depth, depth_below_bushing, bushing, other };
 
 struct Named {
     Column column;
@@ -53,6 +55,10 @@ constexpr std::array known_names{
     Named{Column::depth, "SSTVD"},
     Named{Column::depth, "TVDMSL"},
     Named{Column::depth_below_bushing, "TVD"},
+    Named{Column::bushing, "KB"},
+    Named{Column::bushing, "RKB"},
+    Named{Column::bushing, "KBELEVATION"},
+    Named{Column::bushing, "KELLYBUSHING"},
 };
 
 /// A name of a column in capital letters and digits, without its unit in brackets.
@@ -169,6 +175,30 @@ private:
     std::array<double, 2> first_{};
 };
 
+/// What exports put where a position is missing; -999 is no elevation of note either, but Z may well be that.
+bool is_missing(double value, Column column) { return value == -999.25 || (value == -999 && column != Column::elevation); }
+
+/// A well whose rows are being read.
+struct OpenWell {
+    Well well;
+    std::vector<std::vector<double>> others;       ///< per further column
+    std::uint64_t texts = 0;                       ///< fields of these that are no numbers
+    std::uint64_t missing = 0, first_missing = 0;  ///< rows without a position, and the line of the first
+    ZAgainstDepths heights;
+    bool has_bushing = false;  ///< its height is stated
+    std::uint64_t first_line = 0;
+};
+
+/// One row of a table.
+struct Row {
+    Vec3 position{};
+    std::optional<double> measured, below_sea, under_bushing, bushing;
+    std::string_view well;
+    std::vector<double> others;
+    std::uint64_t texts = 0;
+    bool is_missing = false;  ///< its position
+};
+
 class Reader {
 public:
     Reader(const Input& input, const ReadOptions& options, std::optional<ZPositive> sign)
@@ -186,7 +216,7 @@ public:
             if (cursor_.at_line_end()) continue;
             if (auto failed = take_line(trimmed(cursor_.line_text()))) return std::move(*failed);
         }
-        finish_well();
+        finish_wells();
         if (data_.objects.empty()) return unreadable("F017", {input_.name(), cursor_.line()}, "expected points of a well path, found none");
         tell_missing_line_end(input_, data_);
         return std::move(data_);
@@ -200,10 +230,8 @@ private:
     Dataset data_;
     Table table_;
     bool named_columns_ = false;
-    Well well_;
-    std::vector<std::vector<double>> others_;  ///< per further column
-    std::uint64_t texts_ = 0;
-    ZAgainstDepths heights_;
+    std::deque<OpenWell> open_ = std::deque<OpenWell>(1);  ///< in the order of their first rows; rows of wells may take turns
+    OpenWell* at_ = &open_.front();                        ///< the one that rows go to
 
     Failure malformed(const std::string& expected, std::string_view found) const {
         return unreadable("F012", location_of(input_, cursor_, found), "expected " + expected + ", found " + shown(found));
@@ -218,15 +246,15 @@ private:
         auto table = table_of(line);
         if (table && table->has_positions()) return take_names(std::move(*table));
         if (const auto name = name_line(line); name && !table_.has(Column::well)) {
-            finish_well();
-            well_.info.name = *name;
+            finish_wells();
+            at_->well.info.name = *name;
             return std::nullopt;
         }
         if (line == "-999") {
-            finish_well();
+            finish_wells();
             return std::nullopt;
         }
-        if (table && well_.path.empty() && !named_columns_) return take_names(std::move(*table));
+        if (table && at_->well.path.empty() && !named_columns_) return take_names(std::move(*table));
         return take_row(line);
     }
 
@@ -238,15 +266,31 @@ private:
         const auto number = [&](std::string_view text, double& to) {
             TextCursor words(text);
             double value = 0;
-            if (words.next_line() && words.real(value) == NumberStatus::ok && std::isfinite(value)) to = value;
+            const bool good = words.next_line() && words.real(value) == NumberStatus::ok && std::isfinite(value);
+            if (good) to = value;
+            return good;
         };
-        if (const auto name = fact("WELL NAME:"); !name.empty()) well_.info.name = name;
-        else if (const auto x = fact("WELL HEAD X-COORDINATE:"); !x.empty()) number(x, well_.head[0]);
-        else if (const auto y = fact("WELL HEAD Y-COORDINATE:"); !y.empty()) number(y, well_.head[1]);
-        else if (const auto kb = fact("WELL DATUM (KB, Kelly bushing, from MSL):"); !kb.empty()) number(kb, well_.kelly_bushing);
-        else if (const auto table = table_of(line.substr(1)); table && table->has_positions()) static_cast<void>(take_names(*table));
-        else if (line.find_first_not_of("#=-! ") != std::string_view::npos)
-            well_.info.annotations.push_back({"well.comment", std::string(line)});
+        const auto bushing = [&]() -> std::string_view {
+            for (const std::string_view key : {"WELL DATUM (KB, Kelly bushing, from MSL):", "WELL KB:", "KB:"}) {
+                if (const auto text = fact(key); !text.empty()) return text;
+            }
+            return {};
+        };
+        Well& well = at_->well;
+        if (const auto name = fact("WELL NAME:"); !name.empty()) {
+            finish_wells();
+            at_->well.info.name = name;
+        } else if (const auto x = fact("WELL HEAD X-COORDINATE:"); !x.empty()) {
+            number(x, well.head[0]);
+        } else if (const auto y = fact("WELL HEAD Y-COORDINATE:"); !y.empty()) {
+            number(y, well.head[1]);
+        } else if (const auto kb = bushing(); !kb.empty()) {
+            at_->has_bushing = number(kb, well.kelly_bushing) || at_->has_bushing;
+        } else if (const auto table = table_of(line.substr(1)); table && table->has_positions()) {
+            static_cast<void>(take_names(*table));
+        } else if (line.find_first_not_of("#=-! ") != std::string_view::npos) {
+            well.info.annotations.push_back({"well.comment", std::string(line)});
+        }
     }
 
     std::optional<Failure> take_names(Table table) {
@@ -256,7 +300,7 @@ private:
                                   "surveys of angles without positions (X, Y and Z or TVD) are not read");
             return malformed("names of columns with X, Y and Z, TVD or TVDSS", trimmed(cursor_.line_text()));
         }
-        if (!well_.path.empty()) finish_well();
+        if (!at_->well.path.empty() || at_->missing > 0) finish_wells();
         table_ = std::move(table);
         named_columns_ = true;
         return std::nullopt;
@@ -265,115 +309,168 @@ private:
     std::optional<Failure> take_row(std::string_view line) {
         const auto fields = fields_of(line, table_.separator);
         if (fields.size() != table_.columns.size()) return malformed(std::to_string(table_.columns.size()) + " columns", line);
-        for (std::size_t c = 0; c < fields.size(); ++c) {
-            if (table_.columns[c] == Column::well && !fields[c].empty() && fields[c] != well_.info.name) {
-                finish_well();
-                well_.info.name = fields[c];
-            }
-        }
-        if (well_.path.size() >= no_index) return unreadable("F014", {input_.name(), cursor_.line()}, "expected fewer than 2^32 points");
-        others_.resize(static_cast<std::size_t>(std::ranges::count(table_.columns, Column::other)));
-        Vec3 p{};
-        std::size_t other = 0;
-        const bool below_bushing = !table_.has(Column::elevation) && !table_.has(Column::depth);
-        std::optional<double> below_sea, under_bushing, measured;
-        for (std::size_t c = 0; c < fields.size(); ++c) {
-            const Column column = table_.columns[c];
-            if (column == Column::well) continue;
-            if (column == Column::other || (column == Column::depth_below_bushing && !below_bushing)) {
-                double depth = 0;
-                if (column == Column::other) others_[other++].push_back(further_value(fields[c]));
-                else if (parse_real(fields[c], depth) == NumberStatus::ok) under_bushing = depth;
-                continue;
-            }
-            double value = 0;
-            if (auto failed = finite_number(input_, cursor_, fields[c], "a number for '" + table_.names[c] + "'", value)) return failed;
-            switch (column) {
-                case Column::x:
-                    p[0] = value;
-                    break;
-                case Column::y:
-                    p[1] = value;
-                    break;
-                case Column::elevation:
-                    p[2] = sign_ == ZPositive::depth ? -value : value;
-                    break;
-                case Column::depth:
-                    below_sea = value;
-                    break;
-                case Column::depth_below_bushing:
-                    p[2] = well_.kelly_bushing - value;
-                    break;
-                default:
-                    measured = value;
-                    break;
-            }
-        }
-        if (below_sea && !table_.has(Column::elevation)) p[2] = -*below_sea;
-        if (table_.has(Column::elevation)) heights_.add(sign_ == ZPositive::depth ? -p[2] : p[2], below_sea, under_bushing, cursor_.line());
-        well_.path.push_back(p);
-        if (measured) well_.measured_depth.push_back(*measured);
+        auto row = row_of(fields);
+        if (!row) return std::move(row).why();
+        select(*row);
+        if (at_->well.path.size() >= no_index)
+            return unreadable("F014", {input_.name(), cursor_.line()}, "expected fewer than 2^32 points");
+        add(*row);
         return std::nullopt;
     }
 
-    double further_value(std::string_view text) {
+    bool is_below_bushing() const { return !table_.has(Column::elevation) && !table_.has(Column::depth); }
+
+    Result<Row> row_of(std::span<const std::string_view> fields) {
+        Row row;
+        for (std::size_t c = 0; c < fields.size(); ++c) {
+            const Column column = table_.columns[c];
+            double value = 0;
+            if (column == Column::well) {
+                row.well = fields[c];
+                continue;
+            }
+            if (column == Column::other) {
+                row.others.push_back(further_value(fields[c], row.texts));
+                continue;
+            }
+            if (column == Column::bushing || (column == Column::depth_below_bushing && !is_below_bushing())) {
+                if (parse_real(fields[c], value) != NumberStatus::ok || !std::isfinite(value)) continue;
+                (column == Column::bushing ? row.bushing : row.under_bushing) = value;
+                continue;
+            }
+            if (auto failed = finite_number(input_, cursor_, fields[c], "a number for '" + table_.names[c] + "'", value))
+                return std::move(*failed);
+            if (column != Column::measured_depth && is_missing(value, column)) row.is_missing = true;
+            if (column == Column::x) row.position[0] = value;
+            else if (column == Column::y) row.position[1] = value;
+            else if (column == Column::elevation) row.position[2] = sign_ == ZPositive::depth ? -value : value;
+            else if (column == Column::depth) row.below_sea = value;
+            else if (column == Column::depth_below_bushing) row.under_bushing = value;
+            else row.measured = value;
+        }
+        return row;
+    }
+
+    /// Makes the well of a row the one at hand: of those that are open that of its name, whose measured depths go on; else a new one.
+    void select(const Row& row) {
+        if (row.well.empty() || row.well == at_->well.info.name) return;
+        const bool is_fresh = at_->well.path.empty() && at_->missing == 0;
+        if (!is_fresh) {
+            const auto goes_on = [&](const OpenWell& open) {
+                const auto& depths = open.well.measured_depth;
+                return open.well.info.name == row.well && row.measured && (depths.empty() || *row.measured > depths.back());
+            };
+            const auto known = std::ranges::find_if(open_, goes_on);
+            at_ = known != open_.end() ? &*known : &open_.emplace_back();
+        }
+        at_->well.info.name = row.well;
+    }
+
+    void add(const Row& row) {
+        Well& well = at_->well;
+        if (at_->first_line == 0) at_->first_line = cursor_.line();
+        if (row.is_missing) {
+            if (at_->missing++ == 0) at_->first_missing = cursor_.line();
+            return;
+        }
+        if (row.bushing) {
+            well.kelly_bushing = *row.bushing;
+            at_->has_bushing = true;
+        }
+        Vec3 p = row.position;
+        if (table_.has(Column::elevation))
+            at_->heights.add(sign_ == ZPositive::depth ? -p[2] : p[2], row.below_sea, row.under_bushing, cursor_.line());
+        else p[2] = row.below_sea ? -*row.below_sea : well.kelly_bushing - row.under_bushing.value_or(0);
+        well.path.push_back(p);
+        if (row.measured) well.measured_depth.push_back(*row.measured);
+        at_->others.resize(row.others.size());
+        for (std::size_t k = 0; k < row.others.size(); ++k) at_->others[k].push_back(row.others[k]);
+        at_->texts += row.texts;
+    }
+
+    static double further_value(std::string_view text, std::uint64_t& texts) {
         double value = 0;
         if (parse_real(text, value) == NumberStatus::ok && std::isfinite(value)) return value;
-        if (!text.empty() && !same_word(text, "nan") && !same_word(text, "null")) ++texts_;
+        if (!text.empty() && !same_word(text, "nan") && !same_word(text, "null")) ++texts;
         return std::numeric_limits<double>::quiet_NaN();
     }
 
-    /// Puts the well that was read into the dataset. Its name and facts stand before its rows.
-    void finish_well() {
-        if (well_.path.empty()) {
-            well_.info.annotations.clear();
-            return;
-        }
-        if (well_.info.name.empty()) well_.info.name = name_of(input_);
-        if (well_.head[0] == 0 && well_.head[1] == 0) well_.head = {well_.path.front()[0], well_.path.front()[1], 0};
-        const bool turned = !sign_ && heights_.says_depth();
-        if (turned) {
-            for (Vec3& p : well_.path) p[2] = -p[2];
-        }
-        report_heights(turned);
-        const bool depth = !table_.has(Column::elevation) || sign_ == ZPositive::depth || turned;
-        well_.info.crs.z_positive = depth ? ZPositive::depth : ZPositive::elevation;
-        well_.info.crs.z_positive_stated = true;
-        const std::vector<double> depths = well_.measured_depth.empty() ? lengths_along(well_.path) : well_.measured_depth;
-        std::size_t other = 0;
-        for (std::size_t c = 0; c < table_.columns.size(); ++c) {
-            if (table_.columns[c] != Column::other || other >= others_.size()) continue;
-            Attribute a;
-            a.name = table_.names[c];
-            a.no_data = std::ranges::find(others_[other], -999.25) != others_[other].end() ? -999.25 : -999;
-            a.values = std::move(others_[other++]);
-            well_.curves.push_back({depths, std::move(a)});
-        }
-        if (texts_ > 0)
+    /// Puts the wells that were read into the dataset, and begins a new one. Names and facts of a well stand before its rows.
+    void finish_wells() {
+        for (OpenWell& open : open_) finish(open);
+        open_.clear();
+        at_ = &open_.emplace_back();
+    }
+
+    void finish(OpenWell& open) {
+        Well& well = open.well;
+        if (well.info.name.empty()) well.info.name = name_of(input_);
+        if (open.missing > 0)
             drop(data_.findings, data_.losses,
-                 {.entity = well_.info.name,
+                 {.entity = well.info.name,
+                  .what = "rows without a position",
+                  .why = "x, y or the depth is -999 or -999.25, which stands for none",
+                  .count = open.missing,
+                  .where = {input_.name(), open.first_missing}});
+        if (well.path.empty()) return;
+        if (well.head[0] == 0 && well.head[1] == 0) well.head = {well.path.front()[0], well.path.front()[1], 0};
+        const bool turned = !sign_ && open.heights.says_depth();
+        if (turned) {
+            for (Vec3& p : well.path) p[2] = -p[2];
+        }
+        report_heights(open, turned);
+        report_bushing(open);
+        const bool depth = !table_.has(Column::elevation) || sign_ == ZPositive::depth || turned;
+        well.info.crs.z_positive = depth ? ZPositive::depth : ZPositive::elevation;
+        well.info.crs.z_positive_stated = true;
+        add_curves(open);
+        if (open.texts > 0)
+            drop(data_.findings, data_.losses,
+                 {.entity = well.info.name,
                   .what = "texts in columns of the table",
                   .why = "logs hold numbers",
-                  .count = texts_,
+                  .count = open.texts,
                   .where = {input_.name()}});
-        data_.objects.emplace_back(std::move(well_));
-        well_ = {};
-        others_.clear();
-        texts_ = 0;
-        heights_ = {};
+        data_.objects.emplace_back(std::move(well));
+    }
+
+    void add_curves(OpenWell& open) {
+        Well& well = open.well;
+        const std::vector<double> depths = well.measured_depth.empty() ? lengths_along(well.path) : well.measured_depth;
+        std::size_t other = 0;
+        for (std::size_t c = 0; c < table_.columns.size(); ++c) {
+            if (table_.columns[c] != Column::other || other >= open.others.size()) continue;
+            Attribute a;
+            a.name = table_.names[c];
+            a.no_data = std::ranges::find(open.others[other], -999.25) != open.others[other].end() ? -999.25 : -999;
+            a.values = std::move(open.others[other++]);
+            well.curves.push_back({depths, std::move(a)});
+        }
+    }
+
+    /// F113 where depths count from the kelly bushing, and nothing says how high that is.
+    void report_bushing(const OpenWell& open) {
+        if (!is_below_bushing() || open.has_bushing) return;
+        Finding f = make_finding("F113",
+                                 "TVD is depth below the kelly bushing, and no comment (# WELL KB: 25) and no column KB says how high that "
+                                 "is: it is taken as 0, so that depths are those below the bushing",
+                                 {input_.name(), open.first_line}, open.well.path.size());
+        f.entities.push_back({"well", open.well.info.name});
+        data_.findings.push_back(std::move(f));
     }
 
     /// F113 where Z was taken as depth, or says something else than the column of depths.
-    void report_heights(bool turned) {
+    void report_heights(const OpenWell& open, bool turned) {
         if (sign_) return;  // the user has said so
-        const std::uint64_t wrong = turned ? 0 : heights_.not_elevation;
+        const ZAgainstDepths& heights = open.heights;
+        const std::uint64_t wrong = turned ? 0 : heights.not_elevation;
         if (wrong == 0 && !turned) return;
         std::string message = turned ? "column Z is the depth that another column states: it is taken as positive downwards; --option "
                                        "z=elevation takes it as it stands"
                                      : "Z and the column of depths disagree at " + counted(wrong, "point", "points") +
                                            ": Z is taken, as elevation; --option z=depth takes it as depth";
-        Finding f = make_finding("F113", std::move(message), {input_.name(), heights_.first_line}, turned ? heights_.not_elevation : wrong);
-        f.entities.push_back({"well", well_.info.name});
+        Finding f = make_finding("F113", std::move(message), {input_.name(), heights.first_line}, turned ? heights.not_elevation : wrong);
+        f.entities.push_back({"well", open.well.info.name});
         data_.findings.push_back(std::move(f));
     }
 };

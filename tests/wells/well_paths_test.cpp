@@ -64,6 +64,51 @@ TEST(WellPaths, DepthsBelowTheBushingBecomeElevations) {
     EXPECT_EQ(well_at(data, 0).info.name, "a");
 }
 
+TEST(WellPaths, TheBushingIsInACommentOrAColumn) {
+    for (const char* text : {"# WELL KB: 25.0 (m)\nMD X Y TVD\n0 1 2 0\n100 1 2 100\n", "MD X Y TVD KB\n0 1 2 0 25\n100 1 2 100 25\n"}) {
+        const Dataset data = good_wells("well-path", text);
+        EXPECT_EQ(well_at(data, 0).path, (std::vector<Vec3>{{1, 2, 25}, {1, 2, -75}})) << text;
+        EXPECT_EQ(well_at(data, 0).kelly_bushing, 25);
+        EXPECT_TRUE(data.findings.empty());
+    }
+    const Dataset unknown = good_wells("well-path", "MD X Y TVD\n0 1 2 0\n100 1 2 100\n");
+    ASSERT_EQ(unknown.findings.size(), 1u) << "depths below a bushing of unknown height were taken as depths below the sea";
+    EXPECT_EQ(unknown.findings[0].code, "F113");
+    EXPECT_EQ(unknown.findings[0].where.line, 2u);
+}
+
+TEST(WellPaths, RowsOfWellsMayTakeTurns) {
+    const Dataset data = good_wells("well-path", "WELL MD X Y TVDSS GR\nA 0 1 2 0 5\nB 0 7 8 0 6\nA 10 1 2 10 7\nB 10 7 8 10 8\n");
+    ASSERT_EQ(data.objects.size(), 2u);
+    EXPECT_EQ(well_at(data, 0).path, (std::vector<Vec3>{{1, 2, 0}, {1, 2, -10}}));
+    EXPECT_EQ(well_at(data, 1).path, (std::vector<Vec3>{{7, 8, 0}, {7, 8, -10}}));
+    EXPECT_EQ(value_as_double(well_at(data, 1).curves.at(0).values, 1), 8);
+    const Dataset again = good_wells("well-path", "WELL MD X Y TVDSS\nA 0 1 2 0\nA 9 1 2 9\nB 0 7 8 0\nA 0 5 2 0\nA 9 5 2 9\n");
+    ASSERT_EQ(again.objects.size(), 3u) << "a second well of one name is none that goes on";
+    EXPECT_EQ(well_at(again, 2).path.size(), 2u);
+}
+
+TEST(WellPaths, ANameBeforeItsRowsBelongsToThem) {
+    const Dataset data = good_wells("well-path", "# WELL NAME: A\nMD X Y Z\n0 1 2 3\n9 1 2 -6\n# WELL NAME: B\n0 4 5 6\n9 4 5 -3\n");
+    ASSERT_EQ(data.objects.size(), 2u);
+    EXPECT_EQ(well_at(data, 0).info.name, "A");
+    EXPECT_EQ(well_at(data, 1).info.name, "B");
+}
+
+TEST(WellPaths, RowsWithoutAPositionAreLost) {
+    const Dataset data =
+        good_wells("well-path", "MD X Y TVDSS\n0 1 2 0\n10 -999 2 10\n20 1 -999.25 20\n30 1 2 -999\n40 1 2 -999.25\n50 1 2 50\n");
+    EXPECT_EQ(well_at(data, 0).path, (std::vector<Vec3>{{1, 2, 0}, {1, 2, -50}}));
+    EXPECT_EQ(well_at(data, 0).measured_depth, (std::vector<double>{0, 50}));
+    ASSERT_EQ(data.losses.size(), 1u);
+    EXPECT_EQ(data.losses[0].count, 4u);
+    ASSERT_EQ(data.findings.size(), 1u);
+    EXPECT_EQ(data.findings[0].where.line, 3u);
+    const Dataset deep = good_wells("well-path", "MD X Y Z\n0 1 2 1\n1000 1 2 -999\n");
+    EXPECT_EQ(well_at(deep, 0).path.size(), 2u) << "an elevation may be -999";
+    EXPECT_TRUE(deep.losses.empty());
+}
+
 TEST(WellPaths, ZThatEqualsTheDepthBesideItIsADepth) {
     for (const char* name : {"TVDSS", "TVD"}) {
         const Dataset data = good_wells("well-path", std::string("MD X Y Z ") + name + "\n0 1 2 10 10\n100 1 2 110 110\n");
