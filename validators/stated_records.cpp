@@ -2,8 +2,12 @@
 #include "validators/stated_records.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/wording.h"
 
@@ -11,17 +15,25 @@ namespace geomend::validators {
 
 namespace {
 
-/// The only side of a surface in a list of sides; nothing where it has none or both.
-template <class Sides, class IsOfSurface>
-std::optional<bool> only_side(const Sides& sides, const IsOfSurface& is_of_surface) {
-    std::optional<bool> front;
-    for (const auto& side : sides) {
-        if (!is_of_surface(side)) continue;
-        if (front && *front != side.front) return std::nullopt;
-        front = side.front;
+/// Sides of surfaces, or of faces, that are in one list: bit 0 the back, bit 1 the front.
+class SideMasks {
+public:
+    explicit SideMasks(std::size_t count) : masks_(count, 0) {}
+    void add(std::size_t number, bool front) {
+        if (number < masks_.size()) masks_[number] |= static_cast<std::uint8_t>(front ? 2 : 1);
     }
-    return front;
-}
+    /// The only side of a number; nothing where it has none or both.
+    std::optional<bool> only_side(std::size_t number) const {
+        if (masks_[number] == 0 || masks_[number] == 3) return std::nullopt;
+        return masks_[number] == 2;
+    }
+    void forget(std::size_t number) {
+        if (number < masks_.size()) masks_[number] = 0;
+    }
+
+private:
+    std::vector<std::uint8_t> masks_;
+};
 
 }  // namespace
 
@@ -55,27 +67,37 @@ void StatedRecords::find_regions(const StatedModel& model) {
     }
 }
 
+/// Each list once, whatever the number of surfaces: a model of thousands of regions has as many lists.
 void StatedRecords::find_signs(const StatedModel& model) {
     const BrepData& brep = scope_.brep();
     std::vector<std::uint8_t> contradicts(signs_.size(), 0);
-    const auto compare = [&](const StatedModel::Region& region, const std::vector<BrepData::Side>& sides, std::uint32_t number,
-                             std::uint32_t s) {
-        const auto stated = only_side(region.sides, [&](const auto& side) { return side.face == number; });
-        const auto made = only_side(sides, [&](const auto& side) { return side.surface.value == s; });
-        if (!stated || !made) return;
-        const Sign sign = *stated == *made ? Sign::as_normals : Sign::against_normals;
-        if (signs_[s] != Sign::unknown && signs_[s] != sign) contradicts[s] = 1;
-        signs_[s] = sign;
-    };
-    for (std::uint32_t s = 0; s < signs_.size(); ++s) {
-        if (faces_[s] == nullptr) continue;
-        const auto number = static_cast<std::uint32_t>(faces_[s] - model.faces.data());
-        for (std::size_t r = 0; r < regions_.size(); ++r) {
-            const auto& wrong = scope_.model().claims.wrong_sides;
-            if (std::ranges::any_of(wrong, [&](const auto& w) { return w.region == static_cast<std::int64_t>(r); })) continue;
-            compare(*regions_[r], brep.regions[r].sides, number, s);
+    SideMasks stated(model.faces.size()), made(signs_.size());
+    const auto compare = [&](const StatedModel::Region& region, const std::vector<BrepData::Side>& sides) {
+        for (const auto& side : region.sides) stated.add(side.face, side.front);
+        for (const auto& side : sides) made.add(side.surface.value, side.front);
+        for (const auto& side : sides) {
+            const std::uint32_t s = side.surface.value;
+            if (faces_[s] == nullptr) continue;
+            const auto by_file = stated.only_side(static_cast<std::size_t>(faces_[s] - model.faces.data()));
+            const auto by_model = made.only_side(s);
+            if (!by_file || !by_model) continue;
+            const Sign sign = *by_file == *by_model ? Sign::as_normals : Sign::against_normals;
+            if (signs_[s] != Sign::unknown && signs_[s] != sign) contradicts[s] = 1;
+            signs_[s] = sign;
         }
-        if (universe_ != nullptr) compare(*universe_, scope_.model().claims.universe, number, s);
+        for (const auto& side : region.sides) stated.forget(side.face);
+        for (const auto& side : sides) made.forget(side.surface.value);
+    };
+    std::vector<std::uint8_t> is_wrong(regions_.size(), 0);
+    for (const auto& wrong : scope_.model().claims.wrong_sides) {
+        if (wrong.region >= 0 && static_cast<std::size_t>(wrong.region) < is_wrong.size())
+            is_wrong[static_cast<std::size_t>(wrong.region)] = 1;
+    }
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+        if (is_wrong[r] == 0) compare(*regions_[r], brep.regions[r].sides);
+    }
+    if (universe_ != nullptr) compare(*universe_, scope_.model().claims.universe);
+    for (std::size_t s = 0; s < signs_.size(); ++s) {
         if (contradicts[s] != 0) signs_[s] = Sign::unknown;
     }
 }

@@ -102,6 +102,11 @@ ExitStatus run(const MeshOptions& o) {
                               "--recombine takes the tetrahedra as they are: " + o.stated.front() + " is for filling regions"));
     if (o.select != "search" && cells != "hex-dominant")
         return report(failure(FailureKind::usage, "F018", {}, "--select is for hexahedra: --cells hex-dominant or --recombine"));
+    constexpr double least_ratio = 0.6124;  // of a regular tetrahedron, the least there is
+    if (o.ratio > 0 && o.ratio < least_ratio)
+        return report(
+            failure(FailureKind::usage, "F018", {},
+                    "--ratio " + geomend::rounded(o.ratio) + ": no cell has less than 0.6124, that of a regular tetrahedron; 0 is any"));
     const bool resizes = !o.resize.file.empty();
     const std::string method = !o.method.empty() ? o.method : hexes && !o.recombine ? "lattice" : resizes ? "isotropic" : "keep";
     if (resizes && hexes)

@@ -5,9 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "base/wording.h"
 #include "exchange/empty_regions.h"
 #include "volume/region_cells.h"
 #include "volume/region_facets.h"
@@ -70,6 +75,46 @@ struct OneRegion {
     std::optional<Failure> stopped;
 };
 
+Result<RegionCells> cells_by(const Rung& rung, const RegionFacets& facets, const Inside& all, const FillOptions& options) {
+    Inside inside;
+    if (rung.has_points) inside.points = all.points;
+    if (rung.has_sizes) inside.sizes = all.sizes;
+    auto made = tetrahedra_of(facets, inside, rung.switches, rung.order, options.limits, options.monitor);
+    if (!made) return std::move(made).why();
+    return cells_of_region(facets, std::move(*made));
+}
+
+/// How many cells a region has when all are as large as a regular one with this edge.
+double cells_of_size(const RegionFacets& facets, double edge) { return std::abs(facets.volume) / volume_of_edge(edge); }
+
+bool are_too_large(const RegionFacets& facets, const RegionCells& cells, double edge) {
+    constexpr double share = 0.25;  // those beside large triangles are larger
+    return edge > 0 && static_cast<double>(cells.cells.size()) < share * cells_of_size(facets, edge);
+}
+
+/// TetGen adds no vertex whose sphere reaches a triangle that is to stay, which beside large ones is none at all. By sizes at points it
+/// does better; where that does not help either it is told.
+void make_smaller(const RegionFacets& facets, double edge, const FillOptions& options, RegionCells& cells, FilledRegion& report) {
+    if (!are_too_large(facets, cells, edge)) return;
+    const SizedPoint everywhere{facets.positions.front(), edge};
+    const Rung by_sizes{"tetgen pYqam",
+                        "QpYMT1e-14q" + number_text(options.ratio > 0 ? options.ratio : 2) + "ma" + number_text(volume_of_edge(edge)),
+                        {},
+                        true,
+                        false,
+                        true};
+    auto smaller = cells_by(by_sizes, facets, {{}, std::span(&everywhere, 1)}, options);
+    if (smaller && smaller->cells.size() > cells.cells.size()) {
+        cells = std::move(*smaller);
+        report.rung = by_sizes.name;
+    }
+    if (!are_too_large(facets, cells, edge)) return;
+    report.as_asked = false;
+    report.why_not.push_back("cells are larger than asked for, " + std::to_string(cells.cells.size()) + " where about " +
+                             rounded(cells_of_size(facets, edge)) +
+                             " have that size, since triangles around the region stay as they are: --method isotropic gives it new ones");
+}
+
 /// Improves the cells of a region, and keeps that where they still fill it as they did.
 Improvement improve_proven(const RegionFacets& facets, RegionCells& region, const FillOptions& options) {
     RegionCells better = region;
@@ -94,15 +139,11 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
     for (const Rung& rung : rungs_for(edge, options, with_points)) {
         if (rung.switches == too_slow) continue;
         if (rung.has_sizes && sizes.empty()) continue;
-        Inside inside;
-        if (rung.has_points) inside.points = points;
-        if (rung.has_sizes) inside.sizes = sizes;
-        auto all = tetrahedra_of(facets, inside, rung.switches, rung.order, options.limits, options.monitor);
-        if (!all && all.why().kind == FailureKind::cancelled) {
-            result.stopped = all.why();
+        auto cells = cells_by(rung, facets, {points, sizes}, options);
+        if (!cells && cells.why().kind == FailureKind::cancelled) {
+            result.stopped = cells.why();
             return result;
         }
-        auto cells = all ? cells_of_region(facets, std::move(*all)) : Result<RegionCells>(all.why());
         if (!cells) {
             report.why_not.push_back(std::string(rung.name) + ": " + cells.why().error.message);
             if (cells.why().error.code == "F023") {
@@ -114,6 +155,8 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
         report.rung = rung.name;
         report.as_asked = rung.has_shapes || (!(options.ratio > 0) && !with_points && sizes.empty());
         result.cells = std::move(*cells);
+        if (sizes.empty() && !with_points && (options.size > 0 || edge != facets.median_edge))
+            make_smaller(facets, edge, options, result.cells, report);
         break;
     }
     if (report.filled()) report.improvement = improve_proven(facets, result.cells, options);

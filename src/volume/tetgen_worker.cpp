@@ -72,7 +72,7 @@ Tetrahedra taken(const tetgenio& out, std::size_t known_vertices) {
 const char* reason(int number) {
     switch (number) {
         case 1:
-            return "it ran out of memory";
+            return out_of_memory;
         case 2:
             return "it met a fault of its own";
         case 3:

@@ -114,6 +114,9 @@ Failure failure_of(const WorkerEnd& end, const ChildLimits& limits) {
             break;
     }
     const std::string why = last_line(end.last_words);
+    if (limits.memory_bytes > 0 && why == out_of_memory)
+        return failure(FailureKind::limit, "F023", {},
+                       "TetGen needs more than " + rounded(1e-6 * static_cast<double>(limits.memory_bytes)) + " MB");
     return gave_up("TetGen gave up: " + (why.empty() ? "status " + std::to_string(end.number) : why));
 }
 

@@ -47,8 +47,8 @@ struct Inside {
 
 /// All tetrahedra that TetGen makes of the facets, outside of the region too where facets close there. `switches` as of tetgen(1);
 /// with Y facets stay as they are.
-/// Failure (limit) where the child ran out of time (F023), crashed, ran out of memory or gave up (F026); the message says which. Cost: that
-/// of a process.
+/// Failure (limit) where the child ran out of time or of the memory it may take (F023), crashed or gave up (F026); the message says which.
+/// Cost: that of a process.
 Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const Inside& inside, const std::string& switches, VertexOrder order,
                                  const ChildLimits& limits, const Monitor* monitor);
 

@@ -14,6 +14,9 @@
 
 namespace geomend::volumes {
 
+/// What the child says when it gives up for want of memory.
+inline constexpr const char* out_of_memory = "it ran out of memory";
+
 /// What the child is given.
 struct WorkerFacets {
     std::vector<Vec3> positions;

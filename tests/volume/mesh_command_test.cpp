@@ -95,6 +95,21 @@ TEST(Mesh, ATryThatHitsItsLimitLeavesTheOlderOutputAndNamesRegionsAndReason) {
     EXPECT_NE(run.out.find("did not end"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("'west_1'"), std::string::npos) << run.out;
     EXPECT_EQ(test::read_file(out), "old");
+    const auto small = run_geomend({"mesh", sample("layered_box.ml"), "-o", out, "--size", "30", "--memory-limit", "1"});
+    EXPECT_EQ(small.status, 5) << "a limit was hit";
+    EXPECT_NE(small.err.find("--memory-limit"), std::string::npos) << small.err;
+    EXPECT_NE(small.out.find("needs more than 1 MB"), std::string::npos) << small.out;
+}
+
+TEST(Mesh, CellsHaveTheSizeThatIsAskedForInEveryRegion) {
+    const TemporaryFolder folder;
+    const double size = 40, regular = size * size * size / (6 * std::sqrt(2.0));
+    const json made = mesh(sample("layered_box.ml"), folder / "box.vtu", {"--size", "40"});
+    ASSERT_TRUE(made.is_object() && made["written"] == true);
+    for (const json& r : made["regions"]) {
+        EXPECT_GT(r["cells"]["tetrahedron"].get<double>(), 0.25 * r["volume"].get<double>() / regular) << r["name"];
+        EXPECT_EQ(r["as_asked"], true) << r["name"];
+    }
 }
 
 TEST(Mesh, SurfacesOutsideOfAllRegionsAreNamed) {
@@ -182,6 +197,7 @@ TEST(Mesh, OptionsThatAreNoNumbersAreRefused) {
                 << option << ' ' << value;
     }
     EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu", "--size", "0"}).status, 2);
+    EXPECT_EQ(run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu", "--ratio", "0.5"}).status, 2) << "no cell has less";
 }
 
 TEST(Mesh, CellsNearASurfaceAreSmallWhereADistanceFromItSaysSoAndSurfacesStay) {
