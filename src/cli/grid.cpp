@@ -235,7 +235,8 @@ void add_grid(CLI::App& program, ExitStatus& status) {
     command->add_option("--layers", o->layers, "Layers of each zone: proportional:N, from-top:T[:N], from-base:T[:N]")
         ->type_name("ZONE=RULE,...");
     auto* rotation = command->add_option("--rotate", o->rotation, "Angle from x to I, to the left (default: of faults, or of the box)")
-                         ->type_name("DEGREES");
+                         ->type_name("DEGREES")
+                         ->check(is_number_within(-360, 360));
     command->add_option("--horizons", o->horizons, "Files or names of horizons, from top to base (default: all)")
         ->delimiter(',')
         ->type_name("A,B,...");

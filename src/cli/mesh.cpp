@@ -67,9 +67,12 @@ std::string region_lines(const MeshReport& report, bool all_tries, const std::st
     else if (!split.empty() && split != "none" && report.is_written)
         text += split == "faults" ? "nothing is split: no surface is a fault\n" : "nothing is split: there are no surfaces\n";
     if (report.recombined) cells = report.recombined->cell_count();
-    std::set<std::string> regions;
-    for (const auto& block : report.blocks) regions.insert(block.region);
-    if (report.is_written) text += counted(cells, "cell", "cells") + " in " + counted(regions.size(), "region", "regions") + " written\n";
+    std::set<std::string> names;
+    for (const auto& block : report.blocks) names.insert(block.region);
+    // Regions may share a name.
+    const auto filled = std::ranges::count_if(report.regions, [](const auto& r) { return r.cells > 0; });
+    const auto regions = std::max<std::uint64_t>(names.size(), static_cast<std::uint64_t>(filled));
+    if (report.is_written) text += counted(cells, "cell", "cells") + " in " + counted(regions, "region", "regions") + " written\n";
     return text;
 }
 

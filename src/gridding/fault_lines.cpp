@@ -33,7 +33,7 @@ std::vector<Part> parts_of(const PolylineSet& set, bool height_is_depth) {
             part.points.push_back({set.points[i][0], set.points[i][1]});
             part.depths.push_back(height_is_depth ? set.points[i][2] : -set.points[i][2]);
         }
-        if (part.points.size() < 2) continue;
+        if (part.points.empty()) continue;
         // Closed: the last point is the first one again, or an edge leads back to it.
         part.is_ring = part.points.size() > 3 && part.points.front() == part.points.back();
         if (part.is_ring) {
@@ -171,9 +171,9 @@ Result<std::vector<std::pair<const PolylineSet*, std::size_t>>> sets_of(const Da
     std::vector<std::pair<const PolylineSet*, std::size_t>> sets;
     const auto& horizons = found.structure.horizons;
     if (options.fault_polygons.empty()) {
-        for (const Object& object : dataset.objects) {
-            const auto* set = std::get_if<PolylineSet>(&object);
-            if (set != nullptr) sets.emplace_back(set, nearest_horizon(parts_of(*set, height_is_depth), horizons));
+        for (std::size_t o = 0; o < dataset.objects.size(); ++o) {
+            const auto* set = std::get_if<PolylineSet>(&dataset.objects[o]);
+            if (set != nullptr && options.area != o) sets.emplace_back(set, nearest_horizon(parts_of(*set, height_is_depth), horizons));
         }
         std::ranges::stable_sort(sets, {}, [](const auto& s) { return s.second; });
         return sets;
@@ -208,6 +208,10 @@ Result<void> add_fault_lines(const Dataset& dataset, const StructureOptions& opt
         for (const Part& part : parts_of(*set, height_is_depth)) {
             if (std::ranges::find(options.leave_out, part.name) != options.leave_out.end() && !part.name.empty()) {
                 found.left_out.push_back({part.name, "as asked"});
+                continue;
+            }
+            if (part.points.size() < 2) {
+                found.left_out.push_back({part.name.empty() ? set->info.name : part.name, "a line of a single point is no fault"});
                 continue;
             }
             lines.add(part, horizon, first_set);

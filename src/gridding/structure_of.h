@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@ struct StructureOptions {
     std::vector<std::string> fault_polygons;  ///< per horizon the name of its polygons or "-"; empty: by their depths
     std::vector<std::string> erodes, lapped;  ///< names of horizons
     std::vector<std::string> leave_out;       ///< names of horizons and faults
+    std::optional<std::size_t> area;          ///< the object whose lines say where the grid is: they are no faults
     double least_dip = 30;                    ///< degrees; faults that are flatter are no faults of pillars
 };
 

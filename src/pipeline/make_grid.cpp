@@ -44,10 +44,11 @@ void take_file(std::string& name, std::vector<std::string>& inputs) {
     name = std::filesystem::path(name).stem().string();
 }
 
-Result<const PolylineSet*> lines_called(const Dataset& dataset, const std::string& name, const char* option) {
-    for (const Object& object : dataset.objects) {
-        const auto* set = std::get_if<PolylineSet>(&object);
-        if (set != nullptr && set->info.name == name) return set;
+/// The number of the object whose lines have a name.
+Result<std::size_t> lines_called(const Dataset& dataset, const std::string& name, const char* option) {
+    for (std::size_t o = 0; o < dataset.objects.size(); ++o) {
+        const auto* set = std::get_if<PolylineSet>(&dataset.objects[o]);
+        if (set != nullptr && set->info.name == name) return o;
     }
     return failure(FailureKind::usage, "F018", {}, std::string(option) + ": no lines are called " + geomend::quoted(name));
 }
@@ -198,16 +199,17 @@ Result<void> write_beside(CornerPointGrid grid, const GridRequest& request, Grid
 Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest& request, GridMade& report, Beside& beside) {
     const bool has_cells = std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<CellMesh>(o); });
     if (has_cells || !dataset.models.empty()) topology::build_breps(dataset);
+    if (!request.area.empty()) {
+        const auto lines = lines_called(dataset, request.area, "--area");
+        if (!lines) return lines.why();
+        request.structure.area = *lines;
+        for (const Vec3& p : std::get<PolylineSet>(dataset.objects[*lines]).points) request.options.area.push_back({p[0], p[1]});
+    }
     auto found = gridding::structure_of(dataset, request.structure);
     if (!found) return std::move(found).why();
     auto zones = zones_of(request, *found);
     if (!zones) return std::move(zones).why();
     request.options.zones = std::move(*zones);
-    if (!request.area.empty()) {
-        auto lines = lines_called(dataset, request.area, "--area");
-        if (!lines) return std::move(lines).why();
-        for (const Vec3& p : (*lines)->points) request.options.area.push_back({p[0], p[1]});
-    }
     const double level = gridding::mid_level(found->structure);
     Net net;
     if (!request.pillars_of.empty()) {

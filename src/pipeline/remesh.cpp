@@ -2,6 +2,7 @@
 #include "pipeline/remesh.h"
 
 #include <algorithm>
+#include <map>
 
 #include "base/nearest_word.h"
 #include "base/vectors.h"
@@ -119,12 +120,20 @@ std::vector<RegionVolume> region_volumes(const topology::JudgedModel& model) {
     return all;
 }
 
-/// The volumes of the same regions in a model after it.
+/// The volumes of the same regions in a model after it: of those of one name the one that lies nearest.
 void take_new_volumes(const topology::JudgedModel& model, std::vector<RegionVolume>& regions) {
+    std::multimap<std::string, RegionVolume*> waiting;
+    for (RegionVolume& region : regions) waiting.emplace(region.name, &region);
     for (const RegionVolume& now : region_volumes(model)) {
-        for (RegionVolume& region : regions) {
-            if (region.name == now.name) region.after = now.before;
-        }
+        const auto [first, last] = waiting.equal_range(now.name);
+        const auto far = [&](const auto& entry) {
+            const Vec3 d = minus(entry.second->middle, now.middle);
+            return dot(d, d);
+        };
+        const auto nearest = std::ranges::min_element(first, last, {}, far);
+        if (nearest == last) continue;
+        nearest->second->after = now.before;
+        waiting.erase(nearest);
     }
 }
 

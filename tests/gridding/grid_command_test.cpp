@@ -45,6 +45,26 @@ TEST(Grid, ItsVolumeIsComparedWithMapsWhereTheyHaveValuesOnly) {
     EXPECT_NEAR(zone["volume_where_maps"].get<double>() / zone["map_volume"].get<double>(), 1, 1e-9);
 }
 
+TEST(Grid, ARingThatSaysWhereTheGridIsIsNoFault) {
+    const TemporaryFolder folder;
+    for (const int depth : {1000, 1020}) {
+        std::string text = "-996 9 10 10\n0 80 0 80\n9 0 0 0\n0 0 0 0 0 0 0\n";
+        for (int n = 0; n < 81; ++n) text += std::to_string(depth + (n % 9) * (n % 9)) + "\n";
+        test::write_file(folder / (depth == 1000 ? "top.irap" : "base.irap"), text);
+    }
+    test::write_file(folder / "ring.pol", "20 20 0\n60 20 0\n60 50 0\n20 50 0\n20 20 0\n999 999 999\n");
+    const json made =
+        make({folder / "top.irap", folder / "base.irap"}, folder / "g.grdecl", {"--cells", "8x6", "--area", folder / "ring.pol"});
+    ASSERT_TRUE(made.is_object());
+    EXPECT_EQ(made["faults"].size(), 0u);
+    EXPECT_EQ(made["blocks"], 1);
+    EXPECT_NEAR(made["zones"][0]["volume"].get<double>(), 20 * 40 * 30, 1e-6);
+    test::write_file(folder / "point.pol", "40 30 0\n999 999 999\n");
+    const json point = make({folder / "top.irap", folder / "base.irap", folder / "point.pol"}, folder / "p.grdecl", {"--cells", "8x6"});
+    ASSERT_EQ(point["left_out"].size(), 1u) << "a line of one point was dropped silently";
+    EXPECT_NE(point["left_out"][0]["why"].get<std::string>().find("single point"), std::string::npos);
+}
+
 TEST(Grid, MapsAndPolygonsMakeAGridWithoutErrorsInEveryFormat) {
     const TemporaryFolder folder;
     for (const char* extension : {".grdecl", ".egrid", ".roff", ".vtu", ".data"}) {
@@ -96,6 +116,7 @@ TEST(Grid, WrongCommandLinesAreRefused) {
     EXPECT_EQ(status({"--cells", "20x15", "--horizons", "top_map,bottom_map"}), 2);
     EXPECT_EQ(status({"--cells", "20x15", "--fault-polygons", "nothing"}), 2);
     EXPECT_EQ(status({"--cells", "20x15", "--horizons", "top_map"}), 4);
+    for (const char* angle : {"inf", "nan", "400"}) EXPECT_EQ(status({"--cells", "20x15", "--rotate", angle}), 2) << angle;
     EXPECT_EQ(status({"--cells", "20x15"}), 0);
 }
 

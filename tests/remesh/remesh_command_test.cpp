@@ -25,6 +25,22 @@ json remesh(const std::string& in, const std::string& out, std::vector<std::stri
     return json::parse(run_geomend(arguments).out, nullptr, false);
 }
 
+TEST(Remesh, RegionsOfOneNameAreComparedWithThemselves) {
+    const TemporaryFolder folder;
+    std::string text = test::read_file(sample("layered_box.ml"));
+    for (const char* name : {"west_1", "east_1", "west_2", "east_2", "west_3", "east_3"}) {
+        const auto at = text.find(std::string("  ") + name, text.find("REGION"));
+        ASSERT_NE(at, std::string::npos) << name;
+        text.replace(at + 2, 6, "same");
+    }
+    test::write_file(folder / "same.ml", text);
+    const auto run = run_geomend({"remesh", folder / "same.ml", "-o", folder / "out.ml", "--size", "60"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out.find("had the volume"), std::string::npos) << run.out;
+    const auto filled = run_geomend({"mesh", folder / "same.ml", "-o", folder / "out.vtu"});
+    EXPECT_NE(filled.out.find("in 6 regions written"), std::string::npos) << filled.out;
+}
+
 TEST(Remesh, ASampleKeepsItsCornersLinesSurfacesAndRegions) {
     const TemporaryFolder folder;
     const std::string out = folder / "out.ml";
