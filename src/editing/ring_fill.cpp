@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 
 #include "base/length.h"
@@ -13,8 +14,17 @@ namespace geomend::editing {
 namespace {
 
 constexpr double least_facing = 0.1;  // cosine between a new triangle and the ring as a whole: it is not turned over, nor on edge
-constexpr double trace_factor = 4;
-constexpr double none = std::numeric_limits<double>::infinity();
+
+/// Of two fillings the one of whose edges fewer end at vertices that are to be taken away, too; then the one with shorter edges.
+struct Cost {
+    std::uint32_t ends_on_trace = 0;
+    double length = 0;
+    auto operator<=>(const Cost&) const = default;
+    Cost operator+(const Cost& other) const { return {ends_on_trace + other.ends_on_trace, length + other.length}; }
+};
+constexpr Cost none{0, std::numeric_limits<double>::infinity()};
+bool is_none(const Cost& cost) { return cost.length == none.length; }
+bool is_better(const Cost& a, const Cost& b) { return !is_none(a) && (is_none(b) || a < b); }
 
 /// The best filling of each part of a ring, from one place to a later one (dynamic programming).
 class RingFiller {
@@ -41,11 +51,11 @@ public:
     }
 
     bool fill() {
-        for (std::uint32_t i = 0; i + 1 < n_; ++i) cost_[at(i, i + 1)] = 0;
+        for (std::uint32_t i = 0; i + 1 < n_; ++i) cost_[at(i, i + 1)] = {};
         for (std::uint32_t width = 2; width < n_; ++width) {
             for (std::uint32_t i = 0; i + width < n_; ++i) fill_part(i, i + width);
         }
-        return cost_[at(0, n_ - 1)] < none;
+        return !is_none(cost_[at(0, n_ - 1)]);
     }
 
     std::vector<std::array<std::uint32_t, 3>> triangles() const {
@@ -67,11 +77,11 @@ private:
     std::size_t at(std::uint32_t i, std::uint32_t j) const { return std::size_t{i} * n_ + j; }
 
     /// What the edge from i to j costs: nothing where it is there already, on the ring.
-    double edge_cost(std::uint32_t i, std::uint32_t j) const {
-        if (i == 0 && j + 1 == n_) return !ring_.closed && barred_(i, j) ? none : 0;
+    Cost edge_cost(std::uint32_t i, std::uint32_t j) const {
+        if (i == 0 && j + 1 == n_) return !ring_.closed && barred_(i, j) ? none : Cost{};
         if (barred_(i, j)) return none;
-        const bool both = ring_.on_trace[i] != 0 && ring_.on_trace[j] != 0;
-        return (both ? trace_factor : 1) * length(minus(from_point_[j], from_point_[i]));
+        const std::uint32_t ends = (ring_.on_trace[i] != 0 ? 1u : 0u) + (ring_.on_trace[j] != 0 ? 1u : 0u);
+        return {ends, length(minus(from_point_[j], from_point_[i]))};
     }
 
     bool allowed(std::uint32_t i, std::uint32_t k, std::uint32_t j) const {
@@ -84,11 +94,11 @@ private:
     }
 
     void fill_part(std::uint32_t i, std::uint32_t j) {
-        const double edge = edge_cost(i, j);
-        if (edge == none) return;
+        const Cost edge = edge_cost(i, j);
+        if (is_none(edge)) return;
         for (std::uint32_t k = i + 1; k < j; ++k) {
-            const double cost = edge + cost_[at(i, k)] + cost_[at(k, j)];
-            if (!(cost < cost_[at(i, j)]) || !allowed(i, k, j)) continue;
+            const Cost cost = edge + cost_[at(i, k)] + cost_[at(k, j)];
+            if (!is_better(cost, cost_[at(i, j)]) || !allowed(i, k, j)) continue;
             cost_[at(i, j)] = cost;
             apex_[at(i, j)] = k;
         }
@@ -100,7 +110,7 @@ private:
     std::uint32_t n_;
     std::vector<Vec3> from_point_;
     Vec3 normal_{};
-    std::vector<double> cost_;
+    std::vector<Cost> cost_;
     std::vector<std::uint32_t> apex_;
 };
 

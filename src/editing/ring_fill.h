@@ -25,8 +25,9 @@ struct Ring {
     bool closed = true;                  ///< false: the point is on a border, which afterwards runs from the last place to the first
 };
 
-/// Triangles, as places in the ring, that fill it where its point is taken away: the shortest diagonals together, where those
-/// between vertices that are to be taken away as well count four times, so that the edge comes back that was there before a cut.
+/// Triangles, as places in the ring, that fill it where its point is taken away: those with the fewest ends of diagonals at vertices
+/// that are to be taken away as well, so that the edge comes back that was there before a cut, and each of these vertices has a triangle
+/// less than before (N. Euler's thesis, 2.3.4); of them the shortest diagonals together.
 /// Nothing where the rules allow no filling, or the ring folds as seen along its normal. A triangle keeps the distance by its
 /// plane: the old and the new surface have flat tetrahedra between them, so they are no farther from each other, also over a bend.
 /// \param barred pairs of places between which no new edge may run, since there is one already

@@ -205,7 +205,9 @@ Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const Re
     repair::SurfaceRepair* repaired = &planned->repair;
     for (auto& done : repaired->steps) report.file.steps.push_back(reported(done));
     if (!planned->plan.why.empty() && !report.file.steps.empty()) report.file.steps.front().what.message += "; " + planned->plan.why;
-    if (planned->would_close) report.file.closing = {*planned->would_close, count_by_severity(before.judged()).error, 0};
+    const std::uint64_t errors = count_by_severity(before.judged()).error;
+    if (planned->would_close) report.file.closing = {*planned->would_close, errors, 0, 0};
+    else if (planned->would_close_gap) report.file.closing = {0, errors, 0, *planned->would_close_gap};
     report.recipe.steps = planned->plan.steps;
     report.recipe.tolerance = repaired->lengths.tolerance;
     report.recipe.near = repaired->lengths.near;

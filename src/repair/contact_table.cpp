@@ -9,6 +9,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "model/objects.h"
+#include "repair/soup_measures.h"
 
 namespace geomend::repair {
 
@@ -67,6 +68,8 @@ std::uint32_t most_of(const std::map<std::uint32_t, double>& patches) {
     return std::ranges::max_element(patches, {}, [](const auto& v) { return v.second; })->first;
 }
 
+constexpr const char* nothing_ahead = "no surface lies ahead within the limit";
+
 int percent_of(double part, double whole) { return static_cast<int>(100 * part / whole); }
 
 /// The patch from one side of which to the other a piece goes over: it stops short of it, sticks through it and ends on it along
@@ -102,8 +105,37 @@ void decide(const Votes& votes, Contact& contact) {
     } else {
         contact.why = votes.ahead > 0 ? "only " + std::to_string(percent_of(votes.ahead, votes.length)) +
                                             " % of it has a surface ahead within the limit"
-                                      : "no surface lies ahead within the limit";
+                                      : nothing_ahead;
     }
+}
+
+/// Says of a piece that has nothing ahead what lies near it all the same, and where.
+void explain(const TriangleSoup& soup, const FreeBorders& borders, const GapSearch& search, double tolerance, Contact& contact) {
+    NearestHit nearest;
+    bool along = false;
+    constexpr double cosine_of_along = 0.94;  // 20 degrees
+    for (const std::uint32_t e : borders.pieces[contact.piece]) {
+        const BorderEdge& edge = borders.edges[e];
+        const NearestHit hit = search.nearest({soup.vertices[edge.from], soup.vertices[edge.to]}, edge.outward, contact.patch);
+        if (!hit.found() || (nearest.found() && hit.distance >= nearest.distance)) continue;
+        nearest = hit;
+        const Vec3 normal = triangle_normal(soup, edge.triangle);
+        along = std::abs(dot(normal, hit.normal)) > cosine_of_along * std::sqrt(dot(normal, normal));
+    }
+    if (!nearest.found()) return;
+    constexpr double oblique = 0.5;  // 60 degrees
+    contact.on = nearest.patch;
+    contact.why += "; the nearest one ";
+    if (nearest.distance <= tolerance) {
+        contact.why += "touches it at a point or beside it";
+        return;
+    }
+    contact.why += "is " + rounded(nearest.distance) + " away, ";
+    if (along) contact.why += "and both run along each other, within 20 degrees";
+    else if (nearest.ahead < -oblique) contact.why += "behind the border";
+    else if (nearest.ahead > oblique)
+        contact.why += nearest.grazing ? "and is met at less than 10 degrees" : "and ends before it would be met";
+    else contact.why += "beside the border";
 }
 
 void obey(std::span<const PatchWish> wishes, Contact& contact) {
@@ -163,6 +195,7 @@ std::vector<Contact> decide_contacts(const TriangleSoup& soup, const FreeBorders
         contact.piece = p;
         contact.patch = soup.patches[borders.edges[borders.pieces[p].front()].triangle];
         decide(count_votes(soup, borders, borders.pieces[p], search, tolerance, hits), contact);
+        if (contact.why == nothing_ahead) explain(soup, borders, search, tolerance, contact);
         obey(wishes, contact);
         contacts.push_back(std::move(contact));
     }

@@ -54,4 +54,24 @@ GapHit GapSearch::ahead(const Vec3& from, const Vec3& direction, std::uint32_t o
     return best;
 }
 
+NearestHit GapSearch::nearest(const std::array<Vec3, 2>& edge, const Vec3& direction, std::uint32_t own_patch) const {
+    NearestHit best;
+    best.distance = limit_;
+    tree_.visit(box_around(edge[0], edge[1], limit_), -1e-9 * limit_, [&](std::uint32_t i) {
+        if (soup_.patches[i] == own_patch) return;
+        const Triangle& t = soup_.triangles[i];
+        const std::array<Vec3, 3> corners{soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]};
+        const Closest there = closest_points(edge, corners);
+        if (there.distance > best.distance || (best.found() && there.distance == best.distance)) return;
+        const Vec3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+        const double size = std::sqrt(dot(normal, normal));
+        best.patch = soup_.patches[i];
+        best.distance = there.distance;
+        best.ahead = there.distance > 0 ? dot(there.apart, direction) / there.distance : 0;
+        best.grazing = std::abs(dot(direction, normal)) < sine_of_grazing * size;
+        best.normal = size > 0 ? times(1 / size, normal) : Vec3{};
+    });
+    return best;
+}
+
 }  // namespace geomend::repair

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -18,6 +19,16 @@ struct GapHit {
     bool found() const { return patch != no_index; }
 };
 
+/// What lies nearest to an edge of a border, wherever it lies.
+struct NearestHit {
+    std::uint32_t patch = no_index;  ///< no_index: nothing within the limit
+    double distance = 0;
+    double ahead = 0;      ///< cosine between the way there and the direction of search; 0 where they touch
+    bool grazing = false;  ///< the direction meets that triangle at less than 10 degrees
+    Vec3 normal{};         ///< of that triangle, unit; null where it has no area
+    bool found() const { return patch != no_index; }
+};
+
 /// Looks for what lies ahead of free borders.
 class GapSearch {
 public:
@@ -30,6 +41,9 @@ public:
     /// \param direction unit
     /// \param only the patch that is looked for; no_index: any but the own one
     GapHit ahead(const Vec3& from, const Vec3& direction, std::uint32_t own_patch, std::uint32_t only = no_index) const;
+
+    /// The triangle of another patch that is nearest to an edge, within the limit. \param direction unit
+    NearestHit nearest(const std::array<Vec3, 2>& edge, const Vec3& direction, std::uint32_t own_patch) const;
 
 private:
     const TriangleSoup& soup_;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "repair/border_pieces.h"
+#include "repair/notches.h"
 #include "repair/surface_steps.h"
 
 namespace geomend::repair {
@@ -40,36 +44,6 @@ std::vector<Loop> closed_loops(const TriangleSoup& soup, const FreeBorders& bord
     return loops;
 }
 
-/// Signed area of a corner of a loop seen along a normal.
-double turn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) { return dot(cross(minus(b, a), minus(c, b)), normal); }
-
-/// Triangles over a closed loop, wound as it runs: ears are cut off where the loop turns the right way, the sharpest first.
-std::vector<Triangle> filled(const TriangleSoup& soup, std::vector<std::uint32_t> loop) {
-    Vec3 normal{};
-    const Vec3 base = soup.vertices[loop[0]];
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-        normal = plus(normal, cross(minus(soup.vertices[loop[i]], base), minus(soup.vertices[loop[i + 1]], base)));
-    }
-    std::vector<Triangle> triangles;
-    while (loop.size() > 3) {
-        std::size_t best = 0;
-        double least = INFINITY;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec3 &a = soup.vertices[loop[(i + loop.size() - 1) % loop.size()]], &b = soup.vertices[loop[i]],
-                       &c = soup.vertices[loop[(i + 1) % loop.size()]];
-            const Vec3 across = minus(c, a);
-            const double cost = turn(a, b, c, normal) > 0 ? dot(across, across) : 1e30 + dot(across, across);
-            if (cost >= least) continue;
-            least = cost;
-            best = i;
-        }
-        triangles.push_back({loop[(best + loop.size() - 1) % loop.size()], loop[best], loop[(best + 1) % loop.size()]});
-        loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(best));
-    }
-    triangles.push_back({loop[0], loop[1], loop[2]});
-    return triangles;
-}
-
 /// A loop is a hole where it is not the longest of its patch, or where its patch is closed without it: a single triangle is missing.
 std::vector<Loop> holes_of(const TriangleSoup& soup, const FreeBorders& borders, std::size_t patches) {
     auto loops = closed_loops(soup, borders);
@@ -84,16 +58,39 @@ std::vector<Loop> holes_of(const TriangleSoup& soup, const FreeBorders& borders,
     return loops;
 }
 
+std::string filled_text(std::uint64_t holes, const std::vector<Notch>& notches, const SurfaceModel& model, std::uint64_t triangles) {
+    if (holes == 0 && notches.empty()) return "no hole was filled";
+    std::string text;
+    if (holes > 0) text = counted(holes, "hole was filled", "holes were filled");
+    if (!notches.empty()) {
+        text += (text.empty() ? "" : " and ") + counted(notches.size(), "notch at a border", "notches at borders") + " closed";
+        std::set<std::string> names;
+        for (const Notch& n : notches) names.insert(model.model.patches[n.patch].name);
+        text += " in " + quoted(*names.begin());
+        if (names.size() > 1) text += " and " + counted(names.size() - 1, "other surface", "other surfaces");
+    }
+    return text + " with " + counted(triangles, "triangle", "triangles");
+}
+
 }  // namespace
 
 Result<StepOutcome> fill_holes(SurfaceModel& model, const SurfaceStepOptions& options) {
     const TriangleSoup& soup = model.model.soup;
     const double limit = gap_limit(model, options);
-    const FreeBorders borders = free_borders(soup, edges_of(soup));
+    const SoupEdges edges = edges_of(soup);
+    const FreeBorders borders = free_borders(soup, edges);
     TriangleSoup made = soup;
     Origin origin = identity_origin(soup);
     StepOutcome outcome;
     std::uint64_t holes = 0, left = 0;
+    const auto add = [&](const std::vector<Triangle>& triangles, std::uint32_t patch, std::uint32_t source) {
+        for (const Triangle& t : triangles) {
+            made.triangles.push_back(t);
+            made.patches.push_back(patch);
+            origin.triangles.push_back(source);
+            ++outcome.changed;
+        }
+    };
     for (const Loop& loop : holes_of(soup, borders, model.model.patches.size())) {
         // Half the way around a hole is as wide as it can be.
         if (loop.edges.size() > 3 && loop.length > 2 * limit) {
@@ -104,18 +101,12 @@ Result<StepOutcome> fill_holes(SurfaceModel& model, const SurfaceStepOptions& op
         std::vector<std::uint32_t> vertices;
         for (const std::uint32_t e : loop.edges) vertices.push_back(borders.edges[e].from);
         std::ranges::reverse(vertices);  // on the other side of its edges
-        const std::uint32_t source = borders.edges[loop.edges[0]].triangle;
-        for (const Triangle& t : filled(soup, vertices)) {
-            made.triangles.push_back(t);
-            made.patches.push_back(loop.patch);
-            origin.triangles.push_back(source);
-            ++outcome.changed;
-        }
+        add(filled_loop(soup, vertices), loop.patch, borders.edges[loop.edges[0]].triangle);
         ++holes;
     }
-    outcome.what.message =
-        holes == 0 ? std::string("no hole was filled")
-                   : counted(holes, "hole was filled", "holes were filled") + " with " + counted(outcome.changed, "triangle", "triangles");
+    const auto notches = notches_of(soup, edges, borders, limit);
+    for (const Notch& notch : notches) add(notch.triangles, notch.patch, notch.source);
+    outcome.what.message = filled_text(holes, notches, model, outcome.changed);
     if (left > 0) outcome.what.message += "; " + counted(left, "hole is", "holes are") + " wider than " + rounded(limit) + " and left";
     if (outcome.changed > 0) {
         const auto first = static_cast<std::uint32_t>(soup.triangles.size());

@@ -72,6 +72,18 @@ std::optional<SurfacePlan> welded_at_the_end(const SurfacePlan& plan, const Erro
     return longer;
 }
 
+/// The same steps, and holes and notches are filled once more after the cut, since it joins borders to others; none where the
+/// model is closed, or holes were not looked for.
+std::optional<SurfacePlan> filled_after_cut(const SurfacePlan& plan, const SurfaceRepair& repair) {
+    constexpr std::array<std::string_view, 3> of_openings{"B05", "B06", "B12"};
+    const bool open = std::ranges::any_of(of_openings, [&](std::string_view code) { return repair.errors.contains(std::string(code)); });
+    if (!(open || (repair.should_close && !repair.closed)) || !has(plan.steps, "holes") || !has(plan.steps, "cut")) return std::nullopt;
+    SurfacePlan longer = plan;
+    longer.steps.insert(std::ranges::find(longer.steps, "cut") + 1, "holes");
+    longer.why += std::string(longer.why.empty() ? "" : "; ") + "holes are filled after the cut, too, which joins borders to others";
+    return longer;
+}
+
 std::string reason(double tolerance) {
     return "borders agree within " + rounded(tolerance) + ": that is the tolerance by which it is mended";
 }
@@ -111,6 +123,66 @@ Result<WiderTolerances> wider_tolerances(const Dataset& dataset, const SurfaceDr
     return wider;
 }
 
+/// Whether a model came out sound and closed.
+bool is_mended(const SurfaceRepair& repair) {
+    return left_by(repair).errors == 0 && repair.closed && (repair.should_close || is_sealed(*repair.result.brep));
+}
+
+/// The largest gap that was closed.
+double largest_closed(const SurfaceRepair& repair) {
+    double largest = 0;
+    for (const SurfaceStepDone& step : repair.steps) {
+        for (const ContactDecision& c : step.outcome.contacts) {
+            if (step.kept && c.decision == "closed") largest = std::max(largest, c.gap);
+        }
+    }
+    return largest;
+}
+
+/// No less than a length, in so few digits that it can be typed.
+double rounded_up(double length, int digits) {
+    const double step = std::pow(10, std::floor(std::log10(length)) + 1 - digits);
+    return std::ceil(length / step - 1e-9) * step;
+}
+
+/// The gap that has to be closed that a model closes without errors, where it is larger than what is closed unasked: of a few limits the
+/// first that does it, and then what it took. None where none does, or no border stops short of anything.
+template <class Attempt>
+Result<std::optional<double>> closing_gap(const Dataset& dataset, const SurfacePlan& first, const SurfaceDriverOptions& options,
+                                          const Attempt& attempt) {
+    constexpr std::array<std::string_view, 3> to_close{"close", "cut", "tails"};
+    const auto all = in_order(first.steps, to_close), unwelded = without(all, weld);
+    auto read = surface_model_of(dataset, {options.checks.tolerance, options.checks.near});
+    if (!read) return std::move(read).why();
+    const double usual = gap_limit(*read, options.steps);
+    const auto mends = [&](const std::vector<std::string>& steps, double gap) -> Result<double> {  // what was closed; 0: it does not
+        auto repaired = attempt(SurfacePlan{steps, -1, {}}, gap);
+        if (!repaired) return std::move(repaired).why();
+        return is_mended(*repaired) ? largest_closed(*repaired) : 0.0;
+    };
+    for (const double factor : {4.0, 16.0, 64.0}) {
+        SurfaceStepOptions wide = options.steps;
+        wide.max_gap = factor * usual;
+        SurfaceModel model = *read;
+        const auto closed = close_borders(model, wide);
+        if (!closed) return closed.why();
+        if (closed->changed == 0) continue;
+        for (const auto& steps : {unwelded, all}) {
+            const auto needed = mends(steps, wide.max_gap);
+            if (!needed) return needed.why();
+            if (!(*needed > usual)) continue;
+            for (const int digits : {2, 3}) {
+                const double gap = rounded_up(*needed * (digits == 2 ? 1 : 1.01), digits);
+                const auto enough = mends(steps, gap);
+                if (!enough) return enough.why();
+                if (*enough > 0) return std::optional<double>(gap);
+            }
+            return std::optional<double>(rounded_up(wide.max_gap, 2));
+        }
+    }
+    return std::optional<double>();
+}
+
 }  // namespace
 
 std::vector<SurfacePlan> plans_for(const PlanFacts& facts) {
@@ -134,9 +206,10 @@ std::vector<SurfacePlan> plans_for(const PlanFacts& facts) {
 Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Finding> before, std::span<const SurfacePlan> plans,
                                       const SurfaceDriverOptions& options, bool search) {
     std::optional<PlannedRepair> best;
-    const auto attempt = [&](const SurfacePlan& plan) {
+    const auto attempt = [&](const SurfacePlan& plan, std::optional<double> gap = {}) {
         SurfaceDriverOptions own = options;
         if (plan.tolerance >= 0) own.checks.tolerance = plan.tolerance;
+        if (gap) own.steps.max_gap = *gap;
         return repair_surfaces(dataset, before, plan.steps, own);
     };
     const auto is_better = [&](const SurfaceRepair& repair) { return !best || left_by(repair) < left_by(best->repair); };
@@ -144,13 +217,18 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         auto repaired = attempt(plan);
         if (!repaired) return std::move(repaired).why();
         if (!is_better(*repaired)) continue;
-        best = PlannedRepair{std::move(*repaired), plan, {}};
+        best = PlannedRepair{std::move(*repaired), plan, {}, {}};
         if (left_by(best->repair).nothing()) break;
     }
     if (const auto longer = welded_at_the_end(best->plan, best->repair.errors)) {
         auto repaired = attempt(*longer);
         if (!repaired) return std::move(repaired).why();
-        if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}};
+        if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}, {}};
+    }
+    if (const auto longer = filled_after_cut(best->plan, best->repair)) {
+        auto repaired = attempt(*longer);
+        if (!repaired) return std::move(repaired).why();
+        if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}, {}};
     }
     if (!search || (left_by(best->repair).errors == 0 && best->repair.closed)) return std::move(*best);
     auto wider = wider_tolerances(dataset, options);
@@ -159,11 +237,16 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         SurfacePlan plan{in_order(without(plans.front().steps, of_gaps), weld_and_cut), tolerance, reason(tolerance)};
         auto repaired = attempt(plan);
         if (!repaired) return std::move(repaired).why();
-        if (left_by(*repaired).errors > 0 || !repaired->closed || (!repaired->should_close && !is_sealed(*repaired->result.brep))) continue;
+        if (!is_mended(*repaired)) continue;
         if (tolerance > wider->limit) best->would_close = tolerance;
-        else best = PlannedRepair{std::move(*repaired), std::move(plan), {}};
+        else best = PlannedRepair{std::move(*repaired), std::move(plan), {}, {}};
         break;
     }
+    const bool is_open = left_by(best->repair).errors > 0 && !best->would_close && best->repair.should_close;
+    if (!is_open || options.steps.max_gap >= 0) return std::move(*best);
+    const auto gap = closing_gap(dataset, plans.front(), options, attempt);
+    if (!gap) return gap.why();
+    best->would_close_gap = *gap;
     return std::move(*best);
 }
 

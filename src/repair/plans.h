@@ -38,6 +38,8 @@ struct PlannedRepair {
     SurfacePlan plan;
     /// A tolerance at which the model would close without errors, too large to be taken without being asked for.
     std::optional<double> would_close;
+    /// A gap with which it would, where borders stop short by more than is closed unasked.
+    std::optional<double> would_close_gap;
 };
 
 /// Takes the steps of one plan after the other until a model has no errors and is closed where it should be. Of several that end

@@ -29,11 +29,30 @@ bool wound_as_source(const SurfaceModel& model, std::uint32_t t) {
 }
 
 struct Share {
-    double area;
+    double volume, area;
     std::uint32_t now, before;  // regions
 };
 
-/// How much area each new region has of each old one, largest first.
+/// Of the regions as they were read, from the middle of what was: a region that was not closed is not far off then.
+std::vector<double> old_volumes(const SurfaceModel& model, const std::vector<std::uint32_t>& behind) {
+    std::vector<double> volumes(model.regions.size(), 0);
+    const TriangleSoup& soup = model.source;
+    Vec3 middle{};
+    for (const Vec3& p : soup.vertices) middle = plus(middle, times(1.0 / static_cast<double>(soup.vertices.size()), p));
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        const auto [a, b, c] = soup.triangles[t];
+        const Vec3 u = minus(soup.vertices[a], middle), v = minus(soup.vertices[b], middle), w = minus(soup.vertices[c], middle);
+        const double cone = dot(u, cross(v, w)) / 6;
+        for (const std::uint32_t front : {0u, 1u}) {
+            const std::uint32_t r = behind[2 * soup.patches[t] + front];
+            if (r != no_index) volumes[r] += front != 0 ? -cone : cone;
+        }
+    }
+    for (double& v : volumes) v = std::abs(v);
+    return volumes;
+}
+
+/// How much of each old region each new one has, largest first: the share of its border, as that share of its volume.
 std::vector<Share> shares_of(const SurfaceModel& model, const std::vector<std::vector<TriangleSide>>& sides) {
     const auto behind = region_behind(model);
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> areas;
@@ -46,9 +65,16 @@ std::vector<Share> shares_of(const SurfaceModel& model, const std::vector<std::v
             if (before != no_index) areas[{now, before}] += triangle_area(model.model.soup, side.triangle);
         }
     }
+    std::vector<double> whole(model.regions.size(), 0);
+    for (const auto& [pair, area] : areas) whole[pair.second] += area;
+    const auto volumes = old_volumes(model, behind);
     std::vector<Share> shares;
-    for (const auto& [pair, area] : areas) shares.push_back({area, pair.first, pair.second});
-    std::ranges::stable_sort(shares, [](const Share& a, const Share& b) { return a.area > b.area; });
+    for (const auto& [pair, area] : areas) {
+        const double all = whole[pair.second];
+        shares.push_back({all > 0 ? volumes[pair.second] * area / all : 0, area, pair.first, pair.second});
+    }
+    std::ranges::stable_sort(shares,
+                             [](const Share& a, const Share& b) { return a.volume != b.volume ? a.volume > b.volume : a.area > b.area; });
     return shares;
 }
 

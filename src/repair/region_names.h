@@ -14,8 +14,9 @@ struct TriangleSide {
     bool front;  ///< as the triangle is wound in the soup
 };
 
-/// Names the regions of a mended model after those that were read: a region votes for the one behind whose side each of its
-/// triangles came from, by area. Layers and fault blocks get their members' successors.
+/// Names the regions of a mended model after those that were read: one takes the name of that of which it has the largest volume,
+/// where the triangles of a region stand for its volume by their area: of two that were merged the larger one gives its name, however
+/// much of its border went with the merging. Layers and fault blocks get their members' successors.
 /// \param sides per region of the data the sides that it has
 /// Cost: n log n in sides.
 std::vector<NameChange> carry_region_names(const SurfaceModel& model, const std::vector<std::vector<TriangleSide>>& sides, BrepData& data);

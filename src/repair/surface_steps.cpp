@@ -34,7 +34,7 @@ constexpr std::array steps = {
     SurfaceStepRow{"clean", "triangles without area, doubles and small stray parts are removed, cells turned and cleaned", clean_mends,
                    clean_surfaces},
     SurfaceStepRow{"box", "six sides are added around the surfaces, or as --box says", {}, add_box, true},
-    SurfaceStepRow{"holes", "small holes in a surface, and missing single triangles, are filled", holes_mends, fill_holes},
+    SurfaceStepRow{"holes", "small holes and notches in a surface, and missing single triangles, are filled", holes_mends, fill_holes},
     SurfaceStepRow{"weld", "what lies within the tolerance of each other becomes one: points, and points on edges and faces", weld_mends,
                    weld_surfaces},
     SurfaceStepRow{"close", "borders that stop short of a surface are brought onto it along their own surface", close_mends, close_borders,

@@ -126,7 +126,8 @@ Json file_json(const ReportedFile& file, std::size_t most) {
         j["clusters"].push_back(std::move(one));
     }
     if (file.closing) {
-        j["closes_with"] = {{"tolerance", file.closing->tolerance},
+        const bool gap = file.closing->max_gap > 0;
+        j["closes_with"] = {{gap ? "max_gap" : "tolerance", gap ? file.closing->max_gap : file.closing->tolerance},
                             {"errors", file.closing->errors},
                             {"left", file.closing->left},
                             {"message", closing_sentence(*file.closing)}};
@@ -157,6 +158,10 @@ const char* to_string(FileOutcome outcome) {
 }
 
 std::string closing_sentence(const ReportedClosing& closing) {
+    if (closing.max_gap > 0) {
+        const std::string gap = rounded(closing.max_gap);
+        return "borders stop short of surfaces by up to " + gap + ": with --max-gap " + gap + " the model closes";
+    }
     const std::string length = rounded(closing.tolerance);
     const std::string agree = "points of borders agree within " + length + " only: ";
     if (closing.left == 0) return agree + "with --tolerance " + length + " the model closes";

@@ -62,10 +62,12 @@ struct SeverityCounts {
 };
 SeverityCounts count_by_severity(std::span<const Finding> findings);
 
-/// That points of borders agree within a larger tolerance only, at which most errors vanish.
+/// That points of borders agree within a larger tolerance only, at which most errors vanish; or that borders stop short of surfaces by
+/// more than is closed where nobody says how much.
 struct ReportedClosing {
     double tolerance = 0;
     std::uint64_t errors = 0, left = 0;  ///< without it, and with it
+    double max_gap = 0;                  ///< above 0: the gap that has to be closed; there is no tolerance then
 };
 /// In one sentence, without a full stop.
 std::string closing_sentence(const ReportedClosing& closing);

@@ -132,7 +132,9 @@ ReportedFile file(const Json& j) {
     }
     if (j.contains("closes_with")) {
         const Json& c = j["closes_with"];
-        file.closing = {real(c.at("tolerance")), whole<std::uint64_t>(c.at("errors")), whole<std::uint64_t>(c.at("left"))};
+        const bool gap = c.contains("max_gap");
+        file.closing = {gap ? 0 : real(c.at("tolerance")), whole<std::uint64_t>(c.at("errors")), whole<std::uint64_t>(c.at("left")),
+                        gap ? real(c["max_gap"]) : 0};
     }
     for (const Json& f : j.at("findings")) {
         file.findings.push_back(finding(f));

@@ -2,9 +2,11 @@
 #include "topology/clusters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
@@ -118,11 +120,28 @@ private:
     const HangingParts& parts_;
     std::span<const PartExtent> extents_;
     std::span<const std::uint8_t> left_out_;
-    std::unique_ptr<TriangleTree> tree_;
 
-    const TriangleTree& tree() {
-        if (!tree_) tree_ = std::make_unique<TriangleTree>(used_.positions, used_.triangles);
-        return *tree_;
+    /// A part by itself: what lies between two parts need not be looked at, however much it is.
+    struct Tree {
+        std::vector<Vec3> points;  ///< the corners of one triangle after the other
+        std::unique_ptr<TriangleTree> triangles;
+    };
+    std::vector<Tree> trees_;  ///< of parts that were looked through
+
+    const Tree& tree_of(std::uint32_t part) {
+        trees_.resize(parts_.size());
+        Tree& tree = trees_[part];
+        if (tree.triangles) return tree;
+        std::vector<Triangle> triangles;
+        for (const std::uint32_t t : parts_[part]) {
+            if (!counts(used_, t, left_out_)) continue;
+            const auto first = static_cast<std::uint32_t>(tree.points.size());
+            const auto corners = used_.corners(t);
+            tree.points.insert(tree.points.end(), corners.begin(), corners.end());
+            triangles.push_back({first, first + 1, first + 2});
+        }
+        tree.triangles = std::make_unique<TriangleTree>(tree.points, triangles);
+        return tree;
     }
 
     bool comes_close(std::uint32_t t, std::uint32_t part, double reach) {
@@ -135,10 +154,11 @@ private:
             if (low[k] > extents_[part].high[k] + reach || high[k] < extents_[part].low[k] - reach) return false;
         }
         bool close = false;
-        tree().visit_triangles(tree().box(low, high, reach), [&](std::size_t i) {
-            const std::uint32_t other = tree_->number(i);
-            if (close || parts_.of_vertex[used_.triangles[other][0]] != part || !counts(used_, other, left_out_)) return;
-            close = closest_points(corners, used_.corners(other)).distance <= reach;
+        const Tree& tree = tree_of(part);
+        if (tree.triangles->size() == 0) return false;
+        tree.triangles->visit_triangles(tree.triangles->box(low, high, reach), [&](std::size_t i) {
+            const auto& [a, b, c] = tree.triangles->triangle(i);
+            close = close || closest_points(corners, std::array{tree.points[a], tree.points[b], tree.points[c]}).distance <= reach;
         });
         return close;
     }

@@ -189,5 +189,85 @@ TEST(Trace, AlongACutThroughEdgesNoTwoNeighboursHaveFourOrSixTriangles) {
     EXPECT_EQ(places(std::move(mesh).take().soup), places(scar.before));
 }
 
+/// A line of vertices on the x axis from -1 to n, and triangles above and below it: as many at each of those from 0 to n - 1 as
+/// said. What lies beside the line is so many times as far away as these are from each other.
+TriangleSoup chain(const std::vector<std::size_t>& around, double away) {
+    TriangleSoup soup;
+    const auto n = static_cast<std::uint32_t>(around.size());
+    for (std::uint32_t i = 0; i < n + 2; ++i) soup.vertices.push_back({static_cast<double>(i) - 1, 0, 0});
+    for (const double side : {1.0, -1.0}) {
+        bool more_here = side > 0;  // five triangles: three above and two below, then the other way round
+        double x = -0.5;
+        const auto add_apex = [&] { soup.vertices.push_back({x, side * away, 0}); };
+        const auto add = [&](std::uint32_t a, std::uint32_t b) {
+            const auto apex = static_cast<std::uint32_t>(soup.vertices.size() - 1);
+            soup.triangles.push_back(side > 0 ? Triangle{a, b, apex} : Triangle{b, a, apex});
+            soup.patches.push_back(0);
+        };
+        add_apex();
+        add(0, 1);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const bool odd = around[i] % 2 == 1;
+            const std::size_t here = around[i] / 2 + (odd && more_here ? 1 : 0);
+            if (odd) more_here = !more_here;
+            for (std::size_t k = 2; k < here; ++k) {
+                x = i + 0.5;
+                add_apex();
+                add(static_cast<std::uint32_t>(soup.vertices.size() - 2), i + 1);
+            }
+            add(i + 1, i + 2);
+        }
+    }
+    return soup;
+}
+
+/// How many triangles are around those vertices of a chain that are still there.
+std::vector<std::size_t> around_those_left(const editing::SoupMesh& mesh, std::size_t n) {
+    std::vector<std::size_t> left;
+    for (std::uint32_t v = 1; v <= n; ++v) {
+        if (!mesh.around(v).empty()) left.push_back(mesh.around(v).size());
+    }
+    return left;
+}
+
+/// Takes away all that have four triangles around them, until there are none: how often.
+unsigned rounds_of_small_rings(editing::SoupMesh& mesh, std::size_t n) {
+    std::vector<std::uint8_t> on_trace(mesh.soup().vertices.size(), 0);
+    for (std::size_t v = 1; v <= n; ++v) on_trace[v] = 1;
+    for (unsigned rounds = 0;; ++rounds) {
+        std::vector<std::uint32_t> small;
+        for (std::uint32_t v = 1; v <= n; ++v) {
+            if (mesh.around(v).size() == 4) small.push_back(v);
+        }
+        if (small.empty()) return rounds;
+        for (const std::uint32_t v : small) {
+            EXPECT_EQ(editing::erase_vertex(mesh, v, {{1e-9, 1e-9}, true, false, {}}, on_trace), editing::Erasure::erased);
+            on_trace[v] = 0;
+        }
+    }
+}
+
+// Test 12, as it is printed: each vertex with four triangles takes one from its neighbours on the trace, so that the edge between the two
+// beside the trace comes back, however much longer it is than the one along it.
+TEST(Trace, ChainsEmptyOrStickAsEulerSays) {
+    struct Case {
+        std::vector<std::size_t> around;
+        unsigned rounds;
+        std::vector<std::size_t> left;
+    };
+    const std::vector<Case> cases{{{4, 5, 5, 6, 4, 6, 4}, 4, {}},
+                                  {{5, 5, 5, 5}, 0, {5, 5, 5, 5}},
+                                  {{4, 6, 5, 6, 4}, 1, {5, 5, 5}},
+                                  {{5, 5, 5, 6, 4}, 1, {5, 5, 5, 5}}};
+    for (const double away : {0.2, 1.0, 3.0, 30.0}) {
+        for (const Case& c : cases) {
+            editing::SoupMesh mesh(chain(c.around, away));
+            ASSERT_EQ(around_those_left(mesh, c.around.size()), c.around);
+            EXPECT_EQ(rounds_of_small_rings(mesh, c.around.size()), c.rounds) << away;
+            EXPECT_EQ(around_those_left(mesh, c.around.size()), c.left) << away;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace geomend::test

@@ -9,6 +9,7 @@
 
 #include "base/vectors.h"
 #include "fault_blocks.h"
+#include "made_boxes.h"
 #include "repair/surface_driver.h"
 #include "repair/surface_edits.h"
 #include "support/program.h"
@@ -57,6 +58,29 @@ nlohmann::json edited(const std::string& input, const std::string& recipe, const
     const auto run = run_geomend({"repair", input, "--recipe", folder / "recipe.toml", "-o", output});
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     return run.status == 0 ? test::info(output)["brep"] : nlohmann::json();
+}
+
+// Two regions that become one: the larger by volume gives its name, though the other one has most of the border, which is rough there.
+TEST(EditRegions, ThatBecomeOneHaveTheNameOfTheLargerOne) {
+    const TemporaryFolder folder;
+    std::string box = test::box_text();
+    const std::size_t bottom = box.find("GOCAD", box.find("name: side_3")), top = box.find("GOCAD", bottom + 1);
+    test::Sheet rough{"side_4", {0, 0, 0}, {0, 10, 0}, {10, 0, 0}, 20, "boundary", [](const Vec3& p) {
+                          const bool inside = p[0] > 0.1 && p[0] < 9.9 && p[1] > 0.1 && p[1] < 9.9;
+                          const bool odd = (std::lround(2 * p[0]) + std::lround(2 * p[1])) % 2 != 0;
+                          return Vec3{p[0], p[1], inside ? (odd ? 1.0 : -1.0) : 0.0};
+                      }};
+    box = box.substr(0, bottom) + test::tsurf_text(rough) + box.substr(top);
+    write_file(folder / "in.ts", box + test::tsurf_text(test::level("H", 3)));
+    ASSERT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "two.ml"}).status, 0);
+    const auto two = region_volumes(test::info(folder / "two.ml")["brep"]);
+    ASSERT_EQ(two.size(), 2u);
+    const auto larger = std::ranges::max_element(two, {}, [](const auto& r) { return r.second; });
+    ASSERT_NEAR(larger->second, 700, 1);
+    const auto one =
+        region_volumes(edited(folder / "two.ml", "[[edit]]\naction = \"remove\"\nsurface = \"H\"\n", folder / "one.ml", folder));
+    ASSERT_EQ(one.size(), 1u);
+    EXPECT_EQ(one.begin()->first, larger->first);
 }
 
 // N. Euler's acceptance test 26.

@@ -119,6 +119,22 @@ TEST(DefaultPlan, NamesAToleranceThatIsTooLargeToBeTakenUnasked) {
     repaired(folder, box_text(0.05), {"--tolerance", std::to_string(tolerance)}, 0);
 }
 
+TEST(DefaultPlan, NamesAGapThatIsTooLargeToBeClosedUnasked) {
+    const TemporaryFolder folder;
+    const std::string sample = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box_gap.ml";
+    const auto run = run_geomend({"repair", sample, "-o", folder / "out.ml", "--json"});
+    EXPECT_EQ(run.status, 6) << run.err;
+    const auto closes = nlohmann::json::parse(run.out)["report"]["files"][0]["closes_with"];
+    ASSERT_TRUE(closes.contains("max_gap")) << run.out;
+    EXPECT_FALSE(closes.contains("tolerance"));
+    const double gap = closes["max_gap"];
+    EXPECT_NEAR(gap, 5.1, 1e-9) << "H1 ends 5 m before the fault, along itself 5.09";
+    EXPECT_EQ(closes["message"], "borders stop short of surfaces by up to 5.1: with --max-gap 5.1 the model closes");
+    EXPECT_EQ(run_geomend({"repair", sample, "-o", folder / "out.ml", "--max-gap", "5.1"}).status, 0);
+    EXPECT_EQ(volumes_in(folder / "out.ml").size(), 6u);
+    EXPECT_EQ(run_geomend({"repair", sample, "-o", folder / "none.ml", "--max-gap", "4"}).status, 6) << "less does not";
+}
+
 TEST(DefaultPlan, ClosesBordersBeforeItWeldsWhereThatIsBetter) {
     const TemporaryFolder folder;
     const std::string sample = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box_gap.ml";
@@ -147,6 +163,28 @@ TEST(Close, ABorderHalfOfWhichSticksThroughIsClosedWhereItStopsShort) {
         ASSERT_NE(own, j["contacts"].end());
         EXPECT_EQ((*own)["decision"], "closed");
     }
+}
+
+// A border that is left says what lies near it all the same, and why that is not what it ends on.
+TEST(Close, ABorderThatIsLeftSaysWhatLiesNearIt) {
+    const TemporaryFolder folder;
+    const Sheet wall{"W", {0, 0, 0}, {10, 0, 0}, {0, 0, 10}, 4, "fault", {}};
+    const auto why_of = [&](const Sheet& sheet) {
+        const auto j =
+            repaired(folder, tsurf_text(wall) + tsurf_text(sheet), {"--steps", "close", "--max-gap", "0.5", "--keep-invalid"}, 0);
+        std::string all;
+        for (const auto& c : j["contacts"]) {
+            if (c["border"] == "S" && c["on"] == "W") all += c["why"].get<std::string>() + "\n";
+        }
+        return all;
+    };
+    const auto has = [](const std::string& all, const char* part) { return all.find(part) != std::string::npos; };
+    EXPECT_TRUE(has(why_of({"S", {2, 0.3, 2}, {5, 0, 0}, {0, 0, 5}, 4, "fault", {}}),
+                    "the nearest one is 0.3 away, and both run along each other"));
+    EXPECT_TRUE(has(why_of({"S", {10.4, -2, 2}, {4, 0.2, 0}, {0, 4, 4}, 4, "fault", {}}),
+                    "the nearest one is 0.4 away, and is met at less than 10 degrees"))
+        << "the wall ends where S begins";
+    EXPECT_EQ(why_of({"S", {2, 3, 2}, {5, 0, 0}, {0, 0, 5}, 4, "fault", {}}), "");
 }
 
 // Faults far from each other are judged by the tolerance of the box when it is close around them, and so they must be mended by it:
