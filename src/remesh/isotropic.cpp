@@ -212,6 +212,9 @@ std::size_t remove_old_vertices(WorkSurface& work) {
 }
 
 std::size_t flip_edges(WorkSurface& work) {
+    // In strips of slivers a turn may travel far: what is left then is for the next pass.
+    constexpr std::size_t most_turns = 4;  // for each half edge
+    const std::size_t most = most_turns * work.mesh.corners.size();
     std::size_t count = 0;
     std::vector<std::uint32_t> next;  // edges around one that was turned are looked at again; each turn makes the worse triangle better
     for (std::uint32_t first = 0; first < work.mesh.corners.size() && !work.stopped_at(first); ++first) {
@@ -222,7 +225,7 @@ std::size_t flip_edges(WorkSurface& work) {
             next.pop_back();
             if (work.mesh.twins[h] == no_index || !should_flip(work.mesh, h)) continue;
             flip_edge(work.mesh, h);
-            ++count;
+            if (++count > most || work.stopped_at(static_cast<std::uint32_t>(count))) return count;
             const std::uint32_t back = work.mesh.twins[h];
             for (const std::uint32_t side : {h, back}) {
                 next.push_back(next_of(side));
