@@ -10,7 +10,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <mutex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "base/number_text.h"
 #include "report/advice.h"
@@ -163,16 +170,58 @@ void report(const std::vector<Finding>& findings, bool verbose) {
     }
 }
 
+namespace {
+
+/// The same loss of one or many entities.
+struct LossOfMany {
+    const Loss* first = nullptr;
+    std::vector<std::string_view> entities;
+    std::uint64_t count = 0;
+};
+
+/// In the order in which they come first.
+std::vector<LossOfMany> together(const std::vector<Loss>& losses) {
+    std::vector<LossOfMany> all;
+    std::map<std::tuple<LossClass, std::string_view, std::string_view>, std::size_t> known;
+    for (const Loss& loss : losses) {
+        const auto [at, added] = known.try_emplace({loss.loss_class, loss.what, loss.why}, all.size());
+        if (added) all.push_back({&loss, {}, 0});
+        LossOfMany& many = all[at->second];
+        many.entities.push_back(loss.entity);
+        many.count += loss.count;
+    }
+    return all;
+}
+
+std::string line_of(const Loss& loss, std::string_view entities, std::uint64_t count) {
+    std::string line = std::string("lost (") + to_string(loss.loss_class) + "): ";
+    if (!entities.empty()) line += std::string(entities) + ": ";
+    line += loss.what;
+    if (count > 1) line += " (" + std::to_string(count) + " times)";
+    if (!loss.why.empty()) line += ": " + loss.why;
+    return line;
+}
+
+}  // namespace
+
 void report(const std::vector<Loss>& losses, bool verbose) {
+    constexpr std::size_t most_lines = 8, named = 3;
     end_progress();
+    const auto print_line = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+    std::set<std::tuple<LossClass, std::string_view, std::string_view>> in_one_line;
+    for (const LossOfMany& many : together(losses)) {
+        const Loss& first = *many.first;
+        if (verbose || first.loss_class == LossClass::style || many.entities.size() <= most_lines) continue;
+        std::string entities;
+        for (std::size_t i = 0; i < named; ++i) entities += std::string(i == 0 ? "" : ", ") + std::string(many.entities[i]);
+        entities += " and " + std::to_string(many.entities.size() - named) + " more";
+        print_line(line_of(first, entities, many.count));
+        in_one_line.insert({first.loss_class, first.what, first.why});
+    }
     for (const Loss& loss : losses) {
         if (loss.loss_class == LossClass::style && !verbose) continue;
-        std::string line = std::string("lost (") + to_string(loss.loss_class) + "): ";
-        if (!loss.entity.empty()) line += loss.entity + ": ";
-        line += loss.what;
-        if (loss.count > 1) line += " (" + std::to_string(loss.count) + " times)";
-        if (!loss.why.empty()) line += ": " + loss.why;
-        std::fprintf(stderr, "%s\n", line.c_str());
+        if (in_one_line.contains({loss.loss_class, loss.what, loss.why})) continue;
+        print_line(line_of(loss, loss.entity, loss.count));
     }
 }
 

@@ -67,7 +67,8 @@ bool wants_color(int descriptor);
 ExitStatus report(const Failure& failure);
 /// Prints findings on standard error: warnings and errors, with `verbose` also information.
 void report(const std::vector<Finding>& findings, bool verbose);
-/// Prints on standard error what was lost: substance and identity, with `verbose` also style.
+/// Prints on standard error what was lost: substance and identity, with `verbose` also style. What many entities lose alike is one line,
+/// but with `verbose`.
 void report(const std::vector<Loss>& losses, bool verbose);
 /// Writes text to standard output; a failure (full disk, closed pipe) is given by the status.
 ExitStatus print(const std::string& text);

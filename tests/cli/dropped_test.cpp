@@ -73,6 +73,28 @@ const nlohmann::json* entry_of(const nlohmann::json& losses, const Case& c) {
     return nullptr;
 }
 
+TEST(Losses, WhatManyRegionsLoseAlikeIsOneLine) {
+    const TemporaryFolder folder;
+    constexpr int count = 12;
+    std::string names, nodes, cells;
+    for (int r = 0; r < count; ++r) {
+        const std::string number = std::to_string(r + 1), x = std::to_string(10 * r), next = std::to_string(10 * r + 1);
+        const auto node = [&](int k) { return std::to_string(4 * r + k) + ' '; };
+        names += "3 " + number + " \"R" + std::to_string(r) + "\"\n";
+        nodes += node(1) + x + " 0 0\n" + node(2) + next + " 0 0\n" + node(3) + x + " 1 0\n" + node(4) + x + " 0 1\n";
+        cells += number + " 4 2 " + number + ' ' + number + ' ' + node(1) + node(2) + node(3) + node(4) + '\n';
+    }
+    write_file(folder / "cells.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" + std::to_string(count) + '\n' + names +
+                                         "$EndPhysicalNames\n$Nodes\n" + std::to_string(4 * count) + '\n' + nodes +
+                                         "$EndNodes\n$Elements\n" + std::to_string(count) + '\n' + cells + "$EndElements\n");
+    const auto run = run_geomend({"convert", folder / "cells.msh", "-o", folder / "model.ml", "--lossy"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.err.find("R0, R1, R2 and 9 more: cells (12 times)"), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find("R7"), std::string::npos) << run.err;
+    const auto all = run_geomend({"convert", folder / "cells.msh", "-o", folder / "model.ml", "--lossy", "--verbose"});
+    EXPECT_NE(all.err.find("R7: cells"), std::string::npos) << all.err;
+}
+
 }  // namespace
 
 TEST(WhatIsDropped, IsInTheLossesOfInfoAndConvert) {
