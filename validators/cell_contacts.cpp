@@ -12,56 +12,12 @@
 #include "topology/near_weld.h"
 #include "validators/cell_checks.h"
 #include "validators/cell_regions.h"
+#include "validators/outer_faces.h"
 #include "validators/triangle_overlap.h"
 
 namespace geomend::validators {
 
 namespace {
-
-/// A triangle of an outer face.
-struct OuterTriangle {
-    std::uint32_t face;
-    Vec3 normal;  ///< points out of the cell
-};
-
-struct OuterFaces {
-    std::vector<Triangle> triangles;
-    std::vector<OuterTriangle> of;  ///< per triangle
-};
-
-Vec3 middle_of(const CellMesh& mesh, std::uint32_t cell) {
-    Vec3 sum{};
-    const auto nodes = mesh.cell_nodes(cell);
-    const Vec3& o = mesh.points[nodes[0]];
-    for (const std::uint32_t node : nodes) sum = plus(sum, minus(mesh.points[node], o));
-    return plus(o, times(1.0 / static_cast<double>(nodes.size()), sum));
-}
-
-/// The faces that only one cell has, as triangles: bent ones by the rule of all of us, the fan of the lowest corner.
-OuterFaces outer_faces(const CellScope& scope) {
-    OuterFaces outer;
-    const auto& points = scope.mesh().points;
-    for (std::size_t g = 0; g + 1 < scope.group_first().size(); ++g) {
-        if (scope.group_first()[g + 1] - scope.group_first()[g] != 1) continue;
-        const std::uint32_t f = scope.grouped()[scope.group_first()[g]];
-        const auto nodes = scope.nodes_of(scope.faces()[f]);
-        std::size_t lowest = 0;
-        for (std::size_t i = 1; i < nodes.size(); ++i) {
-            if (scope.vertex_of()[nodes[i]] < scope.vertex_of()[nodes[lowest]]) lowest = i;
-        }
-        const auto at = [&](std::size_t i) { return scope.vertex_of()[nodes[(lowest + i) % nodes.size()]]; };
-        const Vec3 inside = middle_of(scope.mesh(), scope.faces()[f].cell);
-        for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
-            const Triangle t{at(0), at(i), at(i + 1)};
-            if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2]) continue;
-            Vec3 normal = cross(minus(points[t[1]], points[t[0]]), minus(points[t[2]], points[t[0]]));
-            if (dot(normal, minus(inside, points[t[0]])) > 0) normal = times(-1, normal);
-            outer.triangles.push_back(t);
-            outer.of.push_back({f, normal});
-        }
-    }
-    return outer;
-}
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 

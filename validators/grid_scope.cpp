@@ -6,15 +6,13 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "validators/unset_corners.h"
 
 namespace geomend::validators {
 
 namespace {
 
 constexpr std::size_t block = 8192;
-constexpr double huge = 1e20;  // simulators take such coordinates for not set
-
-bool sound(double v) { return std::abs(v) < huge; }
 
 // What each block of cells adds; blocks are joined in their order, so that threads make no difference.
 struct Sums {
@@ -56,11 +54,9 @@ GridScope::GridScope(const CornerPointGrid& grid, const CheckOptions& options)
 
 void GridScope::choose_cells() {
     const std::size_t lines = std::size_t{grid_.dims[0]} + 1, set = pillar_count(grid_.dims);
+    const UnsetValues unset = unset_values(grid_, all_cells_);
     std::vector<std::uint8_t> sound_pillar(grid_.pillars.size() / 6);
-    for (std::size_t p = 0; p < sound_pillar.size(); ++p) {
-        sound_pillar[p] = std::all_of(grid_.pillars.begin() + static_cast<std::ptrdiff_t>(6 * p),
-                                      grid_.pillars.begin() + static_cast<std::ptrdiff_t>(6 * p + 6), sound);
-    }
+    for (std::size_t p = 0; p < sound_pillar.size(); ++p) sound_pillar[p] = unset.is_set_pillar(grid_.pillars.data() + 6 * p) ? 1 : 0;
     judged_.assign(grid_.cell_count(), 0);
     each_block(judged_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
         for (std::size_t cell = first; cell < last; ++cell) {
@@ -70,7 +66,7 @@ void GridScope::choose_cells() {
             bool all = true;
             for (unsigned c = 0; c < 8 && all; ++c) {
                 const std::size_t pillar = from + i + (c & 1u) + lines * (std::size_t{j} + ((c >> 1) & 1u));
-                all = sound_pillar[pillar] != 0 && sound(depth(i, j, k, c));
+                all = sound_pillar[pillar] != 0 && unset.is_set_depth(depth(i, j, k, c));
             }
             judged_[cell] = all ? 1 : 0;
         }

@@ -19,19 +19,25 @@ namespace geomend::validators {
 
 namespace {
 
-/// Edges of triangles that lie on lines of the model.
+/// Edges of triangles, and vertices, that lie on lines of the model.
 class LineEdges {
 public:
     explicit LineEdges(const ModelScope& scope) {
         const auto& graph = scope.model().graph;
         edges_.reserve(graph.edges.size());
-        for (const auto& edge : graph.edges) edges_.insert(key(graph.uses[edge.first_use].low, graph.uses[edge.first_use].high));
+        for (const auto& edge : graph.edges) {
+            const auto& use = graph.uses[edge.first_use];
+            edges_.insert(key(use.low, use.high));
+            vertices_.insert({use.low, use.high});
+        }
     }
+    bool contains(std::uint32_t vertex) const { return vertices_.contains(vertex); }
     bool contains(std::uint32_t a, std::uint32_t b) const { return edges_.contains(key(a, b)); }
 
 private:
     static std::uint64_t key(std::uint32_t a, std::uint32_t b) { return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b); }
     std::unordered_set<std::uint64_t> edges_;
+    std::unordered_set<std::uint32_t> vertices_;
 };
 
 /// What two surfaces, or one with itself, have in common beside what they share.
@@ -91,9 +97,47 @@ Meeting judged_kind(const ModelScope& scope, const TriangleMeetingPair& pair) {
     const auto a = corners_of(scope, pair.a), b = corners_of(scope, pair.b);
     const double tolerance = scope.tolerance(scope.surface_of(pair.a), scope.surface_of(pair.b));
     if (lie_on_each_other(a, b, tolerance)) return Meeting::overlap;
-    if (pair.how.kind == Meeting::crossing && std::min(depth(a, b), depth(b, a)) > tolerance) return Meeting::crossing;
     const Vec3 way = minus(pair.how.segment[1], pair.how.segment[0]);  // none for a point
-    return dot(way, way) <= tolerance * tolerance ? Meeting::point : Meeting::touch;
+    if (dot(way, way) <= tolerance * tolerance) return Meeting::point;
+    return pair.how.kind == Meeting::crossing && std::min(depth(a, b), depth(b, a)) > tolerance ? Meeting::crossing : Meeting::touch;
+}
+
+double distance_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 ab = minus(b, a), ap = minus(p, a);
+    const double square = dot(ab, ab);
+    const Vec3 off = minus(ap, times(square > 0 ? std::clamp(dot(ap, ab) / square, 0.0, 1.0) : 0.0, ab));
+    return std::sqrt(dot(off, off));
+}
+
+/// Whether an edge of one triangle goes through the other one, on both sides by more than the tolerance, and not at a line. Where it goes
+/// through an edge or a corner within the tolerance, it goes through both triangles there: exact predicates see a point in one position
+/// of the model, and a crossing in another.
+bool pierces(const ModelScope& scope, const LineEdges& lines, std::uint32_t one, std::uint32_t other) {
+    const double tolerance = scope.tolerance(scope.surface_of(one), scope.surface_of(other));
+    const auto& numbers = scope.triangles()[other];
+    const auto a = corners_of(scope, one), b = corners_of(scope, other);
+    const Vec3 n = cross(minus(b[1], b[0]), minus(b[2], b[0]));
+    const double length = std::sqrt(dot(n, n));
+    if (!(length > 0)) return false;
+    std::array<double, 3> height{};
+    for (std::size_t i = 0; i < 3; ++i) height[i] = dot(minus(a[i], b[0]), n) / length;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double from = height[i], to = height[(i + 1) % 3];
+        if (!(std::min(from, to) < -tolerance && std::max(from, to) > tolerance)) continue;
+        const Vec3 at = plus(a[i], times(from / (from - to), minus(a[(i + 1) % 3], a[i])));
+        bool is_inside = true, is_near = false, is_at_line = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 &start = b[k], &end = b[(k + 1) % 3];
+            is_inside = is_inside && dot(cross(n, minus(end, start)), minus(at, start)) >= 0;
+            if (distance_to_edge(at, start, end) > tolerance) continue;
+            is_near = true;
+            is_at_line = is_at_line || lines.contains(numbers[k], numbers[(k + 1) % 3]) ||
+                         (lines.contains(numbers[k]) && distance_to_edge(at, start, start) <= tolerance) ||
+                         (lines.contains(numbers[(k + 1) % 3]) && distance_to_edge(at, end, end) <= tolerance);
+        }
+        if ((is_inside || is_near) && !is_at_line) return true;
+    }
+    return false;
 }
 
 /// Where exact predicates see a point, rounding may have taken the rest of an edge off a triangle that it lies on.
@@ -237,7 +281,10 @@ private:
         Common& common = some.common;
         if (some.seen.insert(pair.a).second) common.polygons.push_back(scope_.polygon_of(pair.a));
         if (some.seen.insert(pair.b).second && one_surface) common.polygons.push_back(scope_.polygon_of(pair.b));
-        const Meeting kind = judged_kind(scope_, pair);
+        Meeting kind = judged_kind(scope_, pair);
+        if ((kind == Meeting::point || kind == Meeting::touch) &&
+            (pierces(scope_, lines(), pair.a, pair.b) || pierces(scope_, lines(), pair.b, pair.a)))
+            kind = Meeting::crossing;
         if (kind == Meeting::point) count_point(common, pair);
         else count(common, kind, pair);
         part.surfaces.insert({surfaces_[pair.a], surfaces_[pair.b]});
@@ -261,7 +308,11 @@ private:
     }
 
     void count(Common& common, Meeting kind, const TriangleMeetingPair& pair) {
-        if (common.segments.size() < most_segments) common.segments.push_back(pair.how.segment);
+        if (pair.how.segment[0] == pair.how.segment[1]) {
+            if (common.points.size() < listed_elements) common.points.push_back(pair.how.segment[0]);
+        } else if (common.segments.size() < most_segments) {
+            common.segments.push_back(pair.how.segment);
+        }
         switch (kind) {
             case Meeting::none:
             case Meeting::point:

@@ -100,7 +100,11 @@ constexpr std::array table = {
           "triangles of surfaces of different models of one file, or of a model and surfaces beside it, cross, some by more than the "
           "search length"},
     Check{"C01", "the length of an array is not what the dimensions require; nothing else is then checked"},
-    Check{"C02", "a corner or pillar of an active cell is not finite, or 1e20 or more", check_coordinates},
+    Check{
+        "C02",
+        "a corner or pillar of an active cell is not finite, or 1e20 or more; or -999, -99999, 1e10 or the like, as far from other depths "
+        "as these from each other",
+        check_coordinates},
     Check{"C03", "on a pillar the bottom lies above the top by more than the tolerance", check_inverted},
     Check{"C04", "depths of a cell and the next active one below differ by more than the tolerance: overlap (error) or gap (warning)",
           check_vertical_neighbours},
@@ -152,6 +156,9 @@ constexpr std::array table = {
           check_stated_connections, true},
     Check{"C30", "two local grids refine the same cell of their host"},
     Check{"C31", "the angles of the cells of a radial grid add up to more than 360 degrees", check_radial_angles},
+    Check{"C32",
+          "an active cell of a local grid has nothing in common with the host cell that is stated for it (error), or its centre lies "
+          "outside (warning), beyond rounding"},
     of_model(
         "G01",
         "two regions, layers, fault blocks or objects of loose surfaces of one model have the same name; info where the file states one "
@@ -234,6 +241,12 @@ constexpr std::array table = {
              "cells of one stated entity of a mesh, or with one value of its array of regions, are in parts that no face joins; a warning "
              "where the array is called after materials",
              check_cell_contacts),
+    of_cells(
+        "M38",
+        "outer faces of two cells face each other across a gap wider than the tolerance, up to the search length or a twentieth of their "
+        "edges, where they share no node; above and below hexahedra and wedges, between which layers of inactive cells may have been "
+        "left out, up to the search length only",
+        check_cell_gaps),
     of_object("M40", "a step is zero, the steps lie in one plane or line, or coordinates along an axis do not all grow or all shrink",
               check_raster_axes),
     of_object("M41", "the axes U, V, W turn as those of a left hand; of a map, U and V turn clockwise seen from above", check_raster_axes),

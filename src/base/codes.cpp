@@ -51,7 +51,7 @@ constexpr std::array catalogue = {
     CodeInfo{"B32", error, "models of one file, or a model and a surface beside it, intersect"},
     // Corner-point grids, numbered as in the rules that they come from.
     CodeInfo{"C01", error, "the length of an array does not fit the dimensions"},
-    CodeInfo{"C02", error, "a coordinate is not finite or as large as 1e20"},
+    CodeInfo{"C02", error, "a coordinate is not finite, as large as 1e20, or a number that stands for no value"},
     CodeInfo{"C03", error, "the bottom of a cell lies above its top on one or more pillars"},
     CodeInfo{"C04", error, "cells one above the other overlap, or leave a gap", OtherSeverity{warning, "they leave a gap"}},
     CodeInfo{"C05", warning, "an active cell has no thickness on any pillar"},
@@ -84,6 +84,8 @@ constexpr std::array catalogue = {
              OtherSeverity{warning, "the connection leads to an inactive cell, or joins cells that the geometry joins, too"}},
     CodeInfo{"C30", error, "local grids refine the same cell"},
     CodeInfo{"C31", error, "the cells of a radial grid cover more than a full circle"},
+    CodeInfo{"C32", error, "cells of a local grid lie outside of the host cells that they are stated to refine",
+             OtherSeverity{warning, "only their centres do"}},
     // Files.
     CodeInfo{"F001", error, "the file cannot be opened or read"},
     CodeInfo{"F002", error, "the file is empty"},
@@ -213,6 +215,7 @@ constexpr std::array catalogue = {
              OtherSeverity{info, "there are no tetrahedra among them"}},
     CodeInfo{"M37", error, "the cells of a region are not connected: it is several volumes",
              OtherSeverity{warning, "an array of numbers divides the cells, and the file states no regions"}},
+    CodeInfo{"M38", warning, "cells face each other across a narrow gap that no cell fills: nothing flows through it"},
     CodeInfo{"M40", error, "the axes of a raster do not span it"},
     CodeInfo{"M41", info, "the axes of a raster are left-handed"},
     CodeInfo{"M42", warning, "a property has no values"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <unordered_map>
 #include <variant>
 
@@ -87,6 +88,31 @@ private:
     std::unordered_map<std::uint32_t, std::uint32_t> first_at_;  // vertex -> point
 };
 
+/// How many lines without a name run inside of a single surface that is not cut there: its triangles do not show where.
+std::uint64_t embedded_lines_without_name(const BrepData& brep) {
+    std::vector<std::uint32_t> uses(brep.lines.size(), 0), sides(brep.lines.size(), 0);
+    for (const auto& surface : brep.surfaces) {
+        for (const auto& use : surface.lines) {
+            ++uses[use.line.value];
+            if (use.internal) ++sides[use.line.value];
+        }
+    }
+    std::uint64_t count = 0;
+    for (const auto& surface : brep.surfaces) {
+        std::unordered_map<std::uint32_t, std::uint32_t> nodes_at;
+        for (const auto& use : surface.lines) {
+            const std::uint32_t l = use.line.value;
+            if (uses[l] != 2 || sides[l] != 2 || !brep.lines[l].name.empty()) continue;
+            sides[l] = 0;  // its other side is the same line
+            if (nodes_at.empty()) {
+                for (const VertexId v : surface.nodes) ++nodes_at[v.value];
+            }
+            if (std::ranges::all_of(brep.lines[l].vertices, [&](VertexId v) { return nodes_at[v.value] == 1; })) ++count;
+        }
+    }
+    return count;
+}
+
 void list_losses(const BrepData& brep, std::vector<Loss>& losses) {
     for (const auto& region : brep.regions) {
         if (!region.cell_types.empty()) {
@@ -100,6 +126,9 @@ void list_losses(const BrepData& brep, std::vector<Loss>& losses) {
         if (!line.name.empty())
             add_loss(losses, {LossClass::identity, line.name, "name of a line", "a model of surfaces names no lines", 1});
     }
+    if (const auto embedded = embedded_lines_without_name(brep); embedded > 0)
+        add_loss(losses,
+                 {LossClass::identity, "", "lines inside of surfaces", "a model of surfaces has lines where these end or meet", embedded});
     std::vector<std::uint8_t> on_surface(brep.lines.size(), 0);
     for (const auto& surface : brep.surfaces) {
         for (const auto& use : surface.lines) on_surface[use.line.value] = 1;

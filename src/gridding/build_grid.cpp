@@ -204,11 +204,13 @@ Result<MadeGrid> build_grid(const Structure& structure, const Net& upright, cons
     grid.info.crs.z_positive_stated = true;
     if (options.pinch) grid.pinch = CornerPointGrid::Pinch{};
     set_pillars(net, range, grid);
-    const LayerPlan plan = plan_layers(options.zones, depths, level);
-    for (std::size_t z = 0; z < options.zones.size(); ++z)
-        made.report.zones.push_back({zone_name(structure, options.zones[z], z), plan.first[z], plan.first[z + 1] - 1});
-    grid.dims = {net.cells[0], net.cells[1], plan.first.back()};
-    made.report.joined_cells = fill_cells(net, split, depths, options, plan, grid);
+    std::vector<std::string> names;
+    for (std::size_t z = 0; z < options.zones.size(); ++z) names.push_back(zone_name(structure, options.zones[z], z));
+    const auto plan = plan_layers(options.zones, names, depths);
+    if (!plan) return plan.why();
+    for (std::size_t z = 0; z < names.size(); ++z) made.report.zones.push_back({names[z], plan->first[z], plan->first[z + 1] - 1});
+    grid.dims = {net.cells[0], net.cells[1], plan->first.back()};
+    made.report.joined_cells = fill_cells(net, split, depths, options, *plan, grid);
     add_regions(made.report, blocks, grid);
     made.report.faults = add_faults(structure, net, chains, split, depths, options.fault_sides_both, made.report.cell, grid);
     add_lean(lean, made.report.faults);

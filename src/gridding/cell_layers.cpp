@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "base/parallel.h"
 #include "grid/cell_geometry.h"
@@ -128,7 +130,7 @@ private:
 
 }  // namespace
 
-LayerPlan plan_layers(std::span<const ZoneLayers> zones, std::span<const NodeDepths> depths, double) {
+Result<LayerPlan> plan_layers(std::span<const ZoneLayers> zones, std::span<const std::string> names, std::span<const NodeDepths> depths) {
     LayerPlan plan{{0}};
     for (std::size_t z = 0; z < zones.size(); ++z) {
         double thickest = 0;
@@ -136,7 +138,11 @@ LayerPlan plan_layers(std::span<const ZoneLayers> zones, std::span<const NodeDep
             if (depths[z].sources[n] == DepthSource::filled || depths[z + 1].sources[n] == DepthSource::filled) continue;
             thickest = std::max(thickest, depths[z + 1].depths[n] - depths[z].depths[n]);
         }
-        plan.first.push_back(plan.first.back() + layer_count(zones[z], thickest));
+        const auto count = layer_count(zones[z], thickest, names[z]);
+        if (!count) return count.why();
+        if (*count > std::numeric_limits<std::uint32_t>::max() - plan.first.back())
+            return failure(FailureKind::usage, "F018", {}, "--layers: more layers than cells can be counted");
+        plan.first.push_back(plan.first.back() + *count);
     }
     return plan;
 }

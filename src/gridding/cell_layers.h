@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "gridding/build_grid.h"
 #include "gridding/node_depths.h"
 
@@ -15,8 +17,9 @@ struct LayerPlan {
     std::vector<std::uint32_t> first;
 };
 
-/// As many layers as rules ask for; thicknesses are those at nodes. \pre depths are in order at each node
-LayerPlan plan_layers(std::span<const ZoneLayers> zones, std::span<const NodeDepths> depths, double level);
+/// As many layers as rules ask for; thicknesses are those at nodes. Failure (usage) where these are too many for a rule, or all of them
+/// for the numbers of cells. \param names of the zones \pre depths are in order at each node
+Result<LayerPlan> plan_layers(std::span<const ZoneLayers> zones, std::span<const std::string> names, std::span<const NodeDepths> depths);
 
 /// Corner depths and activity of all cells. \pre dims are set. How many cells were joined with a neighbour comes back.
 /// Cost: linear in cells, in parallel.

@@ -28,7 +28,7 @@ Failure wrong(std::string_view part, const std::string& why) {
 
 Result<std::uint32_t> count_in(std::string_view part, std::string_view word) {
     std::uint64_t n = 0;
-    if (parse_integer(word, n) != NumberStatus::ok || n == 0 || n > 1000000)
+    if (parse_integer(word, n) != NumberStatus::ok || n == 0 || n > most_layers)
         return wrong(part, "expected a number of layers, found " + quoted(word));
     return static_cast<std::uint32_t>(n);
 }
@@ -72,10 +72,16 @@ Result<std::vector<ZoneLayers>> parse_layers(const std::string& text) {
     return zones;
 }
 
-std::uint32_t layer_count(const ZoneLayers& rule, double thickest) {
+Result<std::uint32_t> layer_count(const ZoneLayers& rule, double thickest, const std::string& zone) {
     if (rule.count > 0) return rule.count;
     const double needed = std::ceil(thickest / rule.thickness - 1e-9);
-    return static_cast<std::uint32_t>(std::clamp(needed, 1.0, 1e6));
+    if (!(needed <= most_layers))
+        return failure(FailureKind::usage, "F018", {},
+                       "--layers: zone " + quoted(zone) + " is " + rounded(thickest) + " thick: layers of " + rounded(rule.thickness) +
+                           " would be " + (std::isfinite(needed) ? rounded(needed) : std::string("without number")) + ", more than " +
+                           std::to_string(most_layers) +
+                           "; give a larger thickness, or their number behind it, as in from-top:" + rounded(rule.thickness) + ":10");
+    return static_cast<std::uint32_t>(std::max(needed, 1.0));
 }
 
 double layer_depth(const ZoneLayers& rule, std::uint32_t k, std::uint32_t n, double top, double base) {

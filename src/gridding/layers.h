@@ -24,8 +24,12 @@ struct ZoneLayers {
 /// :N behind, the last one taking what is left. Failure (usage) with the word that is wrong.
 Result<std::vector<ZoneLayers>> parse_layers(const std::string& text);
 
-/// The layers of a zone, for a largest thickness. At least 1.
-std::uint32_t layer_count(const ZoneLayers& rule, double thickest);
+/// Most layers of one zone.
+inline constexpr std::uint32_t most_layers = 1000000;
+
+/// The layers of a zone, for a largest thickness. At least 1. Failure (usage) where the rule needs more than most_layers: the message has
+/// their number. \param zone how the zone is called in messages
+Result<std::uint32_t> layer_count(const ZoneLayers& rule, double thickest, const std::string& zone);
 
 /// Depth of boundary k of n layers between top and base: exactly top for 0 and base for n, ascending between. \pre top <= base
 double layer_depth(const ZoneLayers& rule, std::uint32_t k, std::uint32_t n, double top, double base);

@@ -196,6 +196,30 @@ Result<void> write_beside(CornerPointGrid grid, const GridRequest& request, Grid
     return output.commit(request.files.load.monitor);
 }
 
+/// Why a grid has no active cell: nobody could use it.
+Failure without_active_cells(const gridding::GridReport& made, const GridRequest& request, const CornerPointGrid& grid) {
+    std::string why = "no cell is active: ";
+    const auto has_no_value = [](const gridding::HorizonReport& h) { return h.read + h.extended == 0; };
+    const auto without = std::ranges::find_if(made.horizons, has_no_value);
+    if (without != made.horizons.end()) {
+        std::array<double, 4> box{grid.pillars[0], grid.pillars[0], grid.pillars[1], grid.pillars[1]};
+        for (std::size_t p = 0; p < grid.pillars.size(); p += 6) {
+            box = {std::min(box[0], grid.pillars[p]), std::max(box[1], grid.pillars[p]), std::min(box[2], grid.pillars[p + 1]),
+                   std::max(box[3], grid.pillars[p + 1])};
+        }
+        why += "horizon " + geomend::quoted(without->name) + " has no value where the grid lies, from x " + short_number(box[0]) + " to " +
+               short_number(box[1]) + ", y " + short_number(box[2]) + " to " + short_number(box[3]);
+    } else if (std::ranges::any_of(made.zones, [](const auto& zone) { return zone.without_thickness == 0; })) {
+        why +=
+            request.area.empty() ? "no column has a value of all horizons" : "no column lies in the area " + geomend::quoted(request.area);
+    } else {
+        why += "the horizons lie on each other, or one has no value, in every column";
+    }
+    Failure failed = failure(FailureKind::cannot_hold, "F027", {}, std::move(why));
+    failed.error.measures.emplace_back("no_active_cells", 1);
+    return failed;
+}
+
 Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest& request, GridMade& report, Beside& beside) {
     const bool has_cells = std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<CellMesh>(o); });
     if (has_cells || !dataset.models.empty()) topology::build_breps(dataset);
@@ -225,6 +249,7 @@ Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest
     }
     auto made = gridding::build_grid(found->structure, net, request.options);
     if (!made) return std::move(made).why();
+    if (made->report.active == 0) return without_active_cells(made->report, request, made->grid);
     report.map_volumes = gridding::map_volumes(found->structure, made->grid, made->report.zones);
     report.made = std::move(made->report);
     report.dims = made->grid.dims;
@@ -243,7 +268,6 @@ Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest
     if (option_value(request.files.load.options, "deck") == "yes") {
         if (target.name != std::string_view("grdecl") || request.files.output == "-")
             return failure(FailureKind::usage, "F018", {}, "--option deck=yes: the grid must go into a GRDECL file");
-        if (report.made.active == 0) return failure(FailureKind::cannot_hold, "F027", {}, "no cell is active: there is nothing to run");
         beside.deck = deck_of(made->grid, report.made, request.files.output, report.notes);
         if (request.count_connections) {
             const auto in_deck = connections_in_deck(made->grid);

@@ -9,6 +9,7 @@
 #include "base/wording.h"
 #include "pipeline/command_options.h"
 #include "pipeline/record_places.h"
+#include "validators/local_hosts.h"
 #include "validators/readiness.h"
 
 namespace geomend {
@@ -117,13 +118,12 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         all_judged = all_judged && checked->geometry;
         take(*checked);
     }
-    if (validators::wanted(options, "C30")) {
-        std::vector<const CornerPointGrid*> grids;
-        for (const Object& object : dataset.objects) {
-            if (const auto* grid = std::get_if<CornerPointGrid>(&object)) grids.push_back(grid);
-        }
-        validators::check_local_grids(grids, file.findings);
+    std::vector<const CornerPointGrid*> grids;
+    for (const Object& object : dataset.objects) {
+        if (const auto* grid = std::get_if<CornerPointGrid>(&object)) grids.push_back(grid);
     }
+    if (validators::wanted(options, "C30")) validators::check_local_grids(grids, file.findings);
+    if (validators::wanted(options, "C32")) validators::check_local_hosts(grids, file.findings);
     if (std::ranges::any_of(dataset.objects, has_model_checks)) {
         auto checked = validators::check_models(dataset, run, judged);
         if (!checked) return std::move(checked).why();

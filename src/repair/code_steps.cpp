@@ -59,6 +59,7 @@ constexpr std::array unmended = {
     Unmended{"C29", source},
     Unmended{"C30", source},
     Unmended{"C31", source},
+    Unmended{"C32", source},
     // Files.
     Unmended{"F001", reading},
     Unmended{"F002", reading},
@@ -160,6 +161,7 @@ constexpr std::array unmended = {
     Unmended{"M34", source},
     Unmended{"M36", cells_meant},
     Unmended{"M37", cells_meant},
+    Unmended{"M38", cells_meant},
     Unmended{"M40", source},
     Unmended{"M41", no_defect},
     Unmended{"M42", source},

@@ -96,6 +96,7 @@ constexpr std::array advice = {
     Advice{"C29", "correct NNC"},
     Advice{"C30", "part their boxes, or join the local grids"},
     Advice{"C31", "correct DTHETAV"},
+    Advice{"C32", "correct the host cells that the file states, or export the local grid again"},
     // Files.
     Advice{"F001", "check the path and its permissions"},
     Advice{"F002", "export it again from its source"},
@@ -131,6 +132,7 @@ constexpr std::array advice = {
     Advice{"F026", "geomend convert writes its cells for simulators and viewers", "grid"},
     Advice{"F026",
            "geomend validate shows where the surfaces are open; geomend repair closes gaps, and adds the sides of a box with --box"},
+    Advice{"F027", "give horizons, and an area, that cover the grid", "no_active_cells"},
     Advice{"F027", "give two horizons or more; leave out what does not fit with --leave-out, or --horizons, of geomend grid"},
     Advice{"F101", "check that nothing is missing; convert and repair then take the file with --accept-unterminated"},
     Advice{"F103", "remove the element, or give it the right nodes"},
@@ -200,6 +202,7 @@ constexpr std::array advice = {
     Advice{"M35", "repair --step clean turns the order of their nodes"},
     Advice{"M36", "join them by cells, or give each its own nodes"},
     Advice{"M37", "make each part a region of its own"},
+    Advice{"M38", "join the faces node by node, or fill the gap with cells"},
     Advice{"M40", "correct its axes"},
     Advice{"M42", "remove it, or export it again"},
     Advice{"M43", "declare the value that stands for missing"},

@@ -113,6 +113,24 @@ std::vector<std::uint8_t> lines_with_shared_nodes(const Assembly& a) {
     return joined;
 }
 
+/// Per line whether it is one that is stated inside of a single surface, whose polygons use the same nodes on both sides of it.
+std::vector<std::uint8_t> embedded_lines(const Assembly& a) {
+    std::vector<std::uint32_t> owner(a.brep.lines.size(), no_index), uses(a.brep.lines.size(), 0);
+    std::vector<std::uint8_t> embedded = a.joined_lines;
+    for (std::uint32_t s = 0; s < a.brep.surfaces.size(); ++s) {
+        for (const auto& use : a.brep.surfaces[s].lines) {
+            const std::uint32_t l = use.line.value;
+            if (owner[l] != no_index && owner[l] != s) embedded[l] = 0;
+            owner[l] = s;
+            ++uses[l];
+        }
+    }
+    for (std::size_t l = 0; l < embedded.size(); ++l) {
+        if (uses[l] != 2 || a.graph.stated_line[l] == no_index) embedded[l] = 0;
+    }
+    return embedded;
+}
+
 /// Lines and corners. Gives the polygons that were turned over, per surface: where the complex is taken apart, and where it is to be
 /// judged, since a polygon that is wound wrongly is no reason to take a side of its surface for the other one.
 std::vector<std::vector<std::uint32_t>> make_lines(SurfaceComplex& complex, RegionSearch search, Assembly& a) {
@@ -124,8 +142,9 @@ std::vector<std::vector<std::uint32_t>> make_lines(SurfaceComplex& complex, Regi
     name_corners(complex, a.brep);
     name_lines(complex, a);
     a.joined_lines = lines_with_shared_nodes(a);
+    const auto embedded = embedded_lines(a);
     for (std::size_t f = 0; f < complex.faces.size(); ++f) {
-        if (complex.faces[f].shared_nodes) split_nodes_along_cuts(a.brep, a.brep.surfaces[f]);
+        if (complex.faces[f].shared_nodes) split_nodes_along_cuts(a.brep, embedded, a.brep.surfaces[f]);
     }
     return turned;
 }

@@ -2,8 +2,13 @@
 #include "topology/mesh_parts.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <string>
+#include <utility>
 
+#include "base/wording.h"
 #include "topology/faces_from_mesh.h"
 
 namespace geomend::topology {
@@ -72,6 +77,24 @@ void add_lines_of_mesh(const MeshParts& parts, const WeldedPoints& points, Surfa
     }
 }
 
+namespace {
+
+/// What is said of a volume of a mesh that has no cells, and of whose surfaces some have no elements, as where a mesher saves only a part
+/// of a model: nothing of it can be judged.
+Finding unsaved_volume(const std::string& name, std::size_t stated, std::size_t absent) {
+    const std::size_t there = stated - absent;
+    Finding finding =
+        make_finding("F121",
+                     "region '" + name + "' has no cells, and " + (there == 0 ? "none" : std::to_string(there)) + " of the " +
+                         counted(stated, "surface that bounds", "surfaces that bound") + " it " + (there == 1 ? "has" : "have") +
+                         " elements: the file holds a part of the model, and the region is not judged",
+                     {}, absent);
+    finding.entities.push_back({"region", name, -1});
+    return finding;
+}
+
+}  // namespace
+
 void add_volumes_of_mesh(const MeshParts& parts, const WeldedPoints& points, SurfaceComplex& complex) {
     const CellMesh& mesh = *parts.mesh;
     std::map<std::int64_t, std::uint32_t> face_of_tag;
@@ -81,15 +104,26 @@ void add_volumes_of_mesh(const MeshParts& parts, const WeldedPoints& points, Sur
     }
     const auto number = static_cast<std::uint32_t>(complex.meshes.size());
     complex.meshes.push_back({&mesh, parts.object, points.of.at(parts.object)});
+    const std::size_t before = complex.volumes.size();
+    bool is_part = false;
     for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
         if (mesh.entities[e].dimension != 3) continue;
         SurfaceComplex::Volume volume{number, parts.entity_cells[e], {entity_name(mesh, mesh.entities[e], "Region"), false, {}}};
+        std::size_t absent = 0;
         for (const std::int64_t tag : mesh.entities[e].boundary) {
             const auto found = face_of_tag.find(tag < 0 ? -tag : tag);
-            if (found != face_of_tag.end()) volume.boundary.sides.push_back({SurfaceId(found->second), tag < 0});  // normals point outwards
+            if (found == face_of_tag.end()) ++absent;
+            else volume.boundary.sides.push_back({SurfaceId(found->second), tag < 0});  // normals point outwards
+        }
+        if (volume.cells.empty() && absent > 0) {
+            complex.findings.push_back(unsaved_volume(volume.boundary.name, mesh.entities[e].boundary.size(), absent));
+            is_part = true;
+            continue;
         }
         complex.volumes.push_back(std::move(volume));
     }
+    // Of a part of a model the regions without cells say nothing of what lies between them: the surfaces that are there are judged alone.
+    if (is_part && !parts.filled) complex.volumes.resize(before);
 }
 
 }  // namespace geomend::topology

@@ -11,22 +11,15 @@
 #include <span>
 
 #include "base/disjoint_sets.h"
+#include "base/usual_no_data.h"
 
 namespace geomend::topology {
 
 namespace {
 
-constexpr std::array round_heights = {999.0, 9999.0};  // some models end at such a depth
-constexpr std::array odd_heights = {999.25,   999.99,    9999.25,   9999.99, 32767.0, 32768.0,      99999.0,      99999.99, 999999.0,
-                                    999999.9, 9999900.0, 9999999.0, 1e9,     1e10,    2147483647.0, 2147483648.0, 1e15};
 constexpr double often_from = 9999;  // smaller ones are depths of something more often
 
-bool is_among(std::span<const double> numbers, double height) {
-    const auto z = static_cast<float>(std::abs(height));
-    return std::ranges::any_of(numbers, [&](double usual) { return static_cast<float>(usual) == z; });
-}
-bool is_odd(double height) { return is_among(odd_heights, height); }
-bool is_usual(double height) { return std::abs(height) > 998 && (is_among(round_heights, height) || is_odd(height)); }
+bool is_usual(double height) { return std::abs(height) > 998 && (is_round_no_data(height) || is_odd_no_data(height)); }
 
 /// Of each vertex whether its height is a usual one, so that its triangles need not ask.
 std::vector<std::uint8_t> usual_heights(std::span<const Vec3> positions) {
@@ -87,7 +80,7 @@ void mark_usual(const UsedPoints& used, std::span<const std::uint8_t> usual, std
     const bool stand_out = !upright && least_steep >= std::max(1.0, 4 * steepest);
     for (const std::uint32_t v : suspects) {
         const double z = used.positions[v][2], beyond = std::max(low - z, z - high);
-        const std::size_t share = stand_out ? (is_odd(z) ? 1 : 2) : std::abs(z) >= often_from ? 2 : 10;
+        const std::size_t share = stand_out ? (is_odd_no_data(z) ? 1 : 2) : std::abs(z) >= often_from ? 2 : 10;
         if (beyond > 0 && beyond >= high - low && share * suspects.size() < vertices.size() && !std::ranges::binary_search(gentle, v))
             marks[v] = Outlying::usual;
     }

@@ -165,6 +165,11 @@ std::vector<RegionId> compare_regions(const std::vector<StatedRegion>& stated, c
     return ids;
 }
 
+/// Whether a volume of a mesh names one of its surfaces with a minus.
+bool has_a_sign(const StatedRegion& region) {
+    return std::ranges::any_of(region.sides, [](const BrepData::Side& side) { return side.front; });
+}
+
 void regions_from_volumes(const SurfaceComplex& complex, const std::vector<StatedRegion>& stated, Assembly& a) {
     std::vector<std::uint32_t> filled, hollow;
     for (std::uint32_t v = 0; v < complex.volumes.size(); ++v) (complex.volumes[v].cells.empty() ? hollow : filled).push_back(v);
@@ -174,7 +179,8 @@ void regions_from_volumes(const SurfaceComplex& complex, const std::vector<State
         std::vector<StatedRegion> lists;
         for (const std::uint32_t v : hollow) lists.push_back(complex.volumes[v].boundary);
         const auto ids = add_stated_regions(a, lists);
-        report_wrong_sides(a);  // meshers are not strict about signs where nothing depends on them
+        // Meshers are not strict about signs where nothing depends on them: some write none at all.
+        if (std::ranges::any_of(lists, has_a_sign)) report_wrong_sides(a);
         a.claims = {};
         for (std::size_t i = 0; i < hollow.size(); ++i) region_of[hollow[i]] = ids[i];
     }

@@ -71,6 +71,24 @@ TEST(FaultTrace, TheLevelLineOfADippingSheet) {
     EXPECT_TRUE(level_line(sheet, 500).empty());
 }
 
+TEST(Layers, WithoutEndAreRefusedWithTheirNumber) {
+    for (const auto& [rule, number] :
+         {std::pair{"from-top:1e-9", "4e+10"}, {"from-base:1e-9", "4e+10"}, {"from-top:1e-320", "without number"}}) {
+        const auto rules = parse_layers(rule);
+        ASSERT_TRUE(rules.ok()) << rule;
+        const auto count = layer_count(rules->front(), 40, "upper");
+        ASSERT_FALSE(count.ok()) << rule;
+        EXPECT_EQ(count.why().kind, FailureKind::usage);
+        const std::string& message = count.why().error.message;
+        EXPECT_NE(message.find(number), std::string::npos) << message;
+        EXPECT_NE(message.find("zone 'upper' is 40 thick"), std::string::npos) << message;
+    }
+    const auto counted_rule = parse_layers("from-top:1e-9:5");
+    EXPECT_EQ(*layer_count(counted_rule->front(), 40, "upper"), 5u) << "a number of layers is an end";
+    const auto most = parse_layers("from-top:1e-6");
+    EXPECT_EQ(*layer_count(most->front(), 1, "upper"), most_layers);
+}
+
 TEST(Layers, RulesAreReadAndWrongOnesNamed) {
     const auto rules = parse_layers("upper=proportional:10,from-top:2.5,lower=from-base:4:3");
     ASSERT_TRUE(rules.ok());
@@ -78,8 +96,8 @@ TEST(Layers, RulesAreReadAndWrongOnesNamed) {
     EXPECT_EQ((*rules)[0].zone, "upper");
     EXPECT_EQ((*rules)[0].count, 10u);
     EXPECT_EQ((*rules)[1].rule, ZoneLayers::Rule::from_top);
-    EXPECT_EQ(layer_count((*rules)[1], 10), 4u);
-    EXPECT_EQ(layer_count((*rules)[1], 10.1), 5u);
+    EXPECT_EQ(*layer_count((*rules)[1], 10, "upper"), 4u);
+    EXPECT_EQ(*layer_count((*rules)[1], 10.1, "upper"), 5u);
     EXPECT_EQ((*rules)[2].count, 3u);
     for (const char* wrong :
          {"", "a=", "proportional", "proportional:0", "proportional:x", "from-top:-1", "from-top:inf", "top:3", "a=from-base:1:2:3"}) {

@@ -241,6 +241,58 @@ TEST(RegionsOfCells, AreTheEntitiesWhereAMeshHasThem) {
     EXPECT_FALSE(severity_of(mesh, "M37"));
 }
 
+/// Two blocks side by side along an axis, turned, with a gap between them.
+CellMesh blocks_apart(std::size_t axis, double gap, std::uint32_t pieces, Kind kind, double turn) {
+    CellMesh mesh;
+    add_block(mesh, {0, 0, 0}, 100, 4, kind);
+    Vec3 from{};
+    from[axis] = 100 + gap;
+    add_block(mesh, from, 100, pieces, kind);
+    for (Vec3& p : mesh.points) {
+        const Vec3 q{std::cos(turn) * p[0] - std::sin(turn) * p[1], std::sin(turn) * p[0] + std::cos(turn) * p[1], p[2]};
+        p = {4.5e5 + q[0], 6.1e6 + std::cos(turn) * q[1] - std::sin(turn) * q[2], std::sin(turn) * q[1] + std::cos(turn) * q[2] - 2000};
+    }
+    return mesh;
+}
+
+TEST(SlitsBetweenCells, AreToldWithTheirPlaceHoweverTheBlocksAreTurned) {
+    for (const double turn : {0.0, 0.3, 1.1}) {
+        for (const std::uint32_t pieces : {4u, 3u}) {  // matching, and not
+            for (const std::size_t axis : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
+                const CellMesh mesh = blocks_apart(axis, 0.2, pieces, Kind::tetrahedra, turn);
+                EXPECT_EQ(severity_of(mesh, "M38"), Severity::warning) << turn << ' ' << pieces << ' ' << axis;
+                EXPECT_FALSE(severity_of(mesh, "M24"));
+            }
+        }
+    }
+    Dataset data;
+    data.objects.emplace_back(blocks_apart(0, 0.2, 4, Kind::tetrahedra, 0));
+    const auto checked = validators::check_models(data, {});
+    ASSERT_TRUE(checked);
+    const auto slit = std::ranges::find(checked->findings, "M38", &Finding::code);
+    ASSERT_NE(slit, checked->findings.end());
+    EXPECT_EQ(slit->count, 64u) << "two triangles on each of 16 squares, from both sides";
+    ASSERT_FALSE(slit->points.empty());
+    EXPECT_NEAR(slit->points[0][0], 4.5e5 + 100, 0.3);
+    EXPECT_NE(slit->message.find("across a slit of 0.2 "), std::string::npos) << slit->message;
+}
+
+TEST(SlitsBetweenCells, AreNarrowAndEmpty) {
+    EXPECT_FALSE(severity_of(blocks_apart(0, 0, 4, Kind::tetrahedra, 0.3), "M38"));
+    EXPECT_FALSE(severity_of(blocks_apart(0, 5, 4, Kind::tetrahedra, 0.3), "M38")) << "a fifth of an edge";
+    EXPECT_FALSE(severity_of(blocks_apart(0, -5, 4, Kind::tetrahedra, 0.3), "M38")) << "they overlap: M29";
+    CellMesh thin;  // a plate by itself: its sides look away from each other
+    add_block(thin, {0, 0, 0}, 100, 1, Kind::hexahedra);
+    for (Vec3& p : thin.points) p[0] *= 1e-3;
+    EXPECT_FALSE(severity_of(thin, "M38"));
+}
+
+TEST(SlitsBetweenCells, LayersOfInactiveCellsMayBeLeftOut) {
+    EXPECT_FALSE(severity_of(blocks_apart(2, 1, 4, Kind::hexahedra, 0), "M38"));
+    EXPECT_EQ(severity_of(blocks_apart(0, 1, 4, Kind::hexahedra, 0), "M38"), Severity::warning) << "not from side to side";
+    EXPECT_EQ(severity_of(blocks_apart(2, 0.02, 4, Kind::hexahedra, 0), "M38"), Severity::warning) << "nor as thin as near misses";
+}
+
 TEST(RegionsOfCells, OfAMillionCellsCostLittle) {
     const double before = static_cast<double>(std::clock());
     CellMesh large;

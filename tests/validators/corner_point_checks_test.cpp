@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include "base/wording.h"
 #include "validators/checks_testing.h"
 
 namespace geomend {
@@ -47,6 +49,50 @@ TEST(Checks, C02LooksAtPillarsOfActiveCellsOnly) {
     CheckOptions all;
     all.all_cells = true;
     EXPECT_EQ(codes_of(findings_of(grid, all)), Codes{"C02 error"});
+}
+
+TEST(Checks, C02TellsOnceOfDepthsThatStandForNoValue) {
+    for (const double bad : {-99999.0, -999.25, 9999.0, 1e10, 1e30}) {
+        CornerPointGrid grid = brick_grid(6, 4, 2);
+        const CornerPointGrid sound = grid;
+        for (const std::uint32_t i : {1u, 4u}) corner(grid, i, 2, 0, 3) = bad;
+        const auto found = findings_of(grid);
+        const Finding f = find(found, "C02", Severity::error);
+        EXPECT_EQ(cells_of(f), (std::vector<Cell>{{2, 3, 1}, {5, 3, 1}})) << bad;
+        EXPECT_NE(f.message.find("a depth of " + short_number(bad) + " at 2 corners"), std::string::npos) << f.message;
+        EXPECT_NE(f.message.find("the first is (2,3,1)"), std::string::npos) << f.message;
+        EXPECT_EQ(codes_of(found), Codes{"C02 error"}) << "what follows from it is not told again";
+        ASSERT_EQ(f.points.size(), 2u);
+        EXPECT_NEAR(f.points[0][0], 1000.0 / 7, 1e-9) << "the middle of the seven other corners";
+        EXPECT_LT(f.points[0][2], -1000);
+        auto checked = validators::check(grid, {}), plain = validators::check(sound, {});
+        ASSERT_TRUE(checked && plain);
+        EXPECT_NEAR(checked->lengths.tolerance, plain->lengths.tolerance, 1e-2 * plain->lengths.tolerance)
+            << "lengths are those of the rest";
+    }
+}
+
+TEST(Checks, C02TellsOfPillarsThatStandAtNoValue) {
+    CornerPointGrid grid = brick_grid(3, 2, 1);
+    for (const std::size_t k : {0u, 1u, 3u, 4u}) pillar(grid, 1, 1)[k] = -99999;
+    const Finding f = find(findings_of(grid), "C02", Severity::error);
+    EXPECT_EQ(f.count, 4u);
+    EXPECT_NE(f.message.find("-99999 in 16 coordinates of pillars"), std::string::npos) << f.message;
+}
+
+TEST(Checks, C02LeavesDepthsAloneThatTheGridMayHave) {
+    CornerPointGrid deep = brick_grid(4, 4, 2);
+    reshape(deep, [](std::uint32_t, std::uint32_t, std::uint32_t, unsigned, double depth) { return depth - 1020 + 9999; });
+    EXPECT_EQ(codes_of(deep), Codes{}) << "its base lies at 9999 throughout";
+    CornerPointGrid thrown = brick_grid(40, 1, 1);
+    reshape(thrown,
+            [](std::uint32_t i, std::uint32_t, std::uint32_t, unsigned, double depth) { return i < 20 ? depth - 500 : depth - 11; });
+    EXPECT_FALSE(codes_of(thrown).contains("C02 error")) << "the base of one side of a fault lies at 999";
+    CornerPointGrid wide = brick_grid(4, 1, 1);
+    for (std::uint32_t i = 0; i <= 4; ++i) {
+        for (std::uint32_t j = 0; j <= 1; ++j) pillar(wide, i, j)[2] = -99999, pillar(wide, i, j)[5] = 99999;
+    }
+    EXPECT_EQ(codes_of(wide), Codes{}) << "pillars may be stated by any of their points";
 }
 
 TEST(Checks, C03TellsTwistedFromInvertedCells) {

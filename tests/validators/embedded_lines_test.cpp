@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exchange/model_from_brep.h"
+#include "topology/brep_from_dataset.h"
 #include "validators/checks_testing.h"
 #include "validators/rewritten.h"
 
@@ -58,6 +67,23 @@ Dataset sheet_with_line(std::uint32_t from, std::uint32_t to, bool cut) {
     return data;
 }
 
+/// The model as surfaces with a stated model over them, which is how Model3d files hold it.
+Dataset as_faces(Dataset data, std::vector<Loss>& losses) {
+    topology::build_breps(data);
+    EXPECT_EQ(data.breps.size(), 1u);
+    return data.breps.size() == 1 ? exchange::faced_model(data.breps.front(), losses) : Dataset{};
+}
+
+/// How many points of surfaces stand where another one of the same surface does.
+std::size_t places_with_two_points(const Dataset& data) {
+    std::size_t twice = 0;
+    for (const Object& object : data.objects) {
+        const auto& points = std::get<Surface>(object).points;
+        twice += points.size() - std::set<Vec3>(points.begin(), points.end()).size();
+    }
+    return twice;
+}
+
 std::set<std::string> codes(const Dataset& data) {
     auto checked = validators::check_models(data, {});
     EXPECT_TRUE(checked);
@@ -72,6 +98,33 @@ TEST(ALineInAFace, IsNoSeamAndNoCutHoweverLongItIs) {
     for (const auto& [from, to] : {std::pair{1u, 2u}, {1u, 3u}, {0u, 3u}, {2u, 4u}, {0u, 4u}}) {
         EXPECT_EQ(codes(sheet_with_line(from, to, false)), std::set<std::string>{}) << from << " to " << to;
     }
+}
+
+TEST(ALineInAFace, IsNoSeamInAModelOfSurfacesMadeOfIt) {
+    for (const auto& [from, to] : {std::pair{1u, 2u}, {1u, 3u}, {0u, 3u}, {2u, 4u}, {0u, 4u}}) {
+        std::vector<Loss> losses;
+        const Dataset faces = as_faces(sheet_with_line(from, to, false), losses);
+        EXPECT_EQ(places_with_two_points(faces), 0u) << from << " to " << to;
+        EXPECT_EQ(codes(faces), std::set<std::string>{}) << from << " to " << to;
+        EXPECT_FALSE(losses.empty()) << "the line is in none of the surfaces";
+    }
+}
+
+TEST(ALineInAFace, IsLostFromAModelOfSurfacesWithAWordWhereItHasNoName) {
+    Dataset data = sheet_with_line(1, 3, false);
+    std::get<CellMesh>(data.objects[0]).entities[0].name.clear();
+    std::vector<Loss> losses;
+    as_faces(data, losses);
+    const auto lost = std::ranges::find(losses, std::string("lines inside of surfaces"), &Loss::what);
+    ASSERT_NE(lost, losses.end());
+    EXPECT_EQ(lost->count, 1u);
+}
+
+TEST(ALineInAFace, StaysACutInAModelOfSurfacesWhereTheMeshCutsTheFace) {
+    std::vector<Loss> losses;
+    const Dataset faces = as_faces(sheet_with_line(1, 3, true), losses);
+    EXPECT_EQ(places_with_two_points(faces), 1u) << "the middle of the line, not its ends";
+    EXPECT_TRUE(codes(faces).contains("B07"));
 }
 
 TEST(ALineInAFace, AlongWhichTheFaceIsCutIsASeam) {

@@ -177,11 +177,27 @@ Dataset local_grids(std::uint32_t from) {
     for (const std::uint32_t first : {0u, from}) {
         CornerPointGrid local = brick_grid(4, 4, 2);
         local.info.name = "LGR" + std::to_string(first);
+        for (std::size_t p = 0; p < local.pillars.size(); p += 3) {
+            local.pillars[p] = 100.0 * first + local.pillars[p] / 2;
+            local.pillars[p + 1] /= 2;
+        }
         auto& box = local.host.emplace();
         box.first = {first, 0, 0};
         box.last = {first + 1, 1, 1};
         data.objects.emplace_back(std::move(local));
     }
+    return data;
+}
+/// A cell halved along I, of which the halves are stated to be in these host cells.
+Dataset halves_of(std::uint64_t first, std::uint64_t second) {
+    CornerPointGrid host = brick_grid(3, 1, 1);
+    host.info.name = "main";
+    CornerPointGrid local = brick_grid(2, 1, 1);
+    local.info.name = "halves";
+    for (std::size_t p = 0; p < local.pillars.size(); p += 3) local.pillars[p] = 100 + local.pillars[p] / 2;
+    local.host = {"", {1, 0, 0}, {1, 0, 0}, {first, second}};
+    Dataset data = of(host);
+    data.objects.emplace_back(std::move(local));
     return data;
 }
 /// Four cells around an axis, each over so many degrees, as the reader of decks gives them.
@@ -309,6 +325,7 @@ constexpr Fixture fixtures[] = {
     {"C29", [] { return stated_connection(5, 5); }, [] { return stated_connection(5, 16); }},
     {"C30", [] { return local_grids(1); }, [] { return local_grids(2); }},
     {"C31", [] { return around_an_axis("95"); }, [] { return around_an_axis("90"); }},
+    {"C32", [] { return halves_of(1, 2); }, [] { return halves_of(1, 1); }},
     {"S01", a_point, ready_for_flow, "flow"},
     {"S02", [] { return for_flow([](CornerPointGrid& g) { move_corners(g, 0, 4, 8, 4); }); }, ready_for_flow, "flow"},
     {"S03", [] { return for_flow([](CornerPointGrid& g) { g.activity.assign(g.cell_count(), 0); }); }, ready_for_flow, "flow"},

@@ -286,6 +286,7 @@ constexpr Fixture fixtures[] = {
      [] {
          return cubes_of_regions({1, 1, 2});
      }},
+    {"M38", [] { return two_rows(3.02, 0.3); }, [] { return two_rows(3, 0.3); }},
     {"M40",
      [] {
          return raster({50, 0, 0}, {1, 2, 3, 4});
