@@ -85,13 +85,19 @@ void put_run(Lines& lines, std::size_t count, const Element<T>& element, bool wi
     lines.put(text);
 }
 
-/// A name in quotes; line ends in it become blanks.
-inline std::string in_quotes(std::string_view name) {
-    const char quote = name.find('\'') == std::string_view::npos ? '\'' : '"';
-    std::string text = quote + std::string(name) + quote;
+/// A name as it can stand between quotes: line ends become blanks, and where it has quotes of both kinds, double ones single.
+inline std::string quotable(std::string_view name) {
+    std::string text(name);
     std::ranges::replace_if(
         text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    if (text.find('\'') != std::string::npos) std::ranges::replace(text, '"', '\'');
     return text;
+}
+
+/// A name in quotes, as quotable() has it.
+inline std::string in_quotes(std::string_view name) {
+    const char quote = name.find('\'') == std::string_view::npos ? '\'' : '"';
+    return quote + quotable(name) + quote;
 }
 
 /// Writes a keyword and its array: element(i) for i < count. Several parts are made at the same time; the text does

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/text_cursor.h"
 #include "formats/grdecl/deck.h"
@@ -35,14 +40,34 @@ std::string_view face_word(CellFace face) {
     return words[static_cast<std::size_t>(face)];
 }
 
-void write_faults(const CornerPointGrid& grid, OutputFile& out) {
+/// The names of faults as decks can hold them, each of another fault: by the names that they have.
+std::map<std::string, std::string> names_of_faults(const CornerPointGrid& grid, std::vector<Loss>& losses) {
+    std::map<std::string, std::string> written;
+    std::set<std::string> taken;
+    for (const auto& fault : grid.faults) {
+        if (quotable(fault.name) == fault.name) taken.insert(written.emplace(fault.name, fault.name).first->second);
+    }
+    for (const auto& fault : grid.faults) {
+        if (written.contains(fault.name)) continue;
+        std::string name = quotable(fault.name);
+        for (int n = 2; !taken.insert(name).second; ++n) name = quotable(fault.name) + "_" + std::to_string(n);
+        add_loss(losses, {LossClass::identity, grid.info.name, "name of fault '" + fault.name + "'",
+                          "decks hold no line ends in names, and quotes of one kind: it is written as " + in_quotes(name), 1});
+        written.emplace(fault.name, std::move(name));
+    }
+    return written;
+}
+
+void write_faults(const CornerPointGrid& grid, DeckOutput& to) {
+    OutputFile& out = to.main;
+    const auto names = names_of_faults(grid, to.losses);
     const auto has_boxes = [](const auto& f) { return !f.boxes.empty(); };
     const auto has_multiplier = [](const auto& f) { return f.multiplier.has_value(); };
     if (std::ranges::any_of(grid.faults, has_boxes)) {
         out << "FAULTS\n";
         for (const auto& fault : grid.faults) {
             for (const auto& box : fault.boxes) {
-                out << ' ' << in_quotes(fault.name);
+                out << ' ' << in_quotes(names.at(fault.name));
                 put_box(out, box.first, box.last);
                 out << " '" << face_word(box.face) << "' /\n";
             }
@@ -53,7 +78,7 @@ void write_faults(const CornerPointGrid& grid, OutputFile& out) {
     out << "MULTFLT\n";
     for (const auto& fault : grid.faults) {
         if (!fault.multiplier) continue;
-        out << ' ' << in_quotes(fault.name) << ' ';
+        out << ' ' << in_quotes(names.at(fault.name)) << ' ';
         out.number(*fault.multiplier);
         out << " /\n";
     }
@@ -192,7 +217,7 @@ void write_faults_and_connections(const CornerPointGrid& grid, DeckOutput& to, b
             write_array(to.main, "ACTNUM", cells, [&](std::size_t i) { return Element<std::uint32_t>{grid.activity[i]}; });
         }
     }
-    write_faults(grid, to.main);
+    write_faults(grid, to);
     write_pinch(grid, to.main);
     write_connections(grid, to);
     write_region_multipliers(grid, to.main);

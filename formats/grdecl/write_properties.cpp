@@ -30,6 +30,13 @@ bool is_whole(const Attribute& a) {
     return true;
 }
 
+/// How many words cannot stand between quotes.
+std::uint64_t not_quotable(const Attribute& a) {
+    const auto* words = std::get_if<std::vector<std::string>>(&a.values);
+    if (words == nullptr) return 0;
+    return static_cast<std::uint64_t>(std::ranges::count_if(*words, [](const std::string& word) { return quotable(word) != word; }));
+}
+
 /// Name as a keyword: bare, or in quotes where it is none; empty where it cannot stand in a deck.
 std::string keyword_text(const std::string& name) {
     if (name.empty() || trimmed(name).size() != name.size() || name.find('\n') != std::string::npos) return {};
@@ -55,7 +62,7 @@ Place place_of(const Attribute& a, Section section, bool from_deck) {
 template <class T>
 auto element_of(const std::vector<T>& values, const Attribute& a, std::size_t i) {
     if constexpr (std::is_same_v<T, std::string>) {
-        return Element<std::string_view>{values[i], values[i].find_first_of("\n\r") == std::string::npos};
+        return Element<std::string_view>{values[i], quotable(values[i]) == values[i]};
     } else {
         const double v = static_cast<double>(values[i]);
         const bool given = std::isfinite(v) && !(a.no_data && is_no_data(a, v));
@@ -195,6 +202,9 @@ void write_properties(const CornerPointGrid& grid, Section section, DeckOutput& 
             lost(LossClass::identity, a, "that they are components of one attribute:", "they are properties of their own", a.components);
         if (const std::uint64_t n = not_finite(a); n > 0)
             lost(LossClass::identity, a, "values that are not finite of attribute", "they become defaults", n);
+        if (const std::uint64_t n = not_quotable(a); n > 0)
+            lost(LossClass::substance, a, "words of attribute",
+                 "words of decks have no line ends, and quotes of one kind: they become defaults", n);
         const bool unit_comes_back =
             !grid.unit_system.empty() && (a.unit.empty() || a.unit == "mD" || a.unit == grid.info.crs.axis_units[2]);
         if (!a.unit.empty() && !unit_comes_back) lost(LossClass::identity, a, "unit of attribute", "decks take it from the unit system");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/vectors.h"
 #include "base/wording.h"
 #include "grid/cell_geometry.h"
 #include "gridding/place_finder.h"
@@ -148,23 +149,40 @@ Vec3 place_in(const grid::Corners& corners, double u, double v, double w) {
 struct Inside {
     RowsAt middle;
     std::vector<RowsAt> rows;
-    std::vector<double> weights, values;
+    std::vector<double> weights, values, ways;  // ways: squares of distances from the middle
 
     void look(const grid::Corners& corners, const PlaceFinder& finder, const Places& places, bool middle_only) {
         middle = finder.at(place_in(corners, 0.5, 0.5, 0.5));
         rows.clear();
         weights.clear();
+        ways.clear();
         if (middle_only) return;
+        const Vec3 at_middle = place_in(corners, 0.5, 0.5, 0.5);
         const double wide = static_cast<double>(places.wide), high = static_cast<double>(places.high);
         for (std::size_t column = 0; column < places.wide * places.wide; ++column) {
             const double u = (static_cast<double>(column % places.wide) + 0.5) / wide;
             const double v = (static_cast<double>(column / places.wide) + 0.5) / wide;
             for (std::size_t down = 0; down < places.high; ++down) {
                 const double w = (static_cast<double>(down) + 0.5) / high;
-                rows.push_back(finder.at(place_in(corners, u, v, w)));
+                const Vec3 place = place_in(corners, u, v, w), way = minus(place, at_middle);
+                rows.push_back(finder.at(place));
+                ways.push_back(dot(way, way));
                 weights.push_back(std::abs(grid::jacobian(corners, u, v, w)));
             }
         }
+    }
+
+    /// Of the places that were looked at, the value of the one nearest to the middle that has one; the first of several as near.
+    template <class At>
+    double nearest_to_middle(const At& at) const {
+        double found = none, least = std::numeric_limits<double>::infinity();
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            const double v = at(rows[r]);
+            if (std::isnan(v) || ways[r] >= least) continue;
+            least = ways[r];
+            found = v;
+        }
+        return found;
     }
 
     double value(const Candidate& c, Averaging how, std::size_t height) {
@@ -172,7 +190,7 @@ struct Inside {
             const std::uint32_t row = c.on_cells ? r.cell : r.point;
             return row < c.rows.size() ? c.rows[row] : none;
         };
-        if (how == Averaging::nearest) return at(middle);
+        if (how == Averaging::nearest) return std::isnan(at(middle)) ? nearest_to_middle(at) : at(middle);
         values.clear();
         for (const RowsAt& r : rows) values.push_back(at(r));
         if (how == Averaging::mean) return mean_of(values, weights);
@@ -194,11 +212,20 @@ void fill_from(const PlaceFinder& finder, std::span<const Candidate> candidates,
         for (std::size_t cell = first; cell < last; ++cell) {
             if (!filling.grid.is_active(cell)) continue;
             const auto [i, j, k] = filling.grid.ijk(cell);
-            inside.look(cell_corners(filling.grid, i, j, k), finder, places, middle_only);
-            for (const auto& [candidate, f] : pairs) {
-                double& value = filling.all[f].values[cell];
-                if (std::isnan(value)) value = inside.value(*candidate, filling.all[f].how, places.high);
-            }
+            const auto corners = cell_corners(filling.grid, i, j, k);
+            inside.look(corners, finder, places, middle_only);
+            bool is_missing = false;
+            const auto take = [&] {
+                for (const auto& [candidate, f] : pairs) {
+                    double& value = filling.all[f].values[cell];
+                    if (std::isnan(value)) value = inside.value(*candidate, filling.all[f].how, places.high);
+                    is_missing = is_missing || std::isnan(value);
+                }
+            };
+            take();
+            if (!is_missing || !middle_only) continue;
+            inside.look(corners, finder, places, false);  // nothing lies at the middle, but something may lie elsewhere in the cell
+            take();
         }
     });
 }

@@ -240,6 +240,27 @@ TEST(Writing, RecordsOfEditStayUnderTheirSection) {
     }
 }
 
+TEST(Writing, NamesOfFaultsWithQuotesOfBothKindsAreReadableAndListed) {
+    CornerPointGrid g = made();
+    const auto fault = [](std::string name) {
+        return CornerPointGrid::Fault{std::move(name), {{{0, 0, 0}, {0, 0, 1}, CellFace::i_plus}}, 0.5};
+    };
+    g.faults = {fault("plain"), fault("it's"), fault("12\" pipe"), fault("it's 12\""), fault("it's 12'")};
+    const TemporaryFolder folder;
+    const auto written = write(dataset_of(g), folder / "back.grdecl");
+    const auto again = read_path(written.path);
+    ASSERT_TRUE(again) << why(again);
+    const CornerPointGrid& back = grid_of(*again);
+    ASSERT_EQ(back.faults.size(), 5u);
+    EXPECT_EQ(back.faults[0].name, "plain");
+    EXPECT_EQ(back.faults[1].name, "it's");
+    EXPECT_EQ(back.faults[2].name, "12\" pipe");
+    EXPECT_EQ(back.faults[3].name, "it's 12'_2") << "not the name of another fault";
+    EXPECT_EQ(back.faults[4].name, "it's 12'");
+    EXPECT_EQ(back.faults[3].multiplier, 0.5);
+    EXPECT_EQ(std::ranges::count_if(written.losses, [](const Loss& l) { return l.what == "name of fault 'it's 12\"'"; }), 1);
+}
+
 TEST(Writing, WhatDoesNotGoInIsListed) {
     const TemporaryFolder folder;
     CornerPointGrid g = made();

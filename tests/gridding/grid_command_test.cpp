@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -154,6 +155,24 @@ void write_moved(const std::string& from, const std::string& to, double factor, 
         const bool is_height = n >= 19 && value < 9999000;  // the header has 19 numbers in lines of four and seven
         out << (is_height ? factor * value + by : value) << (n == 3 || n == 7 || n == 11 || n == 18 || n > 18 ? '\n' : ' ');
     }
+}
+
+TEST(Grid, WithoutActiveCellsAndLayersWithoutEndAreRefusedWithTheReason) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "grid.grdecl";
+    const auto refused = [&](std::vector<std::string> how) {
+        std::vector<std::string> arguments{"grid", sample("layered_box.ml"), "-o", out, "--cells", "6x6"};
+        arguments.insert(arguments.end(), how.begin(), how.end());
+        return run_geomend(arguments);
+    };
+    const auto elsewhere = refused({"--area-box", "1e6,2e6,1e6,2e6"});
+    EXPECT_EQ(elsewhere.status, 4);
+    EXPECT_NE(elsewhere.err.find("no cell is active: horizon 'top' has no value where the grid lies, from x 1e+06"), std::string::npos)
+        << elsewhere.err;
+    const auto endless = refused({"--layers", "from-top:1e-9"});
+    EXPECT_EQ(endless.status, 2);
+    EXPECT_NE(endless.err.find("e+11, more than 1000000"), std::string::npos) << endless.err;
+    EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 TEST(Grid, SuccessiveStepsKeepTheirCells) {

@@ -121,6 +121,17 @@ TEST(Properties, WhatReachesNotAllCellsLeavesTheOthersWithoutAValue) {
     EXPECT_FALSE(sample_properties(grid, sources, rule("PORO", Averaging::mean)).ok());
 }
 
+TEST(Properties, TheNearestWithinACellIsTakenWhereNothingLiesAtItsMiddle) {
+    const auto grid = flat_grid(3, 1, 1);
+    // One layer of samples in the upper third of the cells of 2, and none over the third column.
+    Raster above = voxet(2, 1, 2, 0.6, [](auto i, auto, auto k) { return 10.0 * (i + 1) + k; });
+    const auto sampled = sample_properties(grid, objects(std::move(above)), rule("PERM", Averaging::nearest));
+    ASSERT_TRUE(sampled.ok());
+    EXPECT_EQ(reals(*sampled), (std::vector<double>{11, 21, no_sample})) << "the lower layer is nearer to the middle";
+    EXPECT_EQ(sampled->report[0].with, 2u);
+    EXPECT_EQ(sampled->report[0].without, 1u);
+}
+
 TEST(Properties, CellsOfAnotherGridKeepTheirCodes) {
     CornerPointGrid fine = flat_grid(8, 8, 4);
     const auto coarse = flat_grid(4, 4, 4);  // twice as wide: the same layers over four times the area

@@ -163,7 +163,7 @@ TEST(Checks, TableNamesEveryCornerPointCheck) {
         ++corner_point;
         EXPECT_FALSE(row["condition"].get<std::string>().empty());
     }
-    EXPECT_EQ(corner_point, 31u);
+    EXPECT_EQ(corner_point, 32u);
 }
 
 }  // namespace
