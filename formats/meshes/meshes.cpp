@@ -100,8 +100,8 @@ constexpr Format code_aster_row() {
 
 constexpr Format openfoam_row() {
     Format format = row("openfoam", "OpenFOAM: constant/polyMesh beside a .foam file, with patches and zones", openfoam_extensions,
-                        "substance: second order, edge sets, attributes, points, grids, wells; identity: names that are no words, roles, "
-                        "units, coordinate system");
+                        "substance: second order, edge sets, further sets on the same faces, attributes, points, grids, wells; identity: "
+                        "names that are no words or twice, roles, units, coordinate system");
     format.keeps.fault_faces = Keeping::yes;
     format.keeps.names = Keeping::partly;
     format.keeps.exact_coordinates = Keeping::yes;
@@ -149,11 +149,13 @@ constexpr Format feflow_row() {
     return format;
 }
 
-constexpr Format network_row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions) {
-    Format format =
-        row(name, title, extensions,
-            "substance: shapes of cells, edge and node sets, attributes, points, grids, wells; identity: names that are too long or no "
-            "words, units, coordinate system");
+constexpr std::string_view network_losses =
+    "substance: shapes of cells, edge and node sets, attributes, points, grids, wells; identity: "
+    "names that are too long or no words, units, coordinate system";
+
+constexpr Format network_row(std::string_view name, std::string_view title, std::span<const std::string_view> extensions,
+                             std::string_view losses = network_losses) {
+    Format format = row(name, title, extensions, losses);
     format.tried_on = tried_by_readers_of_tests;
     return format;
 }
@@ -164,10 +166,14 @@ constexpr std::array rows = {
     code_aster_row(),
     exodus_row(),
     feflow_row(),
-    network_row("gprs", "GPRS: a network of pipes between cells, with volumes, centres and areas", gprs_extensions),
+    network_row(
+        "gprs", "GPRS: a network of pipes between cells, with volumes, centres and areas", gprs_extensions,
+        "substance: shapes and regions of cells, sets, attributes, points, grids, wells; identity: names, units, coordinate system"),
     medit_row(),
     mfem_row(),
-    network_row("modflow-disu", "MODFLOW 6: the package DISU of unstructured cells", modflow_extensions),
+    network_row("modflow-disu", "MODFLOW 6: the package DISU of unstructured cells", modflow_extensions,
+                "substance: shapes of cells, sets, attributes, points, grids, wells; identity: names (they are comments), units other "
+                "than m, ft and cm, coordinate system"),
     openfoam_row(),
     network_row("pflotran", "PFLOTRAN: explicit unstructured grid, with files of regions and of faces", pflotran_extensions),
     tetgen_row(),

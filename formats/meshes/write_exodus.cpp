@@ -101,10 +101,16 @@ void ExodusWriter::add_blocks() {
     count("num_elem", mesh_->cell_count());
     block_count_ = count("num_el_blk", mesh_->blocks.size());
     std::vector<std::string> names;
+    std::set<std::string> used(mesh_->regions.begin(), mesh_->regions.end());
     for (const auto& b : mesh_->blocks) {
         const bool is_further = !names.empty() && mesh_->blocks[names.size() - 1].region == b.region;
         std::string name = mesh_->regions[b.region];
-        if (is_further) name = name.substr(0, longest_name - 8) + " " + element_of(b.type).name;
+        if (is_further) {
+            const std::string type = std::string(" ") + element_of(b.type).name;
+            name = name.substr(0, longest_name - 8) + type;
+            for (int n = 2; !used.insert(name).second; ++n)
+                name = mesh_->regions[b.region].substr(0, longest_name - 14) + "_" + std::to_string(n) + type;
+        }
         names.push_back(std::move(name));
     }
     add_numbers("eb_status", block_count_, mesh_->blocks.size(), false);

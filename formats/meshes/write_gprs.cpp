@@ -29,7 +29,10 @@ Result<std::vector<Loss>> write_gprs(const VolumeMesh& mesh, OutputSet& out, con
         centres.number(p[1]) << ' ';
         centres.number(p[2]) << '\n';
     }
-    return common_losses(mesh, "GPRS");
+    std::vector<Loss> losses = common_losses(mesh, "GPRS");
+    for (std::size_t r = 0; mesh->regions.size() > 1 && r < mesh->regions.size(); ++r)
+        add_loss(losses, {LossClass::substance, mesh->regions[r], "region", "GPRS does not say where cells belong", 1});
+    return losses;
 }
 
 }  // namespace geomend::meshes

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
 
+#include "base/text_cursor.h"
 #include "base/vectors.h"
 #include "formats/meshes/mesh_writing.h"
 
@@ -52,6 +56,16 @@ Layout layout_of(const VolumeMesh& mesh) {
     return layout;
 }
 
+/// The word for the unit of all axes, empty where it is not stated or not known: MODFLOW 6 refuses other words, and without one the
+/// unit is not defined.
+std::string_view unit_word(const CoordinateSystem& crs) {
+    const std::string unit = lower_case(crs.axis_units[0]);
+    if (crs.axis_units[1] != crs.axis_units[0] || crs.axis_units[2] != crs.axis_units[0]) return {};
+    if (unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters") return "METERS";
+    if (unit == "ft" || unit == "foot" || unit == "feet") return "FEET";
+    return unit == "cm" || unit == "centimetres" || unit == "centimeters" ? "CENTIMETERS" : "";
+}
+
 void write_list(OutputFile& file, const char* name, std::span<const double> values) {
     file << "  " << name << "\n    INTERNAL FACTOR 1.0\n";
     for (const double value : values) file << "    ", file.number(value) << '\n';
@@ -96,7 +110,9 @@ Result<std::vector<Loss>> write_modflow(const VolumeMesh& mesh, OutputSet& out, 
         file.number(block.first + 1) << " to ";
         file.number(std::uint64_t{block.first} + block.count) << ": region " << in_a_line(mesh->regions[block.region]) << '\n';
     }
-    file << "BEGIN OPTIONS\n  LENGTH_UNITS METERS\nEND OPTIONS\nBEGIN DIMENSIONS\n  NODES ";
+    file << "BEGIN OPTIONS\n";
+    if (const std::string_view unit = unit_word(mesh->crs); !unit.empty()) file << "  LENGTH_UNITS " << unit << '\n';
+    file << "END OPTIONS\nBEGIN DIMENSIONS\n  NODES ";
     file.number(count) << "\n  NJA ";
     file.number(count + 2 * std::uint64_t{mesh->network.connections.size()}) << "\nEND DIMENSIONS\nBEGIN GRIDDATA\n";
     write_list(file, "TOP", layout.top);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -96,58 +98,75 @@ void join_face_sets(Data::FaceSet& to, const Data::FaceSet& from) {
     if (to.side != from.side) to.side = FaceSide::none;
 }
 
-/// Leaves a face to the first set that has it, whichever of its cells names it, and lists what later sets lose.
+/// Leaves a face to the first set that has it, whichever of its cells names it, and lists what later sets lose: faces, or only their
+/// side where the first set is of the same surface.
 void leave_faces_once(Data& mesh, const MeshNeeds& needs, std::vector<Loss>& losses) {
     std::map<std::vector<std::uint32_t>, std::size_t> owner;
+    const std::string why = std::string(needs.target) + " has a face in one set only";
     for (std::size_t s = 0; s < mesh.face_sets.size(); ++s) {
         Data::FaceSet& set = mesh.face_sets[s];
-        std::uint64_t lost = 0;
+        std::uint64_t lost = 0, other_sides = 0;
         std::erase_if(set.faces, [&](const CellFaceRef& face) {
             auto nodes = nodes_of(mesh, face);
             std::ranges::sort(nodes);
             const auto [at, is_new] = owner.emplace(std::move(nodes), s);
-            if (!is_new && at->second != s) ++lost;
-            return !is_new;
+            if (is_new || at->second == s) return !is_new;  // a set of both sides has a face once, too
+            const Data::FaceSet& first = mesh.face_sets[at->second];
+            if (first.surface != no_index && first.surface == set.surface) ++(first.side == set.side ? lost : other_sides);
+            else if (first.name != set.name) ++lost;  // sets of one name become one
+            return true;
         });
-        if (lost > 0)
-            add_loss(losses,
-                     {LossClass::substance, set.name, "faces of a set", std::string(needs.target) + " has one number a face", lost});
+        if (lost > 0) add_loss(losses, {LossClass::substance, set.name, "faces of a set", why, lost});
+        if (other_sides > 0) add_loss(losses, {LossClass::identity, set.name, "side of faces", why, other_sides});
     }
     std::erase_if(mesh.face_sets, [](const Data::FaceSet& set) { return set.faces.empty(); });
 }
 
 /// Sets that the target keeps, one of each name, and without sides where it has none.
-void join_sets(Data& mesh, const MeshNeeds& needs) {
+void join_sets(Data& mesh, const MeshNeeds& needs, std::vector<Loss>& losses) {
     if (!needs.face_sets) mesh.face_sets.clear();
     if (!needs.edge_sets) mesh.edge_sets.clear();
     if (!needs.node_sets) mesh.node_sets.clear();
     if (!needs.face_sides) join_sides(mesh.surfaces, mesh.face_sets);
+    if (needs.faces_once) leave_faces_once(mesh, needs, losses);
     join_names(mesh.face_sets, join_face_sets);
     join_names(mesh.edge_sets,
                [](Data::EdgeSet& to, const Data::EdgeSet& from) { std::ranges::copy(from.edges, std::back_inserter(to.edges)); });
     join_names(mesh.node_sets, [](Data::NodeSet& to, const Data::NodeSet& from) { append_sorted(to.nodes, from.nodes); });
 }
 
-/// Names that the target can write, for each kind by itself.
+/// Names that a target can write, all different.
+void rename(std::span<std::string* const> names, const MeshNeeds& needs, std::vector<Loss>& losses) {
+    std::vector<std::string> given;
+    for (const std::string* name : names) given.push_back(*name);
+    const std::vector<std::string> found = target_names(given, needs.names, needs.longest_name);
+    std::set<std::string> known;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const bool is_new = known.insert(given[i]).second;
+        *names[i] = found[i];
+        const bool shorter = needs.longest_name > 0 && given[i].size() > needs.longest_name;  // listed as such
+        if (found[i] == given[i] || (is_new && shorter)) continue;
+        const std::string why = is_new ? " cannot write it: it is called '" : " has a name only once: the next one is called '";
+        add_loss(losses, {LossClass::identity, given[i], "name", std::string(needs.target) + why + found[i] + "'", 1});
+    }
+}
+
+/// Names that the target can write, for each kind by itself where it has a name space for each.
 void rename_all(Data& mesh, const MeshNeeds& needs, std::vector<Loss>& losses) {
     if (needs.names == Naming::numbers) return;
-    const auto rename = [&](auto& things, const auto& name_of) {
-        std::vector<std::string> names;
-        for (auto& thing : things) names.push_back(name_of(thing));
-        const auto found = target_names(names, needs.names, needs.longest_name);
-        for (auto& thing : things) name_of(thing) = found.at(name_of(thing));
-        for (const auto& [from, to] : found) {
-            const bool shorter = needs.longest_name > 0 && from.size() > needs.longest_name;  // listed as such
-            if (from != to && !shorter)
-                add_loss(losses,
-                         {LossClass::identity, from, "name", std::string(needs.target) + " cannot write it: it is called '" + to + "'", 1});
-        }
+    std::vector<std::string*> names;
+    const auto end_kind = [&] {
+        rename(names, needs, losses);
+        names.clear();
     };
-    rename(mesh.regions, [](std::string& region) -> std::string& { return region; });
-    const auto of_set = [](auto& set) -> std::string& { return set.name; };
-    rename(mesh.face_sets, of_set);
-    rename(mesh.edge_sets, of_set);
-    rename(mesh.node_sets, of_set);
+    for (std::string& region : mesh.regions) names.push_back(&region);
+    if (!needs.one_name_space) end_kind();
+    for (Data::FaceSet& set : mesh.face_sets) names.push_back(&set.name);
+    if (!needs.one_name_space) end_kind();
+    for (Data::EdgeSet& set : mesh.edge_sets) names.push_back(&set.name);
+    end_kind();
+    for (Data::NodeSet& set : mesh.node_sets) names.push_back(&set.name);
+    end_kind();
 }
 
 void drop_attributes(Data& mesh, const MeshNeeds& needs) {
@@ -171,10 +190,9 @@ Result<PreparedMesh> prepare(const VolumeMesh& mesh, const MeshNeeds& needs) {
         data = **split;
     }
     drop_attributes(data, needs);
-    join_sets(data, needs);
+    join_sets(data, needs, lost);
     rename_all(data, needs, lost);
     if (needs.network) data.network = cell_network_of(data);
-    if (needs.names == Naming::numbers && needs.face_sets) leave_faces_once(data, needs, lost);
     auto made = VolumeMesh::make(std::move(data));
     if (!made) return std::move(made).why();
     return PreparedMesh{*std::move(made), std::move(lost)};

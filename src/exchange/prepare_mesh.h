@@ -17,8 +17,8 @@ struct PreparedMesh {
 
 /// Makes of a mesh what a target asks for. Cells that it does not know are left out, second order becomes first, sets and attributes
 /// without a place are left out, sides of a surface become one set, and sets of one name one set. Names become words, unique and
-/// short enough, where the target has such: names that were the same stay the same, and others differ. Where the target has
-/// numbers only, a face belongs to the first set that has it. Each of these is listed.
+/// short enough, where the target has such: of regions with the same name all but one get a number. Where the target has a face in one
+/// set only, it belongs to the first set that has it. Each of these is listed.
 /// The cells of a VolumeMesh are sorted by region and type, with their corners in VTK's order: a writer goes through the blocks in the
 /// order in which its format has them.
 /// Where the target wants the mesh split along its faults or all surfaces, or not at all, it is split or joined (split_mesh.h).

@@ -79,15 +79,15 @@ private:
 
 }  // namespace
 
-std::map<std::string, std::string> target_names(const std::vector<std::string>& names, Naming naming, std::size_t longest) {
-    std::map<std::string, std::string> result;
+std::vector<std::string> target_names(const std::vector<std::string>& names, Naming naming, std::size_t longest) {
+    std::vector<std::string> result(names.size());
+    std::vector<std::size_t> rest;
     Namer namer(naming, longest);
-    for (const std::string& name : names) {
-        if (!result.contains(name) && namer.keep(name)) result.emplace(name, name);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (namer.keep(names[i])) result[i] = names[i];
+        else rest.push_back(i);
     }
-    for (const std::string& name : names) {
-        if (!result.contains(name)) result.emplace(name, namer.changed(name));
-    }
+    for (const std::size_t i : rest) result[i] = namer.changed(names[i]);
     return result;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -10,10 +9,10 @@
 
 namespace geomend::exchange {
 
-/// Names as a target can write them: no longer than it allows; as words, if it wants such; names that differ stay different, by a
-/// number at their end (as words, also from names in other letters' case); those that are the same stay the same. A name that fits
-/// is kept, whatever comes before it; one that is shortened keeps the side of a surface at its end. The map has all names that were given.
+/// Names as a target can write them, in the order of those given: no longer than it allows; as words, if it wants such; all different
+/// (as words, also where only the case of letters differs), by a number at their end. A name that fits is kept, whatever comes before
+/// it, but for the same name; one that is shortened keeps the side of a surface at its end.
 /// Cost: n log n.
-std::map<std::string, std::string> target_names(const std::vector<std::string>& names, Naming naming, std::size_t longest);
+std::vector<std::string> target_names(const std::vector<std::string>& names, Naming naming, std::size_t longest);
 
 }  // namespace geomend::exchange

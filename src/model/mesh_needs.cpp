@@ -13,7 +13,7 @@ constexpr auto tet_and_hex = static_cast<CellKinds>(tetrahedra | hexahedra);
 constexpr auto no_pyramid = static_cast<CellKinds>(tetrahedra | wedges | hexahedra);
 
 // Columns: target, cells, order, sorted, splitting, winding, middle nodes, names, face sets, face sides, edge sets, node sets, values
-// at points, values of cells, longest name, network.
+// at points, values of cells, longest name, network, faces once, one name space.
 constexpr std::array<MeshNeeds, 20> rows{{
     {"abaqus", no_pyramid, 2, CellOrder::any, Splitting::as_given, CornerOrder::outward, false, Naming::words, true, true, true, true,
      false, false, 80},
@@ -22,7 +22,7 @@ constexpr std::array<MeshNeeds, 20> rows{{
     {"cgns", simple_cells, 2, CellOrder::by_region_and_type, Splitting::as_given, CornerOrder::outward, true, Naming::texts, true, true,
      false, true, true, true, 32},
     {"code-aster", simple_cells, 1, CellOrder::by_type, Splitting::on_faults, CornerOrder::outward, false, Naming::words, true, true, true,
-     true, false, false, 24},
+     true, false, false, 24, false, false, true},
     {"csmp", simple_cells, 1, CellOrder::by_region_and_type, Splitting::as_given, CornerOrder::outward, false, Naming::texts, true, true,
      true, false, false, false, 0},
     {"exodus", simple_cells, 1, CellOrder::by_region_and_type, Splitting::as_given, CornerOrder::outward, false, Naming::texts, true, true,
@@ -34,21 +34,21 @@ constexpr std::array<MeshNeeds, 20> rows{{
     {"gmsh", simple_cells, 2, CellOrder::any, Splitting::as_given, CornerOrder::outward, true, Naming::texts, true, true, true, true, true,
      true, 0},
     {"gprs", all_cells, 1, CellOrder::any, Splitting::none, CornerOrder::either, false, Naming::numbers, false, false, false, false, false,
-     true, 0, true},
+     false, 0, true},
     {"light-tsolid", tetrahedra, 1, CellOrder::by_region, Splitting::on_all_surfaces, CornerOrder::outward, false, Naming::texts, true,
      true, false, false, true, true, 0},
     {"medit", no_pyramid, 1, CellOrder::by_type, Splitting::as_given, CornerOrder::outward, false, Naming::numbers, true, false, true,
-     false, false, false, 0},
+     false, false, false, 0, false, true},
     {"mfem", tet_and_hex, 1, CellOrder::any, Splitting::as_given, CornerOrder::outward, false, Naming::numbers, true, false, false, false,
-     false, false, 0},
+     false, false, 0, false, true},
     {"modflow-disu", all_cells, 1, CellOrder::any, Splitting::none, CornerOrder::either, false, Naming::numbers, false, false, false, false,
-     false, true, 0, true},
-    {"openfoam", all_cells, 1, CellOrder::any, Splitting::as_given, CornerOrder::outward, false, Naming::words, true, true, false, true,
      false, false, 0, true},
+    {"openfoam", all_cells, 1, CellOrder::any, Splitting::as_given, CornerOrder::outward, false, Naming::words, true, true, false, true,
+     false, false, 0, true, true},
     {"pflotran", all_cells, 1, CellOrder::any, Splitting::none, CornerOrder::either, false, Naming::words, true, false, false, false, false,
      false, 32, true},
     {"tetgen", tetrahedra, 2, CellOrder::any, Splitting::as_given, CornerOrder::outward, false, Naming::numbers, true, false, false, false,
-     true, false, 0, true},
+     true, false, 0, true, true},
     {"tough2", all_cells, 1, CellOrder::any, Splitting::none, CornerOrder::either, false, Naming::words, false, false, false, false, false,
      false, 5, true},
     {"tsolid", tetrahedra, 1, CellOrder::by_region, Splitting::on_all_surfaces, CornerOrder::outward, false, Naming::texts, true, true,

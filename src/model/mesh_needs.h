@@ -48,8 +48,10 @@ struct MeshNeeds {
     Naming names;       ///< of regions and sets; numbers alone lose the names
     bool face_sets, face_sides, edge_sets, node_sets;
     bool point_values, cell_values;
-    std::uint16_t longest_name;  ///< characters; 0: as long as they are
-    bool network = false;        ///< volumes and centres of cells, and connections, are wanted
+    std::uint16_t longest_name;   ///< characters; 0: as long as they are
+    bool network = false;         ///< volumes and centres of cells, and connections, are wanted
+    bool faces_once = false;      ///< a face is in one face set at most
+    bool one_name_space = false;  ///< regions, face sets and edge sets have no name in common
 };
 
 /// All rows, ascending by target.
