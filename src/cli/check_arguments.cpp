@@ -2,6 +2,7 @@
 #include "cli/check_arguments.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 
 #include "drawing/scene.h"
@@ -21,7 +22,9 @@ void add_check_arguments(CLI::App& command, CheckArguments& a) {
         ->check(CLI::IsMember({"error", "warning", "info", "never"}));
     command.add_option("--checks", a.checks, "Run only these checks")->type_name("CODE,...")->delimiter(',')->allow_extra_args(false);
     command.add_option("--skip", a.skip, "Leave these checks out")->type_name("CODE,...")->delimiter(',')->allow_extra_args(false);
-    command.add_option("--max-findings", a.max_findings, "Most findings that are listed for a file; all are counted")->type_name("N");
+    command.add_option("--max-findings", a.max_findings, "Most findings that are listed for a file; all are counted")
+        ->type_name("N")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1'000'000'000'000}));
 }
 
 Result<validators::CheckOptions> check_options(const CommonOptions& common, const CheckArguments& a, const Monitor* monitor) {

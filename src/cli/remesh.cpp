@@ -84,13 +84,14 @@ ExitStatus run(const RemeshArguments& o) {
     if (!made) return report(made.why());
     end_progress();
     ExitStatus status = made->why_not.empty() ? ExitStatus::done : ExitStatus::invalid_result;
+    if (const std::string missed = sites_missed(*made); !missed.empty() && !o.quiet) std::fprintf(stderr, "geomend: %s\n", missed.c_str());
     if (o.json) return worse(status, print_about(remesh_json(*made), o.output, made->is_written));
     if (!made->why_not.empty()) report(made->errors, false);
     if (!o.quiet) {
         report(made->written.losses, o.verbose);
         std::string text;
         for (const auto& model : made->models) text += model_lines(model, o.verbose);
-        text += changed_volumes(*made);
+        text += sites_found(*made) + changed_volumes(*made);
         status = worse(status, print_about(text, o.output, made->is_written));
     }
     if (!made->why_not.empty())
@@ -126,7 +127,9 @@ void add_remesh(CLI::App& program, ExitStatus& status) {
                      "Largest distance between new and old surfaces (default: a tenth of the size, 1/200 of the model at most)")
         ->type_name("L")
         ->check(is_positive_length());
-    command->add_option("--max-triangles", o->most_triangles, "Most triangles that a size may make (default 20000000)")->type_name("N");
+    command->add_option("--max-triangles", o->most_triangles, "Most triangles that a size may make (default 20000000)")
+        ->type_name("N")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{4'000'000'000}));
     command->add_flag("--keep-invalid", o->keep_invalid, "Write also a result that has errors which the input had not");
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
     add_common_options(*command, *o, true);

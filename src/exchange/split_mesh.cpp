@@ -285,9 +285,12 @@ Result<VolumeMesh> joined(const VolumeMesh& mesh, std::vector<Loss>& losses) {
         a = taken(a, rows);
     }
     auto made = VolumeMesh::make(std::move(data));
-    if (!made)
-        return failure(FailureKind::cannot_hold, "F021", {},
-                       "the doubled vertices of the mesh cannot become one again: " + made.why().error.message);
+    if (!made) {
+        Failure why = failure(FailureKind::cannot_hold, "F021", {},
+                              "the doubled vertices of the mesh cannot become one again: " + made.why().error.message);
+        why.error.measures = {{"unsound_cells", 1}};
+        return why;
+    }
     return made;
 }
 

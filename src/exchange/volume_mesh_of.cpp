@@ -185,15 +185,23 @@ void list_model_losses(const BrepData& model, std::vector<Loss>& losses) {
     lose(model.features.size(), "geological features");
 }
 
-Failure no_mesh(const CellMesh& mesh, const std::string& why) {
-    return failure(FailureKind::cannot_hold, "F021", {}, (mesh.info.name.empty() ? "" : "'" + mesh.info.name + "': ") + why);
+Failure no_mesh(const CellMesh& mesh, const std::string& why, const char* measure) {
+    Failure failed = failure(FailureKind::cannot_hold, "F021", {}, (mesh.info.name.empty() ? "" : "'" + mesh.info.name + "': ") + why);
+    failed.error.measures = {{measure, 1}};
+    return failed;
+}
+
+bool has_volume_cells(const CellMesh& mesh) {
+    return std::ranges::any_of(mesh.types, [](CellType type) { return dimension(type) == 3; });
 }
 
 }  // namespace
 
 Result<VolumeMesh> volume_mesh_of(const CellMesh& mesh, const BrepData* model, std::vector<Loss>& losses) {
+    if (!has_volume_cells(mesh)) return no_mesh(mesh, "there are no cells that fill a volume", "without_cells");
     SolidCells cells = solid_cells(mesh, losses);
-    if (cells.data.blocks.empty()) return no_mesh(mesh, "no cell has a volume");
+    if (cells.data.blocks.empty())
+        return no_mesh(mesh, "no cell can be written: each uses a point twice, or does not close", "unsound_cells");
     if (model != nullptr) {
         add_surface_faces(*model, cells, losses);
         cells.data.vertex_places.resize(cells.data.vertices.size());
@@ -205,8 +213,9 @@ Result<VolumeMesh> volume_mesh_of(const CellMesh& mesh, const BrepData* model, s
     add_attributes(mesh, cells, losses);
     auto made = VolumeMesh::make(std::move(cells.data));
     if (!made)
-        return no_mesh(mesh, "the cells cannot be written as one mesh (" + made.why().error.message +
-                                 "); 'geomend repair --step clean' may mend them");
+        return no_mesh(
+            mesh, "the cells cannot be written as one mesh (" + made.why().error.message + "); 'geomend repair --step clean' may mend them",
+            "unsound_cells");
     return made;
 }
 

@@ -31,15 +31,35 @@ double volume_of(CellType type, std::span<const Vec3> p, std::span<const std::ui
     }
 }
 
+/// The corners of a cell, seen from the first one.
+void take_corners(const VolumeMesh& mesh, std::uint32_t cell, std::vector<Vec3>& p) {
+    const auto nodes = mesh->nodes_of(cell);
+    p.clear();
+    for (const std::uint32_t v : nodes) p.push_back(minus(mesh->vertices[v], mesh->vertices[nodes[0]]));
+}
+
+/// Cells that are no tetrahedra.
+std::vector<TypeShare> others_in(const VolumeMesh& mesh) {
+    std::vector<TypeShare> shares;
+    std::vector<Vec3> p;
+    for (const auto& block : mesh->blocks) {
+        if (block.type == CellType::tetrahedron) continue;
+        TypeShare& share = shares.emplace_back(TypeShare{block.region, block.type, block.count, 0});
+        for (std::uint32_t c = block.first; c < block.first + block.count; ++c) {
+            take_corners(mesh, c, p);
+            share.volume += volume_of(block.type, p, mesh->nodes_of(c));
+        }
+    }
+    return shares;
+}
+
 void measure(const VolumeMesh& mesh, RecombineReport& report) {
     std::vector<Vec3> p;
     for (const auto& block : mesh->blocks) {
         TypeShare share{block.region, block.type, block.count, 0};
         for (std::uint32_t c = block.first; c < block.first + block.count; ++c) {
-            const auto nodes = mesh->nodes_of(c);
-            p.clear();
-            for (const std::uint32_t v : nodes) p.push_back(minus(mesh->vertices[v], mesh->vertices[nodes[0]]));
-            share.volume += volume_of(block.type, p, nodes);
+            take_corners(mesh, c, p);
+            share.volume += volume_of(block.type, p, mesh->nodes_of(c));
             if (!corner_frames(block.type).empty() && !is_valid(block.type, p)) ++report.folded;
             if (block.type != CellType::hexahedron) continue;
             const double jacobian = scaled_jacobian(block.type, p);
@@ -123,33 +143,67 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
     }
 }
 
+/// Of one type of cells, or of all.
+struct Sum {
+    std::uint64_t count = 0;
+    double volume = 0;
+};
+
+template <class Takes>
+Sum sum_of(const std::vector<TypeShare>& shares, const Takes& takes) {
+    Sum sum;
+    for (const TypeShare& s : shares) {
+        if (!takes(s.type)) continue;
+        sum.count += s.count;
+        sum.volume += s.volume;
+    }
+    return sum;
+}
+
+bool any_type(CellType) { return true; }
+
+auto only(CellType type) {
+    return [type](CellType t) { return t == type; };
+}
+
+Failure no_tetrahedra(const VolumeMesh& mesh) {
+    const auto second = [](const VolumeMeshData::Block& block) { return block.type == CellType::quadratic_tetrahedron; };
+    Failure why = failure(FailureKind::cannot_hold, "F021", {},
+                          std::ranges::any_of(mesh->blocks, second)
+                              ? "all tetrahedra are of the second order: hexahedra are made of those of the first"
+                              : "there are no tetrahedra to make hexahedra of, only other cells");
+    why.error.measures = {{"no_tetrahedra", 1}};
+    return why;
+}
+
 }  // namespace
 
-std::uint64_t RecombineReport::count_of(CellType type) const {
-    std::uint64_t count = 0;
-    for (const TypeShare& s : shares) count += s.type == type ? s.count : 0;
-    return count;
+std::uint64_t RecombineReport::count_of(CellType type) const { return sum_of(shares, only(type)).count; }
+
+RecombineReport::Part RecombineReport::made_of(CellType type) const {
+    const Sum all = sum_of(shares, only(type)), other = sum_of(there, only(type));
+    const double whole = sum_of(shares, any_type).volume - sum_of(there, any_type).volume;
+    return {all.count - other.count, whole > 0 ? (all.volume - other.volume) / whole : 0};
 }
 
-std::uint64_t RecombineReport::cell_count() const {
-    std::uint64_t count = 0;
-    for (const TypeShare& s : shares) count += s.count;
-    return count;
+RecombineReport::Part RecombineReport::there_of(CellType type) const {
+    const Sum other = sum_of(there, only(type));
+    const double whole = sum_of(shares, any_type).volume;
+    return {other.count, whole > 0 ? other.volume / whole : 0};
 }
+
+std::uint64_t RecombineReport::cell_count() const { return sum_of(shares, any_type).count; }
 
 double RecombineReport::volume_share_of(CellType type) const {
-    double part = 0, whole = 0;
-    for (const TypeShare& s : shares) {
-        whole += s.volume;
-        part += s.type == type ? s.volume : 0;
-    }
-    return whole > 0 ? part / whole : 0;
+    const double whole = sum_of(shares, any_type).volume;
+    return whole > 0 ? sum_of(shares, only(type)).volume / whole : 0;
 }
 
 Result<VolumeMesh> recombine(const VolumeMesh& mesh, const RecombineOptions& options, RecombineReport& report) {
     const TetMesh tets = tet_mesh_of(mesh);
-    if (tets.tets.empty()) return failure(FailureKind::cannot_hold, "F021", {}, "there are no tetrahedra to make hexahedra of");
+    if (tets.tets.empty()) return no_tetrahedra(mesh);
     report.tetrahedra = tets.tets.size();
+    report.there = others_in(mesh);
     const QuadTable quads(tets, options.least_quality);
     const SearchOptions search{options.least_quality, {}, options.monitor};
     const Candidates hexahedra = options.thin_only ? thin_cells(tets, quads, search, report.thin) : find_hexahedra(tets, quads, search);

@@ -44,7 +44,8 @@ struct RecombineReport {
     LeftoverCounts leftovers;
     ThinCounts thin;                                     ///< where only thin parts were asked for
     std::uint64_t moves = 0;                             ///< of vertices, by which the worst cell around became better
-    std::vector<TypeShare> shares;                       ///< by region, then type
+    std::vector<TypeShare> shares;                       ///< of the mesh made, by region, then type
+    std::vector<TypeShare> there;                        ///< of them, those of the mesh given that stay: all but tetrahedra
     double least_jacobian = 1;                           ///< scaled, of hexahedra
     std::array<std::uint64_t, 10> jacobian_by_tenths{};  ///< how many hexahedra
     std::uint64_t folded = 0;                            ///< cells whose Jacobian is not positive throughout
@@ -52,13 +53,22 @@ struct RecombineReport {
     std::uint64_t count_of(CellType type) const;
     std::uint64_t cell_count() const;
     double volume_share_of(CellType type) const;
+
+    struct Part {
+        std::uint64_t count = 0;
+        double share = 0;
+    };
+    /// What was made of tetrahedra or is left of them, with its part of their volume.
+    Part made_of(CellType type) const;
+    /// What was there beside the tetrahedra, with its part of the whole volume.
+    Part there_of(CellType type) const;
 };
 
 /// Makes hexahedra of the tetrahedra of a mesh, as many as can stand beside each other by volume and shape; what is left over becomes
 /// prisms, and pyramids where quadrangles meet triangles. Surfaces, lines, regions and sets stay: where two triangles of a surface become
 /// a quadrangle they do so on both sides. Cells of other types stay as they are. A mesh that is split along surfaces has to be joined
-/// before. Failure (cannot_hold) where there are no tetrahedra. The same for any number of threads. Cost: some 10 microseconds a
-/// candidate, of which there are as many as tetrahedra where points lie in lattices; and the local search.
+/// before. Failure (cannot_hold, F021) where there are no tetrahedra of the first order. The same for any number of threads. Cost: some 10
+/// microseconds a candidate, of which there are as many as tetrahedra where points lie in lattices; and the local search.
 Result<VolumeMesh> recombine(const VolumeMesh& mesh, const RecombineOptions& options, RecombineReport& report);
 
 }  // namespace geomend::hexes

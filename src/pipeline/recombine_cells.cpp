@@ -8,6 +8,7 @@
 
 #include "base/wording.h"
 #include "exchange/cell_mesh_of.h"
+#include "exchange/kept_cells.h"
 #include "exchange/split_mesh.h"
 #include "model/attribute_operations.h"
 #include "pipeline/mesh_output.h"
@@ -81,6 +82,28 @@ void forget_names(CellMesh& mesh, const std::vector<std::string>& made) {
     }
 }
 
+/// Where there are no cells at all the reason is told as that of this command.
+Failure why_not_recombined(Failure why) {
+    if (std::ranges::find(why.error.measures, "without_cells", [](const auto& m) { return m.first; }) == why.error.measures.end())
+        return why;
+    why.error.message = "there are no cells: --recombine makes hexahedra of the tetrahedra of a mesh";
+    why.error.measures = {{"no_tetrahedra", 1}};
+    return why;
+}
+
+/// The same mesh with the corners of its cells alone, where it has cells of the second order: hexahedra are made of straight tetrahedra.
+Result<VolumeMesh> with_corners_only(VolumeMesh mesh, std::vector<Loss>& losses) {
+    bool is_second = false;
+    for (const auto& block : mesh->blocks) {
+        if (!is_second_order(block.type)) continue;
+        is_second = true;
+        add_loss(losses, {LossClass::substance, mesh->regions[block.region], "nodes on edges",
+                          "--recombine takes the corners of cells of the second order", block.count});
+    }
+    if (!is_second) return mesh;
+    return VolumeMesh::make(exchange::kept_cells(*mesh, std::vector<std::uint8_t>(mesh->cell_count(), 1), exchange::KeptNodes::corners));
+}
+
 std::string percent(double part) { return rounded(100 * part) + " %"; }
 
 }  // namespace
@@ -89,6 +112,8 @@ Result<VolumeMesh> recombine_cells(Dataset& dataset, const hexes::RecombineOptio
                                    std::vector<Loss>& losses) {
     const std::vector<std::string> names = name_lines_and_points(dataset);
     auto mesh = volume_mesh_in(dataset, losses);
+    if (!mesh) return why_not_recombined(std::move(mesh).why());
+    mesh = with_corners_only(*std::move(mesh), losses);
     if (!mesh) return std::move(mesh).why();
     if (!(*mesh)->vertex_origins.empty() || !(*mesh)->split_pairs.empty()) {
         mesh = exchange::joined(*mesh, losses);
@@ -124,6 +149,16 @@ Json recombined_json(const hexes::RecombineReport& report) {
         {"folded", report.folded},
         {"leftovers", {{"flips", report.leftovers.flips}, {"new_vertices", report.leftovers.placed}, {"flat", report.leftovers.flat}}}};
     if (t.triangles > 0) all["thin"] = std::move(thin);
+    Json made = Json::object(), there = Json::object();
+    for (const CellType type : mixed_types) {
+        const auto put = [type](Json& to, const hexes::RecombineReport::Part& part) {
+            if (part.count > 0) to[to_string(type)] = {{"number", part.count}, {"volume_share", part.share}};
+        };
+        put(made, report.made_of(type));
+        put(there, report.there_of(type));
+    }
+    all["made"] = std::move(made);
+    all["there"] = std::move(there);
     return all;
 }
 
@@ -138,13 +173,17 @@ Json shares_json(const hexes::RecombineReport& report) {
 }
 
 std::string recombined_text(const hexes::RecombineReport& report) {
+    const auto line = [](CellType type, const hexes::RecombineReport::Part& part, const char* of) {
+        if (part.count == 0) return std::string();
+        return "  " + counted(part.count, type == CellType::wedge ? "prism" : to_string(type), plural(type)) + ", " + percent(part.share) +
+               of;
+    };
+    std::string there;
+    for (const CellType type : mixed_types) there += line(type, report.there_of(type), " of the whole volume\n");
     std::string text = "of " + counted(report.tetrahedra, "tetrahedron", "tetrahedra") + ":\n";
-    for (const CellType type : mixed_types) {
-        const std::uint64_t count = report.count_of(type);
-        if (count > 0)
-            text += "  " + counted(count, type == CellType::wedge ? "prism" : to_string(type), plural(type)) + ", " +
-                    percent(report.volume_share_of(type)) + " of the volume\n";
-    }
+    for (const CellType type : mixed_types)
+        text += line(type, report.made_of(type), there.empty() ? " of the volume\n" : " of their volume\n");
+    if (!there.empty()) text += "beside them, as they were:\n" + there;
     if (report.count_of(CellType::hexahedron) > 0)
         text += "  least scaled Jacobian of a hexahedron " + rounded(report.least_jacobian) + '\n';
     const hexes::ThinCounts& t = report.thin;

@@ -183,6 +183,7 @@ Result<void> remesh(Dataset& dataset, const Format& target, const RemeshRequest&
     auto all_remeshed = remeshing::remesh_models(breps, options);
     if (!all_remeshed) return std::move(all_remeshed).why();
     report.size = options.size;
+    report.sites = options.sites;
     for (std::size_t m = 0; m < models->size(); ++m) {
         const topology::JudgedModel& model = (*models)[m];
         remeshing::Remeshed* remeshed = &(*all_remeshed)[m];
@@ -219,6 +220,26 @@ Result<RemeshReport> remesh(const RemeshRequest& request) {
     report.written = std::move(*converted);
     report.is_written = true;
     return report;
+}
+
+std::uint64_t RemeshReport::sites_reached() const {
+    std::uint64_t reached = 0;
+    for (const Model& model : models) reached += model.vertices.inside;
+    return reached;
+}
+
+std::string sites_found(const RemeshReport& report) {
+    if (report.sites == 0) return {};
+    return "edges of " + rounded(report.size) + " give " + counted(report.sites_reached(), "vertex", "vertices") +
+           " inside of surfaces, of " + std::to_string(report.sites) + " asked for\n";
+}
+
+std::string sites_missed(const RemeshReport& report) {
+    const auto wanted = static_cast<double>(report.sites), reached = static_cast<double>(report.sites_reached());
+    if (report.sites == 0 || std::abs(reached - wanted) <= 0.1 * wanted) return {};
+    return "--sites " + std::to_string(report.sites) + ": the nearest that was found are " +
+           counted(report.sites_reached(), "vertex", "vertices") + " inside of surfaces, with edges of " + rounded(report.size) +
+           ": lines need vertices beside them whatever the size, and --size-of, --size-by and --max-distance hold";
 }
 
 std::string changed_volumes(const RemeshReport& report) {
@@ -289,6 +310,7 @@ Json remesh_json_value(const RemeshReport& report) {
              {"models", std::move(models)},
              {"errors_before", report.errors_before},
              {"errors", std::move(errors)}};
+    if (report.sites > 0) all["sites"] = {{"asked", report.sites}, {"reached", report.sites_reached()}};
     if (!report.why_not.empty()) all["why_not"] = report.why_not;
     if (report.is_written) all["loss"] = losses_json(report.written.losses);
     return all;

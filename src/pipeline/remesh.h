@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,9 @@ struct RemeshReport {
         remeshing::Remeshed made;               ///< its boundary representation is gone
     };
     std::vector<Model> models;
-    double size = 0;  ///< of edges
+    double size = 0;          ///< of edges
+    std::uint64_t sites = 0;  ///< how many vertices inside of surfaces were asked for; 0: a size was
+    std::uint64_t sites_reached() const;
     std::uint64_t errors_before = 0;
     std::vector<Finding> errors;  ///< that are found after it
     std::string why_not;          ///< what speaks against the result; empty: nothing
@@ -62,6 +65,12 @@ Result<void> remesh(Dataset& dataset, const Format& target, const RemeshRequest&
 
 /// A line for each region whose volume differs, with the middle of it; empty: none does.
 std::string changed_volumes(const RemeshReport& report);
+
+/// The size that gives about as many vertices as were asked for, and how many; empty where a size was asked for.
+std::string sites_found(const RemeshReport& report);
+
+/// That the number of vertices asked for is missed by more than a tenth; empty where it is not.
+std::string sites_missed(const RemeshReport& report);
 
 /// What INTERFACE states of `remesh --json`.
 std::string remesh_json(const RemeshReport& report);

@@ -136,9 +136,11 @@ Result<void> Rounds::check_number() {
         }
     }
     if (count <= static_cast<double>(options_.most_triangles)) return {};
-    return failure(FailureKind::limit, "F023", {},
-                   "edges of this size make about " + rounded(count) + " triangles, and no more than " +
-                       std::to_string(options_.most_triangles) + " are allowed");
+    Failure why = failure(FailureKind::limit, "F023", {},
+                          "edges of this size make about " + rounded(count) + " triangles, and no more than " +
+                              std::to_string(options_.most_triangles) + " are allowed");
+    why.error.measures = {{"most_triangles", static_cast<double>(options_.most_triangles)}};
+    return why;
 }
 
 void Rounds::plan_lines() {

@@ -12,8 +12,60 @@ namespace geomend::remeshing {
 
 namespace {
 
-constexpr unsigned tries_for_sites = 6;
+constexpr unsigned tries_for_sites = 14;
 constexpr double near_enough = 0.05;
+
+/// Looks for the size that gives a wanted number of vertices: from a first guess up or down, by ever longer ways where the number hardly
+/// changes, until sizes with too many and with too few are known; then between them.
+class SizeSearch {
+public:
+    SizeSearch(double wanted, double first, double largest) : wanted_(wanted), at_(std::log(first)), largest_(std::log(largest)) {}
+
+    double size() const { return std::exp(at_); }
+
+    /// Takes the number that came of the size, and chooses the next one. \return whether there is another one worth a try
+    bool take(double count) {
+        const double excess = std::log(std::max(count, 0.5) / wanted_);
+        (excess > 0 ? many_ : few_) = Try{at_, excess};
+        if (many_.at > -HUGE_VAL && few_.at < HUGE_VAL) return go_between();
+        way_ = std::min(std::max(std::abs(excess) / 2, 2 * way_), longest_way);  // numbers go with the inverse square of sizes
+        if (excess > 0 && at_ >= largest_) return false;
+        at_ = excess > 0 ? std::min(at_ + way_, largest_) : at_ - way_;
+        return true;
+    }
+
+private:
+    struct Try {
+        double at, excess;  ///< logarithms of the size, and of the number by the wanted one
+    };
+    static constexpr double longest_way = 1.4, least_way = 0.01;  ///< of the logarithm of the size
+
+    bool go_between() {
+        if (few_.at - many_.at < least_way) return false;
+        const double share = many_.excess / (many_.excess - few_.excess);
+        halves_ = !halves_;  // every second time, as one end may stay for long otherwise
+        at_ = many_.at + (few_.at - many_.at) * (halves_ ? std::clamp(share, 0.1, 0.9) : 0.5);
+        return true;
+    }
+
+    double wanted_, at_, largest_, way_ = 0;
+    bool halves_ = false;
+    Try many_{-HUGE_VAL, 0}, few_{HUGE_VAL, 0};
+};
+
+/// The diagonal of the box around models.
+double diagonal_of(std::span<const BrepData* const> models) {
+    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (const BrepData* model : models) {
+        for (const Vec3& v : model->vertices) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], v[k]);
+                high[k] = std::max(high[k], v[k]);
+            }
+        }
+    }
+    return length_of(minus(high, low));
+}
 
 double area_of(const BrepData& brep) {
     double area = 0;
@@ -64,23 +116,24 @@ Result<std::vector<Remeshed>> remesh_models(std::span<const BrepData* const> mod
     for (const BrepData* model : models) area += area_of(*model);
     if (!(area > 0)) return failure(FailureKind::cannot_hold, "F026", {}, "the surfaces have no area");
     const auto wanted = static_cast<double>(options.sites);
-    options.size = std::sqrt(2 * area / (std::sqrt(3.0) * wanted));
+    const double first = std::sqrt(2 * area / (std::sqrt(3.0) * wanted));
+    SizeSearch search(wanted, first, std::max(first, 10 * diagonal_of(models)));
     std::vector<Remeshed> best;
-    double best_miss = HUGE_VAL, best_size = options.size;
+    double best_miss = HUGE_VAL, best_size = first;
     for (unsigned tries = 0; tries < tries_for_sites; ++tries) {
+        options.size = search.size();
         auto made = with_size(models, options);
+        if (!made && !best.empty() && made.why().kind == FailureKind::limit) break;  // too small a size for all the triangles it makes
         if (!made) return made;
         double count = 0;
         for (const Remeshed& one : *made) count += static_cast<double>(vertices_of_surfaces(one.brep).inside);
         const double miss = std::abs(count - wanted) / wanted;
-        const bool better = miss < 0.95 * best_miss;
         if (miss < best_miss) {
             best = std::move(*made);
             best_size = options.size;
             best_miss = miss;
         }
-        if (best_miss <= near_enough || !better) break;  // lines that are close need vertices whatever the size
-        options.size *= std::clamp(std::sqrt(count / wanted), 0.3, 3.0);
+        if (best_miss <= near_enough || !search.take(count)) break;
     }
     options.size = best_size;
     return best;

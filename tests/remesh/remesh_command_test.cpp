@@ -77,9 +77,13 @@ TEST(Remesh, ASizeOfASurfaceThatIsNotThereIsNamedWithTheNearest) {
 
 TEST(Remesh, ASizeThatMakesTooManyTrianglesIsRefusedAtOnce) {
     const TemporaryFolder folder;
-    const auto run = run_geomend({"remesh", sample("layered_box.ml"), "-o", folder / "out.ml", "--size", "1e-6"});
-    EXPECT_EQ(run.status, 5);
-    EXPECT_NE(run.err.find("triangles"), std::string::npos) << run.err;
+    for (const char* command : {"remesh", "mesh"}) {
+        const auto run =
+            run_geomend({command, sample("layered_box.ml"), "-o", folder / "out.ml", "--size", "1e-6", "--method", "isotropic", "--lossy"});
+        EXPECT_EQ(run.status, 5);
+        EXPECT_NE(run.err.find("triangles"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("choose a larger --size"), std::string::npos) << run.err;
+    }
 }
 
 TEST(Remesh, SizesOfOneInterfaceAreSmallerThere) {
@@ -171,6 +175,8 @@ TEST(Remesh, WrongOptionsAreRefused) {
                                                   {"--size", "10", "--size-of", "fault=x"},
                                                   {"--size", "10", "--sites", "100"},
                                                   {"--sites", "0"},
+                                                  {"--size", "10", "--max-triangles", "-1"},
+                                                  {"--size", "10", "--max-triangles", "0"},
                                                   {"--size", "10", "--method", "keep"},
                                                   {"--size", "10", "--method", "best"},
                                                   {}}) {
@@ -215,6 +221,31 @@ TEST(Remesh, ANumberOfSitesIsThatOfVerticesInsideOfSurfaces) {
         EXPECT_NEAR(report["models"][0]["vertices"]["inside"].get<double>(), 3000, 150) << method;
         EXPECT_GT(report["size"].get<double>(), 0) << method;
     }
+}
+
+TEST(Remesh, FewSitesAreReachedWhereOnlyMuchLargerSizesGiveThem) {
+    const TemporaryFolder folder;
+    for (const std::string method : {"isotropic", "cvt"}) {
+        for (const int sites : {50, 60, 100, 200}) {
+            const auto run = run_geomend({"remesh", sample("layered_box.ml"), "-o", folder / "out.ml", "--json", "--lossy", "--method",
+                                          method, "--sites", std::to_string(sites)});
+            const json report = json::parse(run.out, nullptr, false);
+            ASSERT_TRUE(report.is_object()) << run.err;
+            EXPECT_NEAR(report["models"][0]["vertices"]["inside"].get<double>(), sites, 0.1 * sites) << method;
+            EXPECT_EQ(report["sites"]["asked"], sites);
+            EXPECT_EQ(report["sites"]["reached"], report["models"][0]["vertices"]["inside"]);
+            EXPECT_EQ(run.err.find("--sites"), std::string::npos) << run.err;
+        }
+    }
+}
+
+TEST(Remesh, ANumberOfSitesThatCannotBeReachedIsReported) {
+    const TemporaryFolder folder;
+    const auto run = run_geomend({"remesh", sample("layered_box.ml"), "-o", folder / "out.ml", "--sites", "100", "--size-of", "fault=20"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.err.find("--sites 100: the nearest that was found are"), std::string::npos) << run.err;
+    EXPECT_NE(run.out.find(" vertices inside of surfaces, of 100 asked for"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("edges of "), std::string::npos) << run.out;
 }
 
 TEST(Remesh, KeepLeavesAllTriangles) {
