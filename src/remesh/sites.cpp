@@ -15,8 +15,9 @@ namespace {
 constexpr unsigned tries_for_sites = 14;
 constexpr double near_enough = 0.05;
 
-/// Looks for the size that gives a wanted number of vertices: from a first guess up or down, by ever longer ways where the number hardly
-/// changes, until sizes with too many and with too few are known; then between them.
+/// Looks for the size that gives a wanted number of vertices: from a first guess up or down, by ever longer ways while the number comes
+/// nearer or hardly changes, until sizes with too many and with too few are known; then between them. Where the number runs away (surfaces
+/// that are too small for a size stay as they were, with all their vertices) it turns back, by ever shorter ways.
 class SizeSearch {
 public:
     SizeSearch(double wanted, double first, double largest) : wanted_(wanted), at_(std::log(first)), largest_(std::log(largest)) {}
@@ -25,32 +26,56 @@ public:
 
     /// Takes the number that came of the size, and chooses the next one. \return whether there is another one worth a try
     bool take(double count) {
-        const double excess = std::log(std::max(count, 0.5) / wanted_);
-        (excess > 0 ? many_ : few_) = Try{at_, excess};
-        if (many_.at > -HUGE_VAL && few_.at < HUGE_VAL) return go_between();
-        way_ = std::min(std::max(std::abs(excess) / 2, 2 * way_), longest_way);  // numbers go with the inverse square of sizes
-        if (excess > 0 && at_ >= largest_) return false;
-        at_ = excess > 0 ? std::min(at_ + way_, largest_) : at_ - way_;
-        return true;
+        const Try now{at_, std::log(std::max(count, 0.5) / wanted_)};
+        const bool is_many = now.excess > 0;
+        if (direction_ == 0) {  // the first one
+            direction_ = is_many ? 1 : -1;
+            best_ = now;
+            begins_many_ = is_many;
+        }
+        if (is_many != begins_many_) {
+            beyond_ = now;
+            has_both_ = true;
+        } else if (has_both_) {
+            best_ = now;
+        } else {
+            return go_on(now);
+        }
+        return go_between();
     }
 
 private:
     struct Try {
-        double at, excess;  ///< logarithms of the size, and of the number by the wanted one
+        double at = 0, excess = 0;  ///< logarithms of the size, and of the number by the wanted one
     };
-    static constexpr double longest_way = 1.4, least_way = 0.01;  ///< of the logarithm of the size
+    static constexpr double longest_way = 1.4, shortest_way = 0.05, least_gap = 0.01, noise = 0.1;  ///< of these logarithms
 
-    bool go_between() {
-        if (few_.at - many_.at < least_way) return false;
-        const double share = many_.excess / (many_.excess - few_.excess);
-        halves_ = !halves_;  // every second time, as one end may stay for long otherwise
-        at_ = many_.at + (few_.at - many_.at) * (halves_ ? std::clamp(share, 0.1, 0.9) : 0.5);
+    bool go_on(const Try& now) {
+        const double miss = std::abs(now.excess), best_miss = std::abs(best_.excess);
+        const bool runs_away = miss > best_miss + (has_turned_ ? 0 : noise);
+        if (miss < best_miss) best_ = now;
+        if (!runs_away && !has_turned_) way_ = std::min(std::max(miss / 2, 2 * way_), longest_way);  // sizes go with the root of numbers
+        if (runs_away || (direction_ > 0 && now.at >= largest_)) {
+            has_turned_ = true;
+            direction_ = -direction_;
+            way_ /= 2;
+            if (way_ < shortest_way) return false;
+        }
+        at_ = std::min((runs_away ? best_.at : now.at) + direction_ * way_, largest_);
         return true;
     }
 
-    double wanted_, at_, largest_, way_ = 0;
-    bool halves_ = false;
-    Try many_{-HUGE_VAL, 0}, few_{HUGE_VAL, 0};
+    bool go_between() {
+        if (std::abs(beyond_.at - best_.at) < least_gap) return false;
+        const double share = best_.excess / (best_.excess - beyond_.excess);
+        halves_ = !halves_;  // every second time, as one end may stay for long otherwise
+        at_ = best_.at + (beyond_.at - best_.at) * (halves_ ? std::clamp(share, 0.1, 0.9) : 0.5);
+        return true;
+    }
+
+    double wanted_, at_, largest_, way_ = 0, direction_ = 0;
+    bool begins_many_ = false, has_both_ = false, has_turned_ = false, halves_ = false;
+    Try best_, beyond_;
 };
 
 /// The diagonal of the box around models.

@@ -58,6 +58,12 @@ TEST(CommandLine, AReaderThatHasEnoughEndsAConversionQuietly) {
     EXPECT_EQ(read_file(log), "");
 }
 
+TEST(CommandLine, ANumberBelowZeroIsNoLimit) {
+    const std::string box = std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.ml";
+    EXPECT_EQ(run_geomend({"validate", box, "--max-findings", "-1"}).status, 2);
+    EXPECT_EQ(run_geomend({"validate", box, "--max-findings", "0"}).status, 0);
+}
+
 TEST(CommandLine, WithoutACommandPrintsTheHelp) {
     const ProgramRun run = run_geomend({});
     EXPECT_EQ(run.status, 2);
