@@ -6,9 +6,9 @@
 #include <map>
 
 #include "geometry/cell_volume.h"
+#include "geometry/corner_frames.h"
 #include "topology/near_weld.h"
 #include "validators/cell_findings.h"
-#include "validators/corner_frames.h"
 #include "validators/model_scope.h"
 
 namespace geomend::validators {
@@ -108,7 +108,7 @@ void check_cell_jacobians(const CellScope& scope, std::vector<Finding>& findings
         const std::uint32_t cell = scope.volume_cells()[i];
         const CellType type = linear_type(scope.mesh().types[cell]);
         const double sign = signs.at(scope.mesh().types[cell]);
-        if (volumes[i] * sign <= 0) continue;  // M20
+        if (volumes[i] * sign <= 0 || type == CellType::tetrahedron) continue;  // M20; a tetrahedron is as its volume
         double least = HUGE_VAL;
         for (const auto& corner : corner_frames(type)) {
             least = std::min(least, sign * corner_jacobian(scope.mesh(), scope.mesh().cell_nodes(cell), corner) / std::abs(volumes[i]));

@@ -13,7 +13,7 @@ namespace {
 
 using Direction = std::array<double, 2>;
 
-double length(const Direction& d) { return std::hypot(d[0], d[1]); }
+double tilt_of(const Direction& d) { return std::hypot(d[0], d[1]); }
 
 // Judged cells of one column that use one set of coordinate lines.
 struct Column {
@@ -32,7 +32,7 @@ Direction between(const double* a, const double* b, double depth) {
 std::optional<double> crossing(const double* a, const double* b, double upper, double lower, double tolerance) {
     if (!(lower > upper)) return {};
     const Direction first = between(a, b, upper), last = between(a, b, lower);
-    if (length(first) <= tolerance || length(last) <= tolerance) return {};
+    if (tilt_of(first) <= tolerance || tilt_of(last) <= tolerance) return {};
     const Direction change{last[0] - first[0], last[1] - first[1]};
     const double square = change[0] * change[0] + change[1] * change[1];
     if (square == 0) return {};
@@ -40,7 +40,7 @@ std::optional<double> crossing(const double* a, const double* b, double upper, d
     if (!(t > 0 && t < 1)) return {};
     const Direction nearest{first[0] + t * change[0], first[1] + t * change[1]};
     const bool turned = first[0] * last[0] + first[1] * last[1] < 0;
-    if (!turned && length(nearest) > tolerance) return {};
+    if (!turned && tilt_of(nearest) > tolerance) return {};
     return upper + t * (lower - upper);
 }
 

@@ -8,9 +8,9 @@
 #include "base/length.h"
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
+#include "geometry/corner_frames.h"
 #include "geometry/lattice_cells.h"
 #include "validators/cell_findings.h"
-#include "validators/corner_frames.h"
 #include "validators/object_checks.h"
 
 namespace geomend::validators {

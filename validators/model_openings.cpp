@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/length.h"
 #include "geometry/vectors.h"
 #include "topology/face_edges.h"
 #include "validators/cell_findings.h"
@@ -19,8 +20,6 @@ namespace {
 bool is_outer(FeatureRole role) { return role == FeatureRole::boundary || role == FeatureRole::topography; }
 /// Bodies are mostly closed, and cut off at the outside of the model.
 bool may_close(FeatureRole role) { return is_undecided(role) || role == FeatureRole::intrusion; }
-
-double length_of(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 /// Surfaces that hang together along lines and have one region, or the outside, on both of their sides.
 struct OpenGroup {
@@ -61,16 +60,16 @@ bool nearly_closes(const ModelScope& scope, std::span<const std::uint32_t> surfa
     constexpr double across = 0.17, much = 0.15;  // steeper than 80 degrees, of the area
     if (borders.empty() || !std::ranges::all_of(borders, &FreeBorder::closed)) return false;
     double area = 0, missing = 0, walls = 0;
-    const auto widest = std::ranges::max_element(borders, {}, [](const FreeBorder& b) { return length_of(b.facing); });
-    const double width = length_of(widest->facing);
-    for (const FreeBorder& border : borders) missing += length_of(border.facing);
+    const auto widest = std::ranges::max_element(borders, {}, [](const FreeBorder& b) { return length(b.facing); });
+    const double width = length(widest->facing);
+    for (const FreeBorder& border : borders) missing += length(border.facing);
     for (const std::uint32_t s : surfaces) {
         for (std::uint32_t t = scope.first_triangle(s); t < scope.first_triangle(s + 1); ++t) {
             const auto& [a, b, c] = scope.triangles()[t];
             const auto& v = scope.brep().vertices;
             const Vec3 n = times(0.5, cross(minus(v[b], v[a]), minus(v[c], v[a])));
-            area += length_of(n);
-            if (std::abs(dot(n, widest->facing)) < across * length_of(n) * width) walls += length_of(n);
+            area += length(n);
+            if (std::abs(dot(n, widest->facing)) < across * length(n) * width) walls += length(n);
         }
     }
     return 3 * missing < area || walls > much * area;
@@ -104,7 +103,7 @@ void each_bend(const ModelScope& scope, const Visit& visit) {
             if (use.surface == no_index) continue;
             const VertexId tip = topology::far_vertex(brep, brep.surfaces[use.surface], edges_of[use.surface].polygon(use.corner), a, b);
             const Vec3 way = across(minus(brep.vertices[tip.value], a), minus(b, a));
-            if (length_of(way) > 0) leaves.push_back({use.surface, times(1 / length_of(way), way)});
+            if (length(way) > 0) leaves.push_back({use.surface, times(1 / length(way), way)});
         }
         const bool two = leaves.size() == 2 && !of_one_part(brep.surfaces[leaves[0].surface], brep.surfaces[leaves[1].surface]);
         if (two && dot(leaves[0].way, leaves[1].way) > -bend) visit(leaves[0].surface, leaves[1].surface);

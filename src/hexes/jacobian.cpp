@@ -3,15 +3,11 @@
 
 #include <algorithm>
 
+#include "geometry/corner_frames.h"
+
 namespace geomend::hexes {
 
 namespace {
-
-using Frame = std::array<std::uint8_t, 3>;
-constexpr std::array<Frame, 4> tetrahedron_frames{{{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {1, 0, 2}}};
-constexpr std::array<Frame, 4> pyramid_frames{{{1, 3, 4}, {2, 0, 4}, {3, 1, 4}, {0, 2, 4}}};
-constexpr std::array<Frame, 6> wedge_frames{{{2, 1, 3}, {0, 2, 4}, {1, 0, 5}, {4, 5, 0}, {5, 3, 1}, {3, 4, 2}}};
-constexpr std::array<Frame, 8> hexahedron_frames{{{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
 
 /// What makes 1 of the best cell's least determinant.
 double scale_of(CellType type) {
@@ -75,26 +71,10 @@ bool is_wedge_valid(std::span<const Vec3> p) {
 
 }  // namespace
 
-std::span<const std::array<std::uint8_t, 3>> corner_frames(CellType type) {
-    switch (type) {
-        case CellType::tetrahedron:
-            return tetrahedron_frames;
-        case CellType::pyramid:
-            return pyramid_frames;
-        case CellType::wedge:
-            return wedge_frames;
-        case CellType::hexahedron:
-            return hexahedron_frames;
-        default:
-            return {};
-    }
-}
-
 double scaled_jacobian(CellType type, std::span<const Vec3> corners) {
     double least = 1e30;
-    std::size_t at = 0;
-    for (const Frame& f : corner_frames(type))
-        least = std::min(least, scaled_determinant(corners[at++], corners[f[0]], corners[f[1]], corners[f[2]]));
+    for (const auto& f : corner_frames(type))
+        least = std::min(least, scaled_determinant(corners[f[0]], corners[f[1]], corners[f[2]], corners[f[3]]));
     return scale_of(type) * least;
 }
 
@@ -103,10 +83,9 @@ bool is_valid(CellType type, std::span<const Vec3> corners) {
     if (type == CellType::wedge) return is_wedge_valid(corners);
     // The determinants of a pyramid's map, and of a tetrahedron's, are least at corners.
     const double zero = zero_of(corners);
-    std::size_t at = 0;
-    for (const Frame& f : corner_frames(type)) {
-        const Vec3& o = corners[at++];
-        if (!(dot(minus(corners[f[0]], o), cross(minus(corners[f[1]], o), minus(corners[f[2]], o))) > zero)) return false;
+    for (const auto& f : corner_frames(type)) {
+        const Vec3& o = corners[f[0]];
+        if (!(dot(minus(corners[f[1]], o), cross(minus(corners[f[2]], o), minus(corners[f[3]], o))) > zero)) return false;
     }
     return true;
 }

@@ -3,17 +3,12 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <span>
 
 #include "base/vectors.h"
 #include "model/objects.h"
 
 namespace geomend::hexes {
-
-/// The neighbours of each corner of a cell along its edges, in the order that makes their determinant positive. The apex of a pyramid
-/// has none, since it has four edges.
-std::span<const std::array<std::uint8_t, 3>> corner_frames(CellType type);
 
 /// Determinant of three edges from a point over the product of their lengths; 0 where one has none.
 inline double scaled_determinant(const Vec3& at, const Vec3& a, const Vec3& b, const Vec3& c) {

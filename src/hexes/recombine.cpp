@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "geometry/cell_volume.h"
+#include "geometry/corner_frames.h"
 #include "hexes/assemble_mesh.h"
 #include "hexes/closable.h"
 #include "hexes/jacobian.h"

@@ -6,16 +6,15 @@
 #include <unordered_map>
 
 #include "base/cell_number.h"
+#include "base/length.h"
 #include "base/parallel.h"
 #include "base/vectors.h"
-#include "remesh/length.h"
 
 namespace geomend::hexes {
 
 namespace {
 
 using remeshing::EdgeMesh;
-using remeshing::length_of;
 using remeshing::LineRules;
 using remeshing::LineSample;
 using remeshing::SurfacePoint;
@@ -40,7 +39,7 @@ void visit_between(double a, double b, const Visit& visit) {
 class Polyline {
 public:
     explicit Polyline(std::span<const Vec3> points) : points_(points), way_(points.size(), 0) {
-        for (std::size_t i = 1; i < points.size(); ++i) way_[i] = way_[i - 1] + length_of(minus(points[i], points[i - 1]));
+        for (std::size_t i = 1; i < points.size(); ++i) way_[i] = way_[i - 1] + length(minus(points[i], points[i - 1]));
     }
     double way(const LineSample& s) const {
         return s.share == 0 ? way_[s.segment] : way_[s.segment] + s.share * (way_[s.segment + 1] - way_[s.segment]);
@@ -79,8 +78,8 @@ std::vector<LineSample> crossings_of(const Lattice& lattice, std::span<const Vec
     for (std::uint32_t i = 0; i + 1 < at.size(); ++i) {
         Vec3 own;
         for (std::size_t k = 0; k < 3; ++k) own[k] = std::abs(at[i + 1][k] - at[i][k]) * lattice.steps[k];
-        const double length = length_of(own);
-        const std::size_t axis = own[most] >= 0.5 * length ? most : greatest(own);
+        const double size = length(own);
+        const std::size_t axis = own[most] >= 0.5 * size ? most : greatest(own);
         const double a = at[i][axis], b = at[i + 1][axis];
         if (i > 0 && a == std::round(a)) all.push_back({i, 0});
         visit_between(a, b, [&](double k) { all.push_back(sample_at(i, (k - a) / (b - a))); });
@@ -97,7 +96,7 @@ std::pair<double, std::uint32_t> farthest(std::span<const Vec3> points, const Li
         if (i == to.segment && to.share == 0) break;
         const Vec3 p = minus(points[i], a);
         const double along = square > 0 ? std::clamp(dot(p, d) / square, 0.0, 1.0) : 0;
-        const double distance = length_of(minus(p, times(along, d)));
+        const double distance = length(minus(p, times(along, d)));
         if (distance > most.first) most = {distance, i};
     }
     return most;
@@ -158,7 +157,7 @@ public:
             // Long edges in pieces, so that few buckets hold them.
             const Vec3 a = minus(surface.places[surface.from(h)], origin_),
                        d = minus(surface.places[surface.to(h)], surface.places[surface.from(h)]);
-            const double pieces = std::max(1.0, std::ceil(length_of(d) / step));
+            const double pieces = std::max(1.0, std::ceil(length(d) / step));
             for (double k = 0; k < pieces; ++k) {
                 const Edge edge{plus(a, times(k / pieces, d)), plus(a, times((k + 1) / pieces, d))};
                 const auto [low, high] = box_of(edge.from, edge.to, clear * step);
@@ -177,9 +176,9 @@ public:
             const Vec3 d = minus(edge.to, edge.from), q = minus(p, edge.from);
             const double square = dot(d, d);
             const double along = square > 0 ? std::clamp(dot(q, d) / square, 0.0, 1.0) : 0;
-            if (length_of(minus(q, times(along, d))) < clear * step_) return false;
+            if (length(minus(q, times(along, d))) < clear * step_) return false;
         }
-        return std::ranges::all_of(points_.at(p), [&](const Vec3& other) { return length_of(minus(p, other)) >= apart * step_; });
+        return std::ranges::all_of(points_.at(p), [&](const Vec3& other) { return length(minus(p, other)) >= apart * step_; });
     }
 
 private:
@@ -283,8 +282,8 @@ std::vector<SurfacePoint> lattice_surface(const Lattice& lattice, const EdgeMesh
     };
     Vec3 sum{};
     for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
-        if (const Vec3 own = shown(t); length_of(own) > 0) {
-            for (std::size_t k = 0; k < 3; ++k) sum[k] += own[k] * own[k] / length_of(own);
+        if (const Vec3 own = shown(t); length(own) > 0) {
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += own[k] * own[k] / length(own);
         }
     }
     const std::size_t most = greatest(sum);
@@ -293,7 +292,7 @@ std::vector<SurfacePoint> lattice_surface(const Lattice& lattice, const EdgeMesh
     for (const bool steep : {false, true}) {
         for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
             const Vec3 own = shown(t);
-            if ((own[most] < 0.5 * length_of(own)) != steep) continue;
+            if ((own[most] < 0.5 * length(own)) != steep) continue;
             visit_crossings(corners(t), steep ? greatest(own) : most, [&](const Weights& weights) {
                 const SurfacePoint point = remeshing::point_at(surface, t, weights);
                 if (!space.is_free(point.place)) return;

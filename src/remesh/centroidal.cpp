@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/length.h"
 #include "base/vectors.h"
-#include "remesh/length.h"
 #include "remesh/polish.h"
 
 namespace geomend::remeshing {
@@ -49,7 +49,7 @@ struct CellSum {
     /// \param normal of the whole triangle: parts on the other side count as taken away
     void add(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal, double density) {
         const Vec3 n = cross(minus(b, a), minus(c, a));
-        const double part = density * (dot(n, normal) < 0 ? -length_of(n) : length_of(n));
+        const double part = density * (dot(n, normal) < 0 ? -length(n) : length(n));
         moment = plus(moment, times(part / 3, plus(a, plus(b, c))));
         mass += part;
     }
@@ -71,7 +71,7 @@ bool centroid(const WorkSurface& work, std::uint32_t v, Vec3& place) {
         const double size = (2 * work.sizes[v] + work.sizes[i] + work.sizes[j]) / 4, density = 1 / (size * size * size * size);
         cell.add(p[0], times(0.5, p[1]), centre, normal, density);
         cell.add(p[0], centre, times(0.5, p[2]), normal, density);
-        all += density * length_of(normal);
+        all += density * length(normal);
         facing = plus(facing, normal);
     });
     if (!(cell.mass > 0.05 * all)) return false;
@@ -92,7 +92,7 @@ std::size_t move_to_centroids(WorkSurface& work, double share) {
         if (!centroid(work, v, place)) continue;
         const Vec3 from = work.mesh.places[v], step = minus(place, from);
         if (!try_move(work, v, plus(from, times(longer, step)), false) && !try_move(work, v, place, false)) continue;
-        if (length_of(minus(work.mesh.places[v], from)) > share * work.sizes[v]) ++far;
+        if (length(minus(work.mesh.places[v], from)) > share * work.sizes[v]) ++far;
     }
     return far;
 }

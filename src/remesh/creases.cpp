@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/length.h"
 #include "base/vectors.h"
 #include "remesh/edge_mesh.h"
-#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -20,7 +20,7 @@ bool is_sharp(const BrepData& brep, const BrepData::Surface& surface, std::uint3
     const auto place = [&](std::uint32_t corner) { return brep.vertices[surface.nodes[surface.polygons.corners[corner]].value]; };
     const Vec3 a = place(h), b = place(next_of(h)), c = place(previous_of(h)), d = place(previous_of(back));
     const Vec3 m = cross(minus(b, a), minus(c, a)), n = cross(minus(a, b), minus(d, b));
-    const double m_length = length_of(m), n_length = length_of(n);
+    const double m_length = length(m), n_length = length(n);
     if (!(m_length > 0) || !(n_length > 0) || dot(m, n) > std::cos(rules.angle) * m_length * n_length) return false;
     return std::abs(dot(m, minus(d, a))) >= rules.height * m_length && std::abs(dot(n, minus(c, a))) >= rules.height * n_length;
 }
@@ -114,7 +114,7 @@ public:
 private:
     double length_of_chain(const std::vector<std::uint32_t>& chain) const {
         double sum = 0;
-        for (std::size_t i = 1; i < chain.size(); ++i) sum += length_of(minus(brep_.vertices[chain[i]], brep_.vertices[chain[i - 1]]));
+        for (std::size_t i = 1; i < chain.size(); ++i) sum += length(minus(brep_.vertices[chain[i]], brep_.vertices[chain[i - 1]]));
         return sum;
     }
     CornerId corner_at(std::uint32_t vertex) {

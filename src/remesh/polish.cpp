@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/length.h"
 #include "base/vectors.h"
-#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -20,7 +20,7 @@ constexpr double longest_by_size = 1.6;  ///< no edge becomes longer
 /// The least angle of a triangle in radians.
 double least_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 u = minus(b, a), v = minus(c, b), w = minus(a, c);
-    const double twice = length_of(cross(u, v));
+    const double twice = length(cross(u, v));
     return std::min({std::atan2(twice, -dot(u, v)), std::atan2(twice, -dot(v, w)), std::atan2(twice, -dot(w, u))});
 }
 
@@ -77,7 +77,7 @@ bool give_way(WorkSurface& work, std::uint32_t h, std::uint32_t gone) {
         is_better = least_angle(place, mesh.places[b], mesh.places[c]) > before.least + gain &&
                     before.guard.admits(place, mesh.places[b], mesh.places[c]);
         for (const std::uint32_t v : {b, c})
-            is_better = is_better && length_of(minus(mesh.places[v], place)) <= longest_by_size * (work.sizes[v] + work.sizes[stays]) / 2;
+            is_better = is_better && length(minus(mesh.places[v], place)) <= longest_by_size * (work.sizes[v] + work.sizes[stays]) / 2;
     });
     if (!is_better) return false;
     collapse_edge(mesh, h, gone);
@@ -106,14 +106,14 @@ bool move_better(WorkSurface& work, std::uint32_t v) {
     Vec3 along{};
     visit_leaving(mesh, v, [&](std::uint32_t h) {
         const Vec3 d = minus(mesh.places[mesh.to(h)], mesh.places[v]);
-        if (length_of(d) >= step) return;
-        step = length_of(d);
+        if (length(d) >= step) return;
+        step = length(d);
         along = d;
     });
     const Vec3 normal = times(1 / std::sqrt(square), before.guard.facing);
     along = minus(along, times(dot(along, normal), normal));
-    if (!(length_of(along) > 0)) return false;
-    along = times(1 / length_of(along), along);
+    if (!(length(along) > 0)) return false;
+    along = times(1 / length(along), along);
     const Vec3 across = cross(normal, along);
     SurfacePoint to;
     to.place = mesh.places[v];
@@ -140,8 +140,8 @@ bool move_better(WorkSurface& work, std::uint32_t v) {
 bool polish(WorkSurface& work, std::uint32_t t) {
     const EdgeMesh& mesh = work.mesh;
     std::array<std::uint32_t, 3> edges{3 * t, 3 * t + 1, 3 * t + 2};
-    const auto length = [&](std::uint32_t h) { return length_of(minus(mesh.places[mesh.to(h)], mesh.places[mesh.from(h)])); };
-    std::ranges::sort(edges, {}, length);
+    const auto edge_length = [&](std::uint32_t h) { return length(minus(mesh.places[mesh.to(h)], mesh.places[mesh.from(h)])); };
+    std::ranges::sort(edges, {}, edge_length);
     if (turn(work, edges[2]) || turn(work, edges[1]) || turn(work, edges[0])) return true;
     for (const std::uint32_t h : edges) {
         if (mesh.twins[h] != no_index && (give_way(work, h, mesh.from(h)) || give_way(work, h, mesh.to(h)))) return true;

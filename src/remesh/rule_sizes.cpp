@@ -6,11 +6,11 @@
 #include <memory>
 #include <numbers>
 
+#include "base/length.h"
 #include "base/parallel.h"
 #include "base/vectors.h"
 #include "geometry/surface_distance.h"
 #include "remesh/edge_mesh.h"
-#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -91,11 +91,11 @@ void RuleSizes::apply_curvature(const SizeRule& rule, std::vector<double>& least
             const std::uint32_t a = surface.polygons.corners[h], b = surface.polygons.corners[next_of(h)], t = h / 3,
                                 u = surface.neighbours[h];
             const Vec3 normal = area_normal(brep_, surface, t);
-            area[a] += length_of(normal) / 6;
+            area[a] += length(normal) / 6;
             if (u == no_index || u < t) continue;
             const Vec3 other = area_normal(brep_, surface, u);
-            const double angle = std::atan2(length_of(cross(normal, other)), dot(normal, other));
-            const double edge = length_of(minus(brep_.vertices[surface.nodes[b].value], brep_.vertices[surface.nodes[a].value]));
+            const double angle = std::atan2(length(cross(normal, other)), dot(normal, other));
+            const double edge = length(minus(brep_.vertices[surface.nodes[b].value], brep_.vertices[surface.nodes[a].value]));
             for (const std::uint32_t node : {a, b}) bend[node] += angle * edge / 2;
         }
         for (std::size_t n = 0; n < surface.nodes.size(); ++n) {

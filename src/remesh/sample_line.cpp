@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/length.h"
 #include "base/vectors.h"
-#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -15,7 +15,7 @@ namespace {
 /// Per point the length of the way to it.
 std::vector<double> ways(std::span<const Vec3> points) {
     std::vector<double> way(points.size(), 0);
-    for (std::size_t i = 1; i < points.size(); ++i) way[i] = way[i - 1] + length_of(minus(points[i], points[i - 1]));
+    for (std::size_t i = 1; i < points.size(); ++i) way[i] = way[i - 1] + length(minus(points[i], points[i - 1]));
     return way;
 }
 
@@ -29,7 +29,7 @@ LineSample sample_at(const std::vector<double>& way, double at) {
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 d = minus(b, a), to = minus(p, a);
     const double whole = dot(d, d), share = whole > 0 ? std::clamp(dot(to, d) / whole, 0.0, 1.0) : 0;
-    return length_of(minus(to, times(share, d)));
+    return length(minus(to, times(share, d)));
 }
 
 /// The largest distance of the points between two samples from the straight way.
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> fixed_points(std::span<const Vec3> points, std::span<
         const double arm = sizes[i] / 2;
         const Vec3 in = minus(points[i], place_of(points, sample_at(way, std::max(0.0, way[i] - arm)))),
                    out = minus(place_of(points, sample_at(way, std::min(way.back(), way[i] + arm))), points[i]);
-        const double angle = std::atan2(length_of(cross(in, out)), dot(in, out));
+        const double angle = std::atan2(length(cross(in, out)), dot(in, out));
         if (angle > rules.sharp_bend) bends.emplace_back(-angle, i);
     }
     std::ranges::sort(bends);
@@ -180,7 +180,7 @@ std::vector<LineSample> sample_line(std::span<const Vec3> points, const VertexSi
 void limit_sizes(std::span<const Vec3> points, std::span<const LineSample> samples, double least, std::span<double> sizes) {
     for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
         const LineSample &a = samples[k], &b = samples[k + 1];
-        const double edge = std::max(least, length_of(minus(place_of(points, b), place_of(points, a))));
+        const double edge = std::max(least, length(minus(place_of(points, b), place_of(points, a))));
         const std::uint32_t last = b.share > 0 ? b.segment + 1 : b.segment;
         for (std::uint32_t i = a.segment; i <= last && i < points.size(); ++i) sizes[i] = std::min(sizes[i], edge);
     }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/length.h"
 #include "base/vectors.h"
-#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -99,7 +99,7 @@ double area_of(const BrepData& brep) {
             const auto polygon = surface.polygons[p];
             for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
                 const auto place = [&](std::size_t i) { return brep.vertices[surface.nodes[polygon[i]].value]; };
-                area += length_of(cross(minus(place(k), place(0)), minus(place(k + 1), place(0)))) / 2;
+                area += length(cross(minus(place(k), place(0)), minus(place(k + 1), place(0)))) / 2;
             }
         }
     }

@@ -6,9 +6,9 @@
 #include <functional>
 #include <queue>
 
+#include "base/length.h"
 #include "base/vectors.h"
 #include "geometry/segment_tree.h"
-#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -59,7 +59,7 @@ bool meet_at_corner(const BrepData& brep, const BrepData::Line& a, const BrepDat
     for (const CornerId c : a.corners) {
         if (c != b.corners[0] && c != b.corners[1]) continue;
         const Vec3& corner = brep.vertices[brep.corners[c.value].vertex.value];
-        if (length_of(minus(gap.on_first, corner)) + length_of(minus(gap.on_second, corner)) <= 3 * gap.distance) return true;
+        if (length(minus(gap.on_first, corner)) + length(minus(gap.on_second, corner)) <= 3 * gap.distance) return true;
     }
     return false;
 }

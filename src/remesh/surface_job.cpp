@@ -7,11 +7,11 @@
 #include <optional>
 #include <set>
 
+#include "base/length.h"
 #include "base/vectors.h"
 #include "remesh/centroidal.h"
 #include "remesh/crossings.h"
 #include "remesh/isotropic.h"
-#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -99,7 +99,7 @@ void take_sources(const Reference& reference, const WorkSurface& work, const std
 SurfacePoint measured_point(const EdgeMesh& mesh, const Vec3& point, std::uint32_t start, const Vec3& in_start, double allowed) {
     const SurfacePoint found = closest_point(mesh, point, start);
     if (found.distance <= allowed) return found;
-    return closest_point_around(mesh, point, start, length_of(minus(point, in_start)));
+    return closest_point_around(mesh, point, start, length(minus(point, in_start)));
 }
 
 /// Marks the vertices of a triangle of the reference where a point of the new surface is too far from it.
@@ -120,7 +120,7 @@ public:
     }
     /// Where an edge of the new surface passes over one of the old surface.
     void between(const CrossingWalk& walk, const EdgeMesh& mesh, std::uint32_t triangle) {
-        const double distance = length_of(minus(walk.on_surface(), walk.on_edge()));
+        const double distance = length(minus(walk.on_surface(), walk.on_edge()));
         if (distance > made_.to_old)
             from_new(measured_point(reference_.mesh, walk.on_edge(), walk.triangle(), walk.on_surface(), allowed_));
         if (!(distance > made_.from_old)) return;

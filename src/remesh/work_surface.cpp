@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/length.h"
 #include "base/vectors.h"
-#include "remesh/length.h"
 
 namespace geomend::remeshing {
 
@@ -20,7 +20,7 @@ double size_at(const WorkSurface& work, const SurfacePoint& at) {
         between += at.weights[k] * sizes.at[v];
         if (sizes.most.empty()) continue;
         most += at.weights[k] * sizes.most[v];
-        grown = std::min(grown, sizes.at[v] + sizes.growth * length_of(minus(at.place, work.reference->places[v])));
+        grown = std::min(grown, sizes.at[v] + sizes.growth * length(minus(at.place, work.reference->places[v])));
     }
     const double size = std::max(between, std::min(most, grown));
     return sizes.limit != nullptr ? std::min(size, (*sizes.limit)(at.place)) : size;

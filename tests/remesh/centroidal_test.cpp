@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "base/length.h"
 #include "remesh/centroidal.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,6 @@
 
 #include "base/vectors.h"
 #include "made_surfaces.h"
-#include "remesh/length.h"
 #include "remesh/triangle_quality.h"
 
 namespace geomend::remeshing {
@@ -65,7 +65,7 @@ TEST(Centroidal, EquilateralTrianglesStay) {
     const std::vector<double> sizes(places.size(), 1.0);
     WorkSurface work = with_fixed_borders(reference, sizes);
     EXPECT_EQ(move_to_centroids(work, 1e-9), 0u);
-    for (std::uint32_t v = 0; v < places.size(); ++v) EXPECT_LT(length_of(minus(work.mesh.places[v], reference.places[v])), 1e-9);
+    for (std::uint32_t v = 0; v < places.size(); ++v) EXPECT_LT(length(minus(work.mesh.places[v], reference.places[v])), 1e-9);
 }
 
 }  // namespace
