@@ -17,13 +17,14 @@ namespace {
 using Corner = QuadTable::Corner;
 using Corners = std::array<std::uint32_t, 8>;
 
-void add(Candidates& all, CellType type, const Corners& corners, double quality, double volume, std::uint8_t diagonals,
+void add(Candidates& all, CellType type, const Corners& corners, double quality, double volume, std::uint8_t diagonals, std::uint8_t ends,
          std::span<const std::uint32_t> tets) {
     all.types.push_back(type);
     all.corners.push_back(corners);
     all.quality.push_back(quality);
     all.volume.push_back(volume);
     all.diagonals.push_back(diagonals);
+    all.ends.push_back(ends);
     all.tets.insert(all.tets.end(), tets.begin(), tets.end());
     all.tet_offsets.push_back(all.tets.size());
 }
@@ -35,6 +36,7 @@ void reserve(Candidates& all, std::size_t count, std::size_t tets) {
     all.quality.reserve(count);
     all.volume.reserve(count);
     all.diagonals.reserve(count);
+    all.ends.reserve(count);
     all.tet_offsets.reserve(count + 1);
     all.tets.reserve(tets);
 }
@@ -57,7 +59,7 @@ protected:
         const std::span<const Vec3> used(points.data(), count);
         const double quality = scaled_jacobian(type, used);
         if (!(quality >= least_) || !inner_.find(type, {corners.data(), count}) || !is_valid(type, used)) return;
-        add(found, type, corners, quality, inner_.volume(), inner_.diagonals(), inner_.tets());
+        add(found, type, corners, quality, inner_.volume(), inner_.diagonals(), inner_.ends(), inner_.tets());
     }
 
     const TetMesh& m_;
@@ -224,6 +226,7 @@ void Candidates::append(const Candidates& more) {
     put(quality, more.quality);
     put(volume, more.volume);
     put(diagonals, more.diagonals);
+    put(ends, more.ends);
     const std::uint64_t before = tets.size();
     put(tets, more.tets);
     for (std::size_t i = 1; i < more.tet_offsets.size(); ++i) tet_offsets.push_back(before + more.tet_offsets[i]);
@@ -232,7 +235,7 @@ void Candidates::append(const Candidates& more) {
 void Candidates::keep(const std::vector<std::uint8_t>& kept) {
     Candidates left;
     for (std::size_t i = 0; i < size(); ++i) {
-        if (kept[i] != 0) add(left, types[i], corners[i], quality[i], volume[i], diagonals[i], tets_of(i));
+        if (kept[i] != 0) add(left, types[i], corners[i], quality[i], volume[i], diagonals[i], ends[i], tets_of(i));
     }
     *this = std::move(left);
 }
@@ -268,7 +271,7 @@ Candidates find_pyramids(const TetMesh& m, const QuadTable& quads, const SearchO
                 volume += tetrahedron_volume(m.positions[p[0]], m.positions[p[1]], m.positions[p[2]], m.positions[p[3]]);
             }
             // Local face 0 runs from corner 0 by 3 and 2 to 1: its first diagonal is the one between the two tetrahedra.
-            add(found, CellType::pyramid, corners, quality, volume, 0, std::array{f / 4, other / 4});
+            add(found, CellType::pyramid, corners, quality, volume, 0, 0, std::array{f / 4, other / 4});
         }
     }
     return found;

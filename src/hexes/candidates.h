@@ -20,6 +20,7 @@ struct Candidates {
     std::vector<double> volume;                         ///< of its tetrahedra
     /// Bit f: the tetrahedra cut the quadrangle that is local face f from its second corner to its fourth, not from its first to its third.
     std::vector<std::uint8_t> diagonals;
+    std::vector<std::uint8_t> ends;  ///< bit f: the mesh ends at the quadrangle that is local face f
     std::vector<std::uint64_t> tet_offsets = {0};
     std::vector<std::uint32_t> tets;
 

@@ -2,8 +2,12 @@
 #include "hexes/closable.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <unordered_map>
 
+#include "base/vectors.h"
+#include "hexes/half_spaces.h"
 #include "hexes/open_diagonal.h"
 #include "model/cell_faces.h"
 
@@ -38,24 +42,47 @@ bool pass_flat(const TetMesh& m, Behind& b) {
     return b.facets[0] != no_index && b.facets[1] != no_index;
 }
 
-bool is_closable(const TetMesh& m, Behind b) {
-    if (!pass_flat(m, b)) return true;
+enum class Closable : std::uint8_t { yes, with_more, no };
+
+/// Whether walls leave no room for a vertex in front of all of a quadrangle's corners: then it makes no difference how much else gives way.
+bool is_held(const std::array<Vec3, 4>& quad, std::span<const std::array<Vec3, 3>> walls, std::span<const std::array<Vec3, 3>> others) {
+    std::vector<HalfSpace> all;
+    for (std::size_t k = 0; k < 4; ++k) add_half_space(quad[k], quad[(k + 1) % 4], quad[(k + 3) % 4], all);
+    for (const auto& t : walls) add_half_space(t[0], t[1], t[2], all);
+    const std::size_t fixed = all.size();
+    for (const auto& t : others) add_half_space(t[0], t[1], t[2], all);
+    const Vec3 across = minus(quad[2], quad[0]);
+    const auto deepest = deepest_place(all, quad[0], 10 * std::sqrt(dot(across, across)));
+    return deepest && !(deepest->depth > 0) && std::ranges::all_of(deepest->tight, [&](std::uint32_t t) { return t < fixed; });
+}
+
+Closable closable(const TetMesh& m, Behind b) {
+    if (!pass_flat(m, b)) return Closable::yes;
     std::vector<Vec3> chain{m.positions[b.v[1]]};
+    std::vector<std::array<Vec3, 3>> walls, others;
     std::uint32_t x = b.v[1], facet = b.facets[0];
     for (int count = 0; count < 64; ++count) {
         const std::uint32_t t = facet / 4, y = m.tets[t][facet % 4];
         chain.push_back(m.positions[y]);
-        if (!has(m, t, b.v[0]) || !has(m, t, b.v[2]) || !has(m, t, x)) return false;
+        if (!has(m, t, b.v[0]) || !has(m, t, b.v[2]) || !has(m, t, x)) return Closable::no;
         const std::uint32_t k = index_in(m, t, x);
+        for (const std::uint32_t end : {b.v[0], b.v[2]}) {
+            const std::uint32_t number = 4 * t + index_in(m, t, end);
+            const auto c = m.facet(number);
+            const bool stays = m.wall[t][number % 4] != TetMesh::no_wall || m.across[t][number % 4] == no_index;
+            (stays ? walls : others).push_back({m.positions[c[0]], m.positions[c[2]], m.positions[c[1]]});
+        }
         if (4 * t + k == b.facets[1]) {
             const auto at = [&](std::size_t i) { return m.positions[b.v[i]]; };
-            return has_place_for_apex({{at(0), at(1), at(2), at(3)}, chain});
+            const std::array<Vec3, 4> quad{at(0), at(1), at(2), at(3)};
+            if (has_place_for_apex({quad, chain})) return Closable::yes;
+            return is_held(quad, walls, others) ? Closable::no : Closable::with_more;
         }
-        if (m.wall[t][k] != TetMesh::no_wall || m.across[t][k] == no_index) return false;
+        if (m.wall[t][k] != TetMesh::no_wall || m.across[t][k] == no_index) return Closable::no;
         x = y;
         facet = m.across[t][k];
     }
-    return false;
+    return Closable::no;
 }
 
 /// The quadrangles of a candidate with what is behind them.
@@ -84,16 +111,17 @@ void each_quad(const TetMesh& m, const Candidates& all, std::size_t i, const Vis
 
 }  // namespace
 
-std::vector<std::uint8_t> count_unclosable(const TetMesh& mesh, const Candidates& candidates) {
-    std::vector<std::uint8_t> count(candidates.size(), 0);
-    std::unordered_map<std::uint64_t, bool> known;
+std::vector<UnclosableCounts> count_unclosable(const TetMesh& mesh, const Candidates& candidates) {
+    std::vector<UnclosableCounts> count(candidates.size());
+    std::unordered_map<std::uint64_t, Closable> known;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         each_quad(mesh, candidates, i, [&](const Behind& b) {
             if (b.facets[0] == no_index || b.facets[1] == no_index) return;
             const std::uint64_t key = (std::uint64_t{std::min(b.facets[0], b.facets[1])} << 32) | std::max(b.facets[0], b.facets[1]);
             const auto found = known.find(key);
-            const bool closable = found != known.end() ? found->second : known.emplace(key, is_closable(mesh, b)).first->second;
-            if (!closable) ++count[i];
+            const Closable how = found != known.end() ? found->second : known.emplace(key, closable(mesh, b)).first->second;
+            if (how == Closable::with_more) ++count[i].in_fan;
+            if (how == Closable::no) ++count[i].at_all;
         });
     }
     return count;

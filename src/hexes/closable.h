@@ -8,9 +8,13 @@
 
 namespace geomend::hexes {
 
-/// How many quadrangles of each candidate cannot be closed towards tetrahedra: neither do they end the mesh, nor is there a place for an
-/// apex behind them. Such a candidate can only stand where another one has the same quadrangle.
-/// Cost: 2 microseconds for each quadrangle that two facets make, more for those that cannot be closed.
-std::vector<std::uint8_t> count_unclosable(const TetMesh& mesh, const Candidates& candidates);
+/// How many quadrangles of a candidate are hard to close towards tetrahedra, or cannot be closed: such a candidate can only stand where
+/// another one has the same quadrangle.
+struct UnclosableCounts {
+    std::uint8_t in_fan = 0;  ///< the tetrahedra around its diagonal leave no room for an apex; with others there may be some
+    std::uint8_t at_all = 0;  ///< walls leave none
+};
+/// For each candidate. Cost: 2 microseconds for each quadrangle that two facets make, more for those that cannot be closed.
+std::vector<UnclosableCounts> count_unclosable(const TetMesh& mesh, const Candidates& candidates);
 
 }  // namespace geomend::hexes

@@ -2,10 +2,15 @@
 #include "hexes/closing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
 #include <unordered_map>
 
 #include "base/vectors.h"
 #include "geometry/cell_volume.h"
+#include "hexes/cavity_apex.h"
+#include "hexes/half_spaces.h"
 #include "hexes/jacobian.h"
 #include "hexes/open_diagonal.h"
 #include "hexes/pair_set.h"
@@ -57,14 +62,19 @@ public:
         }
     }
 
-    MixedMesh run(std::span<const std::uint32_t> selected, Closing how) {
+    /// \param urgent per cell and face how often that quadrangle could not be closed before: it comes the earlier for it
+    MixedMesh run(std::span<const std::uint32_t> selected, Closing how, const std::map<std::array<std::uint32_t, 2>, int>& urgent) {
         for (const std::uint32_t i : selected) add_cell(i);
         link_quads();
         for (const Quad& q : quads_) {
             if (is_facet(q.behind[0]) || is_facet(q.behind[1])) ++pending_[q.diagonal()];
         }
         for (std::uint32_t q = 0; q < quads_.size(); ++q) settle(q);
-        for (const std::uint32_t q : hardest_first(how)) close_quad(q, how);
+        for (std::uint32_t q = 0; q < quads_.size(); ++q) {
+            for (std::size_t k = 0; k < 4 && !quads_[q].is_done; ++k)
+                quads_at_.emplace(pair_key(quads_[q].v[k], quads_[q].v[(k + 1) % 4]), q);
+        }
+        for (const std::uint32_t q : hardest_first(how, urgent)) close_quad(q, how);
         return finish();
     }
 
@@ -160,25 +170,53 @@ private:
         }
     }
 
+    /// What quadrangles that are to be closed later need: a vertex that closes this one has to be in front of their corners.
+    void find_beside(std::uint32_t number) {
+        beside_.clear();
+        std::vector<std::uint32_t> others;
+        const auto note = [&](std::uint32_t other) {
+            if (other != number && !quads_[other].is_done && std::ranges::find(others, other) == others.end()) others.push_back(other);
+        };
+        for (const std::uint32_t t : fan_) {
+            for (const std::uint32_t code : across_[t]) {
+                if (is_half(code)) note((code & ~half_bit) / 2);
+            }
+        }
+        const Quad& q = quads_[number];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto [first, last] = quads_at_.equal_range(pair_key(q.v[k], q.v[(k + 1) % 4]));
+            for (auto at = first; at != last; ++at) note(at->second);
+        }
+        for (const std::uint32_t other : others) {
+            const auto p = points(quads_[other]);
+            for (std::size_t k = 0; k < 4; ++k) add_half_space(p[k], p[(k + 1) % 4], p[(k + 3) % 4], beside_);
+        }
+    }
+
     void close_quad(std::uint32_t number, Closing how) {
         const Quad& q = quads_[number];
         if (q.is_done) return;
         const bool has_fan = how == Closing::open && is_facet(q.behind[0]) && is_facet(q.behind[1]) && find_fan(q);
-        if (!has_fan || (!make_pyramid(number) && !open(number))) give_up(number);
+        if (!has_fan) return give_up(number);
+        find_beside(number);
+        if (make_pyramid(number) || open(number) || (!beside_.empty() && open_cavity(number))) return;
+        beside_.clear();
+        if (!make_pyramid(number) && !open(number) && !open_cavity(number)) give_up(number);
     }
 
     /// Quadrangles that are not done, those first where there is the least room behind.
-    std::vector<std::uint32_t> hardest_first(Closing how) {
-        std::vector<std::pair<double, std::uint32_t>> order;
+    std::vector<std::uint32_t> hardest_first(Closing how, const std::map<std::array<std::uint32_t, 2>, int>& urgent) {
+        std::vector<std::tuple<int, double, std::uint32_t>> order;
         for (std::uint32_t number = 0; number < quads_.size(); ++number) {
             const Quad& q = quads_[number];
             if (q.is_done) continue;
             const bool has_fan = how == Closing::open && is_facet(q.behind[0]) && is_facet(q.behind[1]) && find_fan(q);
-            order.emplace_back(has_fan ? place_behind(q).quality : 0, number);
+            const auto found = urgent.find({q.cell, q.face});
+            order.emplace_back(found != urgent.end() ? -found->second : 0, has_fan ? place_behind(q).quality : 0, number);
         }
         std::ranges::sort(order);
         std::vector<std::uint32_t> numbers;
-        for (const auto& [room, number] : order) numbers.push_back(number);
+        for (const auto& [times, room, number] : order) numbers.push_back(number);
         return numbers;
     }
 
@@ -186,7 +224,7 @@ private:
     ApexPlace place_behind(const Quad& q) const {
         std::vector<Vec3> chain;
         for (const std::uint32_t v : chain_) chain.push_back(positions_[v]);
-        return place_for_apex({points(q), chain});
+        return place_for_apex({points(q), chain, beside_});
     }
 
     void done(std::uint32_t number) {
@@ -321,6 +359,8 @@ private:
         }
         const auto p = points(q);
         if (!is_valid(CellType::pyramid, std::array{p[0], p[1], p[2], p[3], positions_[apex]})) return false;
+        const auto is_in = [&](const HalfSpace& h) { return h.depth(positions_[apex]) > 0; };
+        if (!std::ranges::all_of(beside_, is_in)) return false;
         const std::uint32_t cell = add_pyramid(q, apex);
         for (std::uint32_t k = 0; k < 4; ++k) {
             // The side over the edge from corner k to the next is the facet without the other end of the diagonal.
@@ -384,6 +424,194 @@ private:
         alive_.push_back(1);
     }
 
+    /// Where the fan behind a quadrangle leaves no room for a vertex: takes tetrahedra beside it out as well, until there is room for one
+    /// that sees all around.
+    bool open_cavity(std::uint32_t number) {
+        constexpr std::size_t most_faces = 60;
+        cavity_ = fan_;
+        find_border(number);
+        while (border_.size() <= most_faces) {
+            const CavityBorder border = border_places();
+            const Room room = room_in(border);
+            if (is_simple_ && room.depth > 1e-6 && !loses_something()) {
+                const ApexPlace place = place_for_apex(border);
+                if (place.quality > 1e-5) {
+                    fill_cavity(place.position);
+                    return true;
+                }
+            }
+            if (!grow(number, room.in_the_way)) return false;
+        }
+        return false;
+    }
+
+    /// Takes the tetrahedron behind one of some triangles of the border, the one that leaves most room.
+    bool grow(std::uint32_t number, std::span<const std::uint32_t> triangles) {
+        std::vector<std::uint32_t> behind;
+        std::uint32_t at = 0;
+        for (const std::uint32_t f : border_) {
+            if (is_capped(f)) continue;
+            const std::uint32_t code = across_[f / 4][f % 4];
+            const bool may_give_way = is_facet(code) && sources_[f / 4][f % 4] == no_index;
+            if (may_give_way && std::ranges::find(triangles, at) != triangles.end()) behind.push_back(code / 4);
+            ++at;
+        }
+        double most = -HUGE_VAL;
+        std::uint32_t best = no_index;
+        for (const std::uint32_t t : behind) {
+            cavity_.push_back(t);
+            find_border(number);
+            const double depth = room_in(border_places()).depth - (is_simple_ ? 0 : 1);
+            if (depth > most) most = depth, best = t;
+            cavity_.pop_back();
+        }
+        if (best == no_index) return false;
+        cavity_.push_back(best);
+        find_border(number);
+        return true;
+    }
+
+    bool is_in_cavity(std::uint32_t t) const { return std::ranges::find(cavity_, t) != cavity_.end(); }
+
+    /// Half of a quadrangle that gets a pyramid over the vertex in the cavity.
+    bool is_capped(std::uint32_t facet) const {
+        const std::uint32_t code = across_[facet / 4][facet % 4];
+        return is_half(code) && std::ranges::find(capped_, (code & ~half_bit) / 2) != capped_.end();
+    }
+
+    std::array<std::uint32_t, 3> facet(std::uint32_t number) const {
+        const auto& tet = tets_[number / 4];
+        const auto& c = facet_corners[number % 4];
+        return {tet[c[0]], tet[c[1]], tet[c[2]]};
+    }
+
+    /// The facets around the cavity, and the quadrangles that have both halves there and all that is behind their diagonal inside.
+    void find_border(std::uint32_t number) {
+        border_.clear();
+        capped_.assign(1, number);
+        border_edges_.clear();
+        std::vector<std::uint32_t> halves;
+        for (const std::uint32_t t : cavity_) {
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                const std::uint32_t code = across_[t][k];
+                if (is_facet(code) && sources_[t][k] == no_index && is_in_cavity(code / 4)) continue;
+                const auto c = facet(4 * t + k);
+                for (std::size_t e = 0; e < 3; ++e)
+                    border_edges_.push_back({pair_key(c[e], c[(e + 1) % 3]), static_cast<std::uint32_t>(border_.size())});
+                border_.push_back(4 * t + k);
+                if (is_half(code)) halves.push_back(code & ~half_bit);
+            }
+        }
+        std::ranges::sort(border_edges_);
+        is_simple_ = true;
+        for (std::size_t i = 0; i < border_edges_.size(); ++i) {
+            const bool pairs = i + 1 < border_edges_.size() && border_edges_[i].first == border_edges_[i + 1].first;
+            is_simple_ = is_simple_ && pairs && (i + 2 == border_edges_.size() || border_edges_[i].first != border_edges_[i + 2].first);
+            ++i;
+        }
+        std::ranges::sort(halves);
+        for (std::size_t i = 0; i + 1 < halves.size(); ++i) {
+            const bool is_whole = halves[i] % 2 == 0 && halves[i + 1] == halves[i] + 1;
+            if (is_whole && halves[i] / 2 != number && !quads_[halves[i] / 2].is_done) capped_.push_back(halves[i] / 2);
+        }
+    }
+
+    CavityBorder border_places() const {
+        CavityBorder border;
+        border.also = beside_;
+        for (const std::uint32_t number : capped_) border.quads.push_back(points(quads_[number]));
+        for (const std::uint32_t f : border_) {
+            const auto c = facet(f);
+            if (!is_capped(f)) border.triangles.push_back({positions_[c[0]], positions_[c[2]], positions_[c[1]]});
+        }
+        return border;
+    }
+
+    /// Whether a vertex or an edge that stays lies inside of the cavity.
+    bool loses_something() const {
+        const auto is_at_border = [&](std::uint32_t a, std::uint32_t b) {
+            const auto found = std::ranges::lower_bound(border_edges_, pair_key(a, b), {}, [](const auto& e) { return e.first; });
+            return found != border_edges_.end() && found->first == pair_key(a, b);
+        };
+        const auto is_line = [&](std::uint32_t a, std::uint32_t b) {
+            return a < m_.positions.size() && b < m_.positions.size() && m_.lines.has(a, b);
+        };
+        for (const std::uint32_t t : cavity_) {
+            const auto& c = tets_[t];
+            for (std::size_t i = 0; i < 4; ++i) {
+                bool is_out = false;
+                for (std::size_t k = 0; k < 4; ++k) {
+                    if (k == i) continue;
+                    const bool at_border = is_at_border(c[i], c[k]);
+                    is_out = is_out || at_border;
+                    if (!at_border && is_line(c[i], c[k])) return true;
+                }
+                const auto has = [&](std::uint32_t f) {
+                    const auto corners = facet(f);
+                    return std::ranges::find(corners, c[i]) != corners.end();
+                };
+                if (!is_out && std::ranges::none_of(border_, has)) return true;
+            }
+        }
+        return false;
+    }
+
+    /// Pyramids on the capped quadrangles and tetrahedra on the other faces of the border, all over one new vertex.
+    void fill_cavity(const Vec3& place) {
+        const auto apex = static_cast<std::uint32_t>(positions_.size());
+        positions_.push_back(place);
+        new_vertices_.push_back({quads_[capped_.front()].v, m_.region[tet_of_[cavity_.front()]]});
+        fan_ = cavity_;
+        for (const std::uint32_t number : capped_) {
+            add_pyramid(quads_[number], apex);
+            done(number);
+        }
+        counts_.opened += capped_.size();
+        std::vector<std::uint32_t> made(border_.size(), no_index);
+        for (std::size_t i = 0; i < border_.size(); ++i) {
+            if (is_capped(border_[i])) continue;
+            const std::uint32_t t = border_[i] / 4, k = border_[i] % 4;
+            made[i] = static_cast<std::uint32_t>(tets_.size());
+            std::array<std::uint32_t, 4> tet = tets_[t], source{no_index, no_index, no_index, no_index};
+            tet[k] = apex;
+            source[k] = sources_[t][k];
+            tets_.push_back(tet);
+            across_.push_back(across_[t]);
+            sources_.push_back(source);
+            tet_of_.push_back(tet_of_[t]);
+            alive_.push_back(1);
+            link(across_[t][k], 4 * made[i] + k);
+        }
+        for (std::size_t e = 0; e + 1 < border_edges_.size(); e += 2)
+            join_at(border_edges_[e].first, {border_edges_[e].second, border_edges_[e + 1].second}, made);
+        for (const std::uint32_t t : cavity_) alive_[t] = 0;
+    }
+
+    /// What two faces of a cavity's border have made meets above their common edge.
+    void join_at(std::uint64_t edge, std::array<std::uint32_t, 2> faces, const std::vector<std::uint32_t>& made) {
+        std::array<std::uint32_t, 2> codes{of_cell, of_cell};
+        for (std::size_t n = 0; n < 2; ++n) {
+            const std::uint32_t t = made[faces[n]];
+            if (t == no_index) continue;
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                if (k != border_[faces[n]] % 4 && pair_key_without(tets_[t], k, border_[faces[n]] % 4) == edge) codes[n] = 4 * t + k;
+            }
+        }
+        for (std::size_t n = 0; n < 2; ++n) {
+            if (codes[n] != of_cell) across_[codes[n] / 4][codes[n] % 4] = codes[1 - n];
+        }
+    }
+
+    /// The edge between the two corners of a tetrahedron that are none of two.
+    static std::uint64_t pair_key_without(const std::array<std::uint32_t, 4>& tet, std::uint32_t k, std::uint32_t l) {
+        std::array<std::uint32_t, 2> ends{};
+        std::size_t count = 0;
+        for (std::uint32_t n = 0; n < 4; ++n) {
+            if (n != k && n != l) ends[count++] = tet[n];
+        }
+        return pair_key(ends[0], ends[1]);
+    }
+
     MixedMesh finish() {
         for (const Quad& q : quads_) counts_.absorbed += q.absorbed.size();
         MixedMesh mesh{std::move(positions_), std::move(new_vertices_), std::move(cells_), std::move(facet_places_)};
@@ -419,19 +647,38 @@ private:
     std::unordered_map<std::uint64_t, std::uint32_t> pending_;  ///< diagonals of quadrangles that are not closed yet
     std::vector<OpenQuad> failed_;
     std::vector<std::uint32_t> fan_, chain_;
+    std::vector<HalfSpace> beside_;                                   ///< what other quadrangles need
+    std::unordered_multimap<std::uint64_t, std::uint32_t> quads_at_;  ///< by edge
+    std::vector<std::uint32_t> cavity_, border_, capped_;  ///< tetrahedra, facets around them, quadrangles with both halves there
+    bool is_simple_ = false;                               ///< each edge of the border is one of two faces there
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> border_edges_;  ///< with the number of the facet in `border_`; ascending
 };
 
 }  // namespace
 
 MixedMesh close(const TetMesh& mesh, const Candidates& candidates, std::span<const std::uint32_t> selected, Closing how,
                 ClosingCounts& counts, std::vector<std::uint32_t>& failed) {
-    Closer closer(mesh, candidates, counts);
-    MixedMesh made = closer.run(selected, how);
-    failed.clear();
-    for (const OpenQuad& quad : closer.failed()) failed.push_back(selected[quad.cell]);
-    std::ranges::sort(failed);
-    failed.erase(std::ranges::unique(failed).begin(), failed.end());
-    return made;
+    std::map<std::array<std::uint32_t, 2>, int> urgent;
+    MixedMesh best;
+    for (int round = 0; round < 2; ++round) {
+        ClosingCounts own;
+        Closer closer(mesh, candidates, own);
+        MixedMesh made = closer.run(selected, how, urgent);
+        std::vector<std::uint32_t> lost;
+        for (const OpenQuad& quad : closer.failed()) {
+            lost.push_back(selected[quad.cell]);
+            ++urgent[{quad.cell, quad.face}];
+        }
+        std::ranges::sort(lost);
+        lost.erase(std::ranges::unique(lost).begin(), lost.end());
+        if (round == 0 || lost.size() < failed.size()) {
+            best = std::move(made);
+            counts = own;
+            failed = std::move(lost);
+        }
+        if (failed.empty()) break;
+    }
+    return best;
 }
 
 }  // namespace geomend::hexes

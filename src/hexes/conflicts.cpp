@@ -128,9 +128,12 @@ void Conflicts::number_pairs() {
     };
     const auto visit_diagonals = [&](std::uint32_t i, const auto& visit) {
         const auto& c = all_.corners[i];
+        std::uint32_t number = 0;
         for (const LocalFace& face : faces_of(all_.types[i])) {
             const auto f = face.corners();
-            for (std::size_t k = 0; f.size() == 4 && k < 2; ++k) visit(c[f[k]], c[f[k + 2]]);
+            const bool matters = f.size() == 4 && (all_.ends[i] >> number & 1u) == 0;
+            ++number;
+            for (std::size_t k = 0; matters && k < 2; ++k) visit(c[f[k]], c[f[k + 2]]);
         }
     };
     std::size_t edges = 0, diagonals = 0;

@@ -11,8 +11,9 @@ namespace geomend::hexes {
 
 /// Which candidates may not stand beside each other, by three tables: the candidates that hold a tetrahedron, those that have a pair of
 /// vertices as an edge, and those that have it as the diagonal of a quadrangle. Two are in conflict where they share a tetrahedron, where
-/// an edge of one is a diagonal of the other, or where they share a diagonal and not its quadrangle. The pairs of candidates are not kept:
-/// there may be a hundred for each.
+/// an edge of one is a diagonal of the other, or where they share a diagonal and not its quadrangle; but those of quadrangles at the end of
+/// the mesh have nothing behind them to fit: at the end of a crack the two sides have three corners in common. The pairs of candidates are
+/// not kept: there may be a hundred for each.
 class Conflicts {
 public:
     /// \pre the candidates outlive this. Cost: n log n.

@@ -149,6 +149,24 @@ void Cotree::insert(std::uint32_t vertex, std::span<const std::uint32_t> neighbo
     else put_into(node, leaf);
 }
 
+std::uint64_t Cotree::edge_count() const {
+    std::uint64_t count = 0;
+    std::vector<std::uint32_t> open;
+    if (root_ != no_index) open.push_back(root_);
+    while (!open.empty()) {
+        const Node& n = nodes_[open.back()];
+        open.pop_back();
+        open.insert(open.end(), n.children.begin(), n.children.end());
+        if (!n.joins) continue;
+        std::uint64_t before = 0;
+        for (const std::uint32_t c : n.children) {
+            count += before * nodes_[c].leaves;
+            before += nodes_[c].leaves;
+        }
+    }
+    return count;
+}
+
 std::vector<std::uint32_t> Cotree::heaviest(std::span<const double> weights) const {
     if (root_ == no_index) return {};
     std::vector<std::uint32_t> order{root_};

@@ -26,6 +26,9 @@ public:
     /// no two are neighbours. Ascending. Linear.
     std::vector<std::uint32_t> heaviest(std::span<const double> weights) const;
 
+    /// How many edges the graph has that the tree stands for: those that were named and those that were added. Linear.
+    std::uint64_t edge_count() const;
+
 private:
     struct Node {
         std::uint32_t parent, vertex;  ///< no_index: the root; an inner node

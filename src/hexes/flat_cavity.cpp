@@ -81,9 +81,14 @@ bool FlatCavities::place(double least_shape, Vec3& p) const {
         const auto at = [&](std::size_t k) { return minus(m_.positions[c[k]], origin); };
         add_half_space(at(0), at(2), at(1), inside);
     }
-    const auto found = deepest_place(inside);
-    if (!found) return false;
-    p = plus(*found, origin);
+    double reach = 0;
+    for (const std::uint32_t f : border_) {
+        for (const std::uint32_t v : m_.facet(f))
+            reach = std::max(reach, dot(minus(m_.positions[v], origin), minus(m_.positions[v], origin)));
+    }
+    const auto found = deepest_place(inside, {}, 10 * std::sqrt(reach));
+    if (!found || !(found->depth > 0)) return false;
+    p = plus(found->place, origin);
     return std::ranges::all_of(border_, [&](std::uint32_t f) {
         const auto c = m_.facet(f);
         return scaled_jacobian(CellType::tetrahedron, std::array{m_.positions[c[0]], m_.positions[c[2]], m_.positions[c[1]], p}) >=

@@ -68,19 +68,20 @@ bool InnerTets::find(CellType type, std::span<const std::uint32_t> corners) {
         const std::uint32_t t = m_.star[i];
         const unsigned bits = bits_of(m_.tets[t]);
         if (bits == 0 || is_on_face(type, bits)) continue;
-        found = flood(t, type, corners);
+        found = flood(t, type, corners, false) || (could_go_on_ && flood(t, type, corners, true));
     }
     for (const std::uint32_t v : corners) local_[v] = 255;
     return found;
 }
 
-bool InnerTets::flood(std::uint32_t seed, CellType type, std::span<const std::uint32_t> corners) {
+bool InnerTets::flood(std::uint32_t seed, CellType type, std::span<const std::uint32_t> corners, bool goes_on) {
+    could_go_on_ = false;
     tets_.assign(1, seed);
     facet_count_.fill(0);
     if (!taken_.empty() && taken_[seed] != 0) return false;
     for (std::size_t i = 0; i < tets_.size(); ++i) {
         for (std::uint32_t k = 0; k < 4; ++k) {
-            if (!cross(4 * tets_[i] + k, type)) return false;
+            if (!cross(4 * tets_[i] + k, type, goes_on)) return false;
         }
     }
     if (!faces_are_whole(type, corners) || !lines_stay(type, corners)) return false;
@@ -93,26 +94,30 @@ bool InnerTets::flood(std::uint32_t seed, CellType type, std::span<const std::ui
     return true;
 }
 
-/// Notes a facet on a face of the cell, or takes the tetrahedron on its other side.
-bool InnerTets::cross(std::uint32_t facet, CellType type) {
+/// Notes a facet on a face of the cell, or takes the tetrahedron on its other side. Three corners of a quadrangle may also be those of a
+/// facet inside, where the quadrangle is cut along its other diagonal. \param goes_on whether tetrahedra behind such are taken
+bool InnerTets::cross(std::uint32_t facet, CellType type, bool goes_on) {
     const std::uint8_t face = face_table(type)[bits_of(m_.facet(facet))];
-    if (face != 255) {
+    const std::uint32_t behind = m_.across[facet / 4][facet % 4];
+    const unsigned bits_behind = behind == no_index ? 0 : bits_of(m_.tets[behind / 4]);
+    const bool could_go_on = face != 255 && bits_behind != 0 && !is_on_face(type, bits_behind);
+    could_go_on_ = could_go_on_ || could_go_on;
+    if (face != 255 && !(goes_on && could_go_on)) {
         if (facet_count_[face] == 2) return false;
         facets_[face][facet_count_[face]++] = facet;
         return true;
     }
-    const std::uint32_t other = m_.across[facet / 4][facet % 4];
-    if (other == no_index || m_.wall[facet / 4][facet % 4] != TetMesh::no_wall) return false;
-    const std::uint32_t t = other / 4;
+    if (behind == no_index || m_.wall[facet / 4][facet % 4] != TetMesh::no_wall) return false;
+    const std::uint32_t t = behind / 4;
     if (std::ranges::find(tets_, t) != tets_.end()) return true;
-    if (tets_.size() == most_tets || bits_of(m_.tets[t]) == 0 || (!taken_.empty() && taken_[t] != 0)) return false;
+    if (tets_.size() == most_tets || bits_behind == 0 || (!taken_.empty() && taken_[t] != 0)) return false;
     tets_.push_back(t);
     return true;
 }
 
 /// Two facets with one diagonal on each quadrangle, and one on each triangle.
 bool InnerTets::faces_are_whole(CellType type, std::span<const std::uint32_t> corners) {
-    diagonals_ = 0;
+    diagonals_ = ends_ = 0;
     std::size_t f = 0;
     for (const LocalFace& face : faces_of(type)) {
         const auto c = face.corners();
@@ -131,6 +136,8 @@ bool InnerTets::faces_are_whole(CellType type, std::span<const std::uint32_t> co
         }
         if ((missing[0] ^ missing[1]) != 2) return false;
         if (missing[0] % 2 == 0) diagonals_ |= static_cast<std::uint8_t>(1u << number);
+        const auto ends_at = [&](std::size_t h) { return m_.across[facets_[number][h] / 4][facets_[number][h] % 4] == no_index; };
+        if (ends_at(0) && ends_at(1)) ends_ |= static_cast<std::uint8_t>(1u << number);
         const std::size_t from = (missing[0] + 1) % 4;
         const auto wall = [&](std::size_t h) { return m_.wall[facets_[number][h] / 4][facets_[number][h] % 4]; };
         if (!may_be_quad(m_, quad[from], quad[(from + 2) % 4], wall(0), wall(1))) return false;

@@ -22,11 +22,12 @@ public:
 
     const std::vector<std::uint32_t>& tets() const { return tets_; }  ///< of the cell found, ascending
     std::uint8_t diagonals() const { return diagonals_; }             ///< as in Candidates
+    std::uint8_t ends() const { return ends_; }                       ///< as in Candidates
     double volume() const { return volume_; }
 
 private:
-    bool flood(std::uint32_t seed, CellType type, std::span<const std::uint32_t> corners);
-    bool cross(std::uint32_t facet, CellType type);
+    bool flood(std::uint32_t seed, CellType type, std::span<const std::uint32_t> corners, bool goes_on);
+    bool cross(std::uint32_t facet, CellType type, bool goes_on);
     bool lines_stay(CellType type, std::span<const std::uint32_t> corners) const;
     bool faces_are_whole(CellType type, std::span<const std::uint32_t> corners);
     bool face_may_be(std::span<const std::uint32_t> quad, std::uint32_t facet) const;
@@ -40,7 +41,8 @@ private:
     std::vector<std::uint32_t> tets_;
     std::array<std::array<std::uint32_t, 2>, 6> facets_{};  ///< per face of the cell the facets on it
     std::array<std::uint8_t, 6> facet_count_{};
-    std::uint8_t diagonals_ = 0;
+    bool could_go_on_ = false;  ///< tetrahedra of the corners alone stand behind a facet on a face
+    std::uint8_t diagonals_ = 0, ends_ = 0;
     double volume_ = 0;
 };
 

@@ -89,9 +89,10 @@ void climb(Selection& s, std::vector<std::uint32_t> queue) {
 std::vector<std::uint32_t> search_selection(const Conflicts& conflicts, std::span<const double> weights,
                                             std::span<const std::uint32_t> start, const LocalSearch& how) {
     Selection s(conflicts, weights);
-    const auto count = static_cast<std::uint32_t>(conflicts.size());
+    const bool tries_all = how.among.empty();
+    const auto count = static_cast<std::uint32_t>(tries_all ? conflicts.size() : how.among.size());
     for (const std::uint32_t i : start) s.take(i, nullptr);
-    std::vector<std::uint32_t> best = s.list(), all(count);
+    std::vector<std::uint32_t> best = s.list(), all(conflicts.size());
     std::int64_t best_total = s.total();
     std::iota(all.begin(), all.end(), 0u);
     Random random(how.seed);
@@ -102,7 +103,7 @@ std::vector<std::uint32_t> search_selection(const Conflicts& conflicts, std::spa
         if (how.monitor != nullptr) how.monitor->progress("selection", done);
         const double now = how.heat * std::pow(0.01, done);
         for (std::uint64_t k = 0; k < std::min(stretch, how.steps - step); ++k) {
-            const std::uint32_t i = random.below(count);
+            const std::uint32_t drawn = random.below(count), i = tries_all ? drawn : how.among[drawn];
             if (s.has(i) || s.weight(i) == 0) continue;
             const std::int64_t gain = s.gain(i);
             const double part = static_cast<double>(gain) / static_cast<double>(s.weight(i));

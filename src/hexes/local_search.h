@@ -14,6 +14,7 @@ struct LocalSearch {
     std::uint64_t steps = 0;  ///< how many candidates are tried; 200 for each is much, 20 little
     double heat = 0.3;        ///< losses that are accepted in the beginning, by the weight of the candidate; they sink to a hundredth
     std::uint32_t seed = 1;
+    std::span<const std::uint32_t> among = {};  ///< candidates that are tried; empty: all
     const Monitor* monitor = nullptr;
 };
 

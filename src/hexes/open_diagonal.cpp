@@ -17,6 +17,11 @@ namespace {
 double quality_at(const Fan& fan, const Vec3& p, double enough) {
     const auto& q = fan.quad;
     double least = scaled_jacobian(CellType::pyramid, std::array{q[0], q[1], q[2], q[3], p});
+    if (!fan.also.empty()) {
+        const Vec3 across = minus(q[2], q[0]);
+        const double size = std::sqrt(dot(across, across));
+        for (const HalfSpace& h : fan.also) least = std::min(least, h.depth(p) / size);
+    }
     for (std::size_t i = 0; least > enough && i + 1 < fan.chain.size(); ++i) {
         const Vec3 &x = fan.chain[i], &y = fan.chain[i + 1];
         least = std::min(least, scaled_jacobian(CellType::tetrahedron, std::array{x, q[0], y, p}));
@@ -32,7 +37,7 @@ void try_place(const Fan& fan, const Vec3& p, ApexPlace& best) {
 
 /// Where an apex may be so that no cell is inside out.
 std::vector<HalfSpace> kernel_of(const Fan& fan) {
-    std::vector<HalfSpace> all;
+    std::vector<HalfSpace> all(fan.also.begin(), fan.also.end());
     const auto& q = fan.quad;
     for (std::size_t k = 0; k < 4; ++k) add_half_space(q[k], q[(k + 1) % 4], q[(k + 3) % 4], all);
     for (std::size_t i = 0; i + 1 < fan.chain.size(); ++i) {
@@ -44,7 +49,9 @@ std::vector<HalfSpace> kernel_of(const Fan& fan) {
 
 /// The place deepest in the kernel.
 void try_deepest(const Fan& fan, ApexPlace& best) {
-    if (const auto place = deepest_place(kernel_of(fan))) try_place(fan, *place, best);
+    const Vec3 across = minus(fan.quad[2], fan.quad[0]);
+    const auto deepest = deepest_place(kernel_of(fan), fan.quad[0], 10 * std::sqrt(dot(across, across)));
+    if (deepest && deepest->depth > 0) try_place(fan, deepest->place, best);
 }
 
 /// Some places above the middle of the quadrangle.

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/vec3.h"
+#include "hexes/half_spaces.h"
 
 namespace geomend::hexes {
 
@@ -13,6 +14,8 @@ namespace geomend::hexes {
 struct Fan {
     std::array<Vec3, 4> quad;     ///< its normal points into the fan
     std::span<const Vec3> chain;  ///< second corner, ..., fourth corner
+    /// Where a vertex leaves room for what else has to be put there; it is to be in them as well.
+    std::span<const HalfSpace> also = {};
 };
 
 /// A place for a vertex in a fan: the pyramid over the quadrangle and the tetrahedra that it makes with the fan's outer facets have their

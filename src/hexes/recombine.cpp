@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "geometry/cell_volume.h"
 #include "geometry/corner_frames.h"
@@ -71,14 +72,20 @@ void measure(const VolumeMesh& mesh, RecombineReport& report) {
     }
 }
 
-/// By volume for the most part: the shape counts where candidates are about as large, and what has to have another one beside it
-/// counts less.
-std::vector<double> weights_of(const TetMesh& tets, const Candidates& candidates) {
+/// By volume for the most part: the shape counts where candidates are about as large.
+std::vector<double> plain_weights(const Candidates& candidates) {
     std::vector<double> weights(candidates.size());
-    const std::vector<std::uint8_t> unclosable = count_unclosable(tets, candidates);
-    constexpr double each = 0.5;
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = candidates.volume[i] * (2 + candidates.quality[i]);
+    return weights;
+}
+
+/// The same, and what is hard to close without another one beside it counts less.
+std::vector<double> weights_of(const TetMesh& tets, const Candidates& candidates) {
+    std::vector<double> weights = plain_weights(candidates);
+    const std::vector<UnclosableCounts> unclosable = count_unclosable(tets, candidates);
+    constexpr double in_fan = 0.85, at_all = 0.1;
     for (std::size_t i = 0; i < weights.size(); ++i)
-        weights[i] = candidates.volume[i] * (2 + candidates.quality[i]) * std::pow(each, unclosable[i]);
+        weights[i] *= std::pow(in_fan, unclosable[i].in_fan) * std::pow(at_all, unclosable[i].at_all);
     return weights;
 }
 
@@ -100,13 +107,60 @@ std::vector<std::uint32_t> without(const std::vector<std::uint32_t>& all, const 
     return left;
 }
 
+/// The candidates that hold tetrahedra which nothing selected holds, those in their way, and those in the way of these.
+std::vector<std::uint32_t> around_gaps(const Conflicts& conflicts, std::span<const std::uint32_t> selected, std::size_t tets) {
+    const Candidates& all = conflicts.candidates();
+    std::vector<std::uint8_t> is_held(tets, 0), is_near(all.size(), 0);
+    for (const std::uint32_t i : selected) {
+        for (const std::uint32_t t : all.tets_of(i)) is_held[t] = 1;
+    }
+    std::vector<std::uint32_t> near, seen(all.size(), no_index);
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+        if (std::ranges::any_of(all.tets_of(i), [&](std::uint32_t t) { return is_held[t] == 0; })) near.push_back(i);
+    }
+    for (const std::uint32_t i : near) is_near[i] = 1;
+    for (int ring = 0; ring < 2; ++ring) {
+        for (std::size_t k = 0, end = near.size(); k < end; ++k) {
+            conflicts.visit(near[k], seen, static_cast<std::uint32_t>(2 * near[k] + ring), [&](std::uint32_t j) {
+                if (is_near[j] == 0) near.push_back(j);
+                is_near[j] = 1;
+            });
+        }
+    }
+    std::ranges::sort(near);
+    return near;
+}
+
+/// Looks for a selection that leaves no gap, all over and then around the gaps that are left. \return whether there is one
+bool fill_whole(const TetMesh& tets, const Conflicts& conflicts, LocalSearch search, std::vector<std::uint32_t>& selected) {
+    const std::vector<double> weights = plain_weights(conflicts.candidates());
+    const double whole = volume_of(tets);
+    selected = search_selection(conflicts, weights, selected, search);
+    for (search.seed = 2; search.seed < 12; ++search.seed) {
+        if (volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * whole) return true;
+        const std::vector<std::uint32_t> near = around_gaps(conflicts, selected, tets.tets.size());
+        if (near.empty() || near.size() > conflicts.size() / 5) return false;
+        search.among = near;
+        search.steps = 5000 * near.size();
+        selected = search_selection(conflicts, weights, selected, search);
+    }
+    return false;
+}
+
+/// Of what failed in a small mesh only the smallest third gives way at a time: others may have room then.
+void keep_two_thirds(const Candidates& candidates, std::vector<std::uint32_t>& failed) {
+    std::ranges::sort(failed, {}, [&](std::uint32_t i) { return std::pair(candidates.volume[i], i); });
+    failed.resize((failed.size() + 2) / 3);
+    std::ranges::sort(failed);
+}
+
 /// Selects and closes. What cannot be closed without a loss, or leaves flat cells beside it, is not selected again, and the search goes on
 /// from what is left; in the last rounds nothing new is taken.
 MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<const double> order, std::vector<double> weights,
                  const RecombineOptions& options, RecombineReport& report) {
     // In a small mesh a round costs little: what failed may be taken again then, where its neighbours have changed.
     const bool is_small = conflicts.size() < 300'000;
-    const int rounds = is_small ? 40 : 24, searching_rounds = is_small ? 24 : 8, forgiving_rounds = is_small ? 12 : 0;
+    const int rounds = is_small ? 40 : 24, searching_rounds = is_small ? 24 : 8, forgiving_rounds = is_small ? 6 : 0;
     constexpr int most_flat_rounds = 4;
     int flat_rounds = 0;
     LocalSearch search;
@@ -118,8 +172,15 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
                                               : select_by(options.select, tets, conflicts, weights_by_angles(tets, conflicts.candidates()));
     // Where all is hexahedra there is nothing to gain.
     const double whole = volume_of(tets);
-    if (options.thin_only || volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * whole) search.steps = 0;
-    if (searches) selected = search_selection(conflicts, weights, selected, search);
+    const auto is_whole = [&] { return volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * whole; };
+    if (options.thin_only || is_whole()) search.steps = 0;
+    // Where nearly all is, the rest may be found by itself: then there is nothing to close.
+    constexpr double nearly_all = 0.95;
+    bool is_done = false;
+    if (searches && search.steps > 0 && volume_of(conflicts.candidates(), selected) > nearly_all * whole) {
+        is_done = fill_whole(tets, conflicts, search, selected);
+    }
+    if (searches && !is_done) selected = search_selection(conflicts, weights, selected, search);
     report.first_share = whole > 0 ? volume_of(conflicts.candidates(), selected) / whole : 0;
     search.heat = 0.02;
     search.steps /= 20;
@@ -138,6 +199,7 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
                 weights[selected[cell]] = 0;
             }
         }
+        if (is_small && round > forgiving_rounds && round + 8 < rounds) keep_two_thirds(conflicts.candidates(), failed);
         for (const std::uint32_t i : failed) weights[i] *= round <= forgiving_rounds ? 0.5 : 0;
         selected = without(selected, failed);
         if (searches && round < searching_rounds) selected = search_selection(conflicts, weights, selected, search);

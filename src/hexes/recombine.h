@@ -23,7 +23,7 @@ struct RecombineOptions {
     std::uint64_t steps = 0;     ///< of the local search; 0: 1000 for each candidate, 200 million at most
     Closing closing = Closing::open;
     Heuristic select = Heuristic::search;
-    int passes = 5;  ///< of smoothing
+    int passes = 8;  ///< of smoothing
     const Monitor* monitor = nullptr;
 };
 

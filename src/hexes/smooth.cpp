@@ -2,10 +2,12 @@
 #include "hexes/smooth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 
 #include "base/vectors.h"
+#include "geometry/cell_volume.h"
 #include "hexes/jacobian.h"
 #include "model/cell_faces.h"
 
@@ -39,7 +41,52 @@ public:
         return false;
     }
 
+    /// Whether a move made the hexahedra around a vertex larger together, at the cost of other cells, and the worst cell no worse.
+    bool grow_hexahedra(std::uint32_t v) {
+        const Vec3 before = mesh_.positions[v], by_place = growth_of_hexahedra(v);
+        const double rate = std::sqrt(dot(by_place, by_place)), size = distance_to_neighbours(v), worst = worst_around(v, -1);
+        if (!(rate > 1e-6 * size * size) || !(worst > 0)) return false;
+        for (const double part : {0.2, 0.1, 0.05}) {
+            mesh_.positions[v] = plus(before, times(part * size / rate, by_place));
+            if (worst_around(v, worst * (1 - 1e-12)) >= worst) return true;
+        }
+        mesh_.positions[v] = before;
+        return false;
+    }
+
 private:
+    /// By how much the volume of the hexahedra around a vertex grows with its place: it is linear in that.
+    Vec3 growth_of_hexahedra(std::uint32_t v) const {
+        Vec3 growth{};
+        for (const std::uint32_t c : cells_at(v)) {
+            const auto& cell = mesh_.cells[c];
+            if (cell.type != CellType::hexahedron) continue;
+            std::array<Vec3, 8> p{};
+            std::size_t own = 0;
+            for (std::size_t k = 0; k < 8; ++k) {
+                p[k] = minus(mesh_.positions[cell.corners[k]], mesh_.positions[v]);
+                if (cell.corners[k] == v) own = k;
+            }
+            const double volume = hexahedron_volume(p), unit = std::sqrt(dot(p[own ^ 1], p[own ^ 1]));
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                p[own] = {};
+                p[own][axis] = unit;
+                growth[axis] += (hexahedron_volume(p) - volume) / unit;
+            }
+        }
+        return growth;
+    }
+
+    double distance_to_neighbours(std::uint32_t v) {
+        middle_of_neighbours(v);
+        double sum = 0;
+        for (const std::uint32_t n : neighbours_) {
+            const Vec3 e = minus(mesh_.positions[n], mesh_.positions[v]);
+            sum += std::sqrt(dot(e, e));
+        }
+        return sum / static_cast<double>(std::max<std::size_t>(1, neighbours_.size()));
+    }
+
     std::span<const std::uint32_t> corners_of(const MixedMesh::Cell& cell) const { return {cell.corners.data(), node_count(cell.type)}; }
     std::span<const std::uint32_t> cells_at(std::uint32_t v) const { return {around_.data() + first_[v], around_.data() + first_[v + 1]}; }
 
@@ -102,7 +149,9 @@ std::uint64_t smooth(MixedMesh& mesh, const std::vector<std::uint8_t>& fixed, do
     for (int pass = 0; pass < passes; ++pass) {
         const std::uint64_t before = moves;
         for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-            if ((v >= fixed.size() || fixed[v] == 0) && smoother.move(v)) ++moves;
+            if (v < fixed.size() && fixed[v] != 0) continue;
+            if (smoother.move(v)) ++moves;
+            if (smoother.grow_hexahedra(v)) ++moves;
         }
         if (moves == before) break;
     }

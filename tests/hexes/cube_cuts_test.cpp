@@ -163,6 +163,20 @@ TEST(CubeCuts, EveryCutOfACubeMakesOneHexahedron) {
     EXPECT_EQ(with_flat, (std::map<std::size_t, int>{{6, 108}}));
 }
 
+// By kind of cut (table 3.1): those of five tetrahedra, those with a core of three, those about a diagonal in six like parts, and the
+// others of two prisms. P_I/P_II and P_II/P_II (b) have the same numbers.
+TEST(CubeCuts, EachKindOfCutHasTheCellsThatWereCounted) {
+    const Cuts all;
+    std::map<std::array<std::size_t, 3>, int> kinds;
+    for (const test::Tets& cut : all.cuts) {
+        if (!corners_of_gaps(cut, all.points).empty()) continue;
+        const Found f = find(test::mesh_data(all.points, cut));
+        ++kinds[{f.hexahedra.size(), f.prisms.size(), f.pyramids.size()}];
+    }
+    EXPECT_EQ(kinds, (std::map<std::array<std::size_t, 3>, int>{
+                         {{1, 0, 0}, 2}, {{1, 0, 3}, 8}, {{1, 6, 6}, 4}, {{1, 4, 6}, 24 + 12}, {{1, 2, 5}, 24}}));
+}
+
 struct BrickRow {
     std::array<std::uint32_t, 3> n;
     std::size_t hexahedra, prisms, pyramids;

@@ -115,6 +115,54 @@ TEST(Cotree, NeverTakesNeighboursOfAGraphThatIsNone) {
     }
 }
 
+std::uint64_t edges_of(const Graph& graph) {
+    std::uint64_t ends = 0;
+    for (const auto& neighbours : graph) ends += neighbours.size();
+    return ends / 2;
+}
+
+Cotree tree_of(const Graph& graph, bool complement) {
+    Cotree tree(graph.size(), complement);
+    for (std::uint32_t v = 0; v < graph.size(); ++v) tree.insert(v, graph[v]);
+    return tree;
+}
+
+TEST(Cotree, AddsNoEdgesToACographAndOneToAPathOfFour) {
+    Random random(3);
+    for (int round = 0; round < 200; ++round) {
+        const std::uint32_t count = 2 + random.below(30);
+        const Graph graph = graph_of_twins(count, random);
+        EXPECT_EQ(tree_of(graph, false).edge_count(), edges_of(graph));
+        EXPECT_EQ(tree_of(graph, true).edge_count(), count * (count - 1) / 2 - edges_of(graph));
+    }
+    Graph path(4);
+    for (std::uint32_t v = 0; v < 3; ++v) join(path, v, v + 1);
+    EXPECT_EQ(tree_of(path, false).edge_count(), 4u);
+    EXPECT_EQ(tree_of(path, true).edge_count(), 4u);  // its complement is a path of four, too
+}
+
+// Botella 2016, tables 3.3 and 3.4: a graph of conflicts has as many edges as its complement has not, and to make it a cograph takes very
+// many edges, some 96 of a hundred that it then has, while the complement takes few.
+TEST(Cotree, AddsManyEdgesToConflictsAndFewToTheirComplement) {
+    const test::Lattice l = test::lattice({3, 3, 3});
+    const auto mesh = VolumeMesh::make(test::mesh_data(l.points, test::kuhn_tets(l)));
+    ASSERT_TRUE(mesh);
+    const TetMesh tets = tet_mesh_of(*mesh);
+    const QuadTable quads(tets, 0.01);
+    Candidates all = find_hexahedra(tets, quads, {0.01, {}, nullptr});
+    all.append(find_prisms(tets, quads, {0.01, {}, nullptr}));
+    all.append(find_pyramids(tets, quads, {0.01, {}, nullptr}));
+    const Conflicts conflicts(all, tets.tets.size());
+    Graph graph(all.size());
+    std::vector<std::uint32_t> seen(all.size(), no_index);
+    for (std::uint32_t v = 0; v < graph.size(); ++v) conflicts.visit(v, seen, v, [&](std::uint32_t w) { graph[v].push_back(w); });
+    const std::uint64_t pairs = graph.size() * (graph.size() - 1) / 2, edges = edges_of(graph);
+    EXPECT_EQ(edges, conflicts.count());
+    const auto added = [](std::uint64_t with, std::uint64_t own) { return static_cast<double>(with - own) / static_cast<double>(with); };
+    EXPECT_GT(added(tree_of(graph, false).edge_count(), edges), 0.5);
+    EXPECT_LT(added(tree_of(graph, true).edge_count(), pairs - edges), 0.2);
+}
+
 TEST(Heuristics, TakeOfABrickWhatIsKnown) {
     const test::Lattice l = test::lattice({2, 2, 2});
     const auto mesh = VolumeMesh::make(test::mesh_data(l.points, test::kuhn_tets(l)));

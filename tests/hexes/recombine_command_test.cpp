@@ -189,7 +189,7 @@ TEST(RecombineCommand, KeepsLinesAndCornersAndReportsRegionsByType) {
     EXPECT_EQ(cells["hexahedron"], after["objects"][0]["counts"]["cell_types"]["hexahedron"].get<int>());
     EXPECT_EQ(cells["tetrahedron"], after["objects"][0]["counts"]["cell_types"]["tetrahedron"].get<int>());
     EXPECT_EQ(after["objects"][0]["counts"]["cells"].get<int>(), cells["hexahedron"] + cells["pyramid"] + cells["tetrahedron"]);
-    EXPECT_GE(report["recombine"]["first_share"].get<double>(), report["quality"]["shares"]["hexahedron"]["volume"].get<double>());
+    EXPECT_GT(report["recombine"]["first_share"].get<double>(), 0.5);
 }
 
 TEST(RecombineCommand, SelectsByAHeuristicOfANameForComparison) {
@@ -216,7 +216,7 @@ TEST(RecombineCommand, TetrahedraOfARealModelBecomeHexahedraThatConform) {
     ASSERT_EQ(run.status, 0) << run.err;
     const json report = json::parse(run.out, nullptr, false);
     ASSERT_TRUE(report.is_object());
-    EXPECT_GT(report["quality"]["shares"]["hexahedron"]["volume"].get<double>(), 0.45);
+    EXPECT_GE(report["quality"]["shares"]["hexahedron"]["volume"].get<double>(), 0.5);
     EXPECT_GE(report["quality"]["min_scaled_jacobian"].get<double>(), 0.3);
     EXPECT_EQ(report["recombine"]["folded"], 0);
     EXPECT_EQ(report["recombine"]["split"], 0);

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "geometry/cell_volume.h"
+#include "hexes/hexahedron_cuts.h"
+#include "hexes/recombine.h"
+#include "pipeline/load.h"
+#include "pipeline/mesh_output.h"
+#include "support/real_data.h"
+
+// Meshes of hexahedra that are cut into tetrahedra at random come back whole.
+
+namespace geomend::hexes {
+namespace {
+
+using Corners = std::array<std::uint32_t, 8>;
+using QuadCorners = std::array<std::uint32_t, 4>;
+
+struct HexMesh {
+    std::vector<Vec3> points;
+    std::vector<Corners> cells;
+};
+
+/// Cuts each hexahedron in one of all ways that leave no tetrahedron flat or inside out. Where none of them goes with what is beside it, or
+/// now and then where a face is even, the two sides of a face get different diagonals, and a flat tetrahedron between them.
+class Cutter {
+public:
+    Cutter(const HexMesh& mesh, std::uint32_t seed) : m_(mesh), random_(seed) {
+        for (const test::HexahedronCut& cut : all_cuts()) by_diagonals_[cut.diagonals].push_back(&cut);
+    }
+
+    test::Tets run() {
+        for (const Corners& cell : m_.cells) {
+            EXPECT_TRUE(cut(cell)) << "no cut of a cell was found";
+        }
+        return tets_;
+    }
+    std::size_t flat = 0;  ///< between two hexahedra
+
+private:
+    static const std::vector<test::HexahedronCut>& all_cuts() {
+        static const test::HexahedronCuts all;
+        return all.cuts;
+    }
+    double volume(const std::array<std::uint32_t, 4>& t) const {
+        return tetrahedron_volume(m_.points[t[0]], m_.points[t[1]], m_.points[t[2]], m_.points[t[3]]);
+    }
+    static QuadCorners key(QuadCorners q) {
+        std::ranges::sort(q);
+        return q;
+    }
+    static std::array<std::uint32_t, 3> sorted(std::array<std::uint32_t, 3> t) {
+        std::ranges::sort(t);
+        return t;
+    }
+    bool chance(double part) { return std::uniform_real_distribution<>(0, 1)(random_) < part; }
+
+    /// The faces of a cell, wound outwards.
+    static std::array<QuadCorners, 6> faces(const Corners& cell) {
+        std::array<QuadCorners, 6> all{};
+        std::size_t f = 0;
+        for (const LocalFace& face : faces_of(CellType::hexahedron)) {
+            for (std::size_t k = 0; k < 4; ++k) all[f][k] = cell[face.corners()[k]];
+            ++f;
+        }
+        return all;
+    }
+
+    /// What stands on a face that is cut already, where a cell cuts it its own way: nothing, or a tetrahedron. Two faces that share three
+    /// corners, as at the end of a crack, are not cut so that they share a triangle.
+    struct Between {
+        bool fits = true, has_tet = false;
+        std::array<std::uint32_t, 4> tet{};
+    };
+    Between between(const QuadCorners& q, unsigned start, double size) {
+        for (const std::size_t k : {0u, 1u}) {
+            const auto half = halves_.find(sorted({q[start], q[(start + k + 1) % 4], q[(start + k + 2) % 4]}));
+            if (half != halves_.end() && half->second != key(q)) return {false, false, {}};
+        }
+        const auto found = cut_faces_.find(key(q));
+        if (found == cut_faces_.end()) return {};
+        const QuadCorners& far = found->second;  // from one end of its diagonal on, wound outwards of the cell there
+        if (q[start] == far[0] || q[start] == far[2]) return {};
+        const double v = volume(far);
+        // One that bulges is no flat one, but has room where it bulges outwards of the first.
+        return {v > -1e-13 * size, true, far};
+    }
+
+    bool cut(const Corners& cell) {
+        const auto q = faces(cell);
+        double size = 0;
+        for (const auto& t : {std::array{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}})
+            size += volume({cell[t[0]], cell[t[1]], cell[t[2]], cell[t[3]]});
+        std::array<std::uint8_t, 64> order{};
+        for (std::uint8_t k = 0; k < 64; ++k) order[k] = k;
+        std::ranges::shuffle(order, random_);
+        for (const bool may_be_flat : {chance(0.1), true}) {
+            for (const std::uint8_t diagonals : order) {
+                std::array<Between, 6> beside{};
+                bool fits = true;
+                for (std::size_t f = 0; f < 6; ++f) {
+                    beside[f] = between(q[f], diagonals >> f & 1u, size);
+                    fits = fits && beside[f].fits && (may_be_flat || !beside[f].has_tet);
+                }
+                if (fits && cut_so(cell, diagonals, size)) {
+                    for (std::size_t f = 0; f < 6; ++f) note(q[f], diagonals >> f & 1u, beside[f]);
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    bool cut_so(const Corners& cell, std::uint8_t diagonals, double size) {
+        auto cuts = by_diagonals_[diagonals];
+        std::ranges::shuffle(cuts, random_);
+        for (const test::HexahedronCut* cut : cuts) {
+            test::Tets own;
+            for (const auto& t : cut->tets) own.push_back({cell[t[0]], cell[t[1]], cell[t[2]], cell[t[3]]});
+            if (std::ranges::any_of(own, [&](const auto& t) { return volume(t) < 1e-4 * size; })) continue;
+            tets_.insert(tets_.end(), own.begin(), own.end());
+            return true;
+        }
+        return false;
+    }
+
+    void note(const QuadCorners& q, unsigned start, const Between& beside) {
+        for (const std::size_t k : {0u, 1u}) halves_[sorted({q[start], q[(start + k + 1) % 4], q[(start + k + 2) % 4]})] = key(q);
+        cut_faces_[key(q)] = {q[start], q[(start + 1) % 4], q[(start + 2) % 4], q[(start + 3) % 4]};
+        if (!beside.has_tet) return;
+        tets_.push_back(beside.tet);
+        ++flat;
+    }
+
+    const HexMesh& m_;
+    std::mt19937 random_;
+    std::array<std::vector<const test::HexahedronCut*>, 64> by_diagonals_;
+    std::map<QuadCorners, QuadCorners> cut_faces_;
+    std::map<std::array<std::uint32_t, 3>, QuadCorners> halves_;  ///< the face that a triangle is half of
+    test::Tets tets_;
+};
+
+void expect_whole(const HexMesh& mesh, std::uint32_t seed) {
+    Cutter cutter(mesh, seed);
+    const test::Tets tets = cutter.run();
+    const auto cut = VolumeMesh::make(test::mesh_data(mesh.points, tets));
+    ASSERT_TRUE(cut) << cut.why().error.message;
+    RecombineReport report;
+    const auto made = recombine(*cut, {}, report);
+    ASSERT_TRUE(made) << made.why().error.message;
+    EXPECT_EQ(report.count_of(CellType::hexahedron), mesh.cells.size()) << tets.size() << " tetrahedra, " << cutter.flat << " flat ones";
+    EXPECT_EQ(report.cell_count(), mesh.cells.size());
+}
+
+TEST(RoundTrip, ALatticeThatIsBentComesBackWhole) {
+    for (const double part : {0.0, 0.05, 0.15}) {
+        test::Lattice l = test::lattice({8, 8, 8});
+        test::jitter(l, part);
+        HexMesh mesh{l.points, {}};
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            for (std::uint32_t j = 0; j < 8; ++j) {
+                for (std::uint32_t i = 0; i < 8; ++i) mesh.cells.push_back(l.cube(i, j, k));
+            }
+        }
+        for (const std::uint32_t seed : {1u, 2u, 3u}) expect_whole(mesh, seed);
+    }
+}
+
+// It has a crack: at its ends faces of the two sides share three corners.
+TEST(RoundTrip, ARealMeshOfHexahedraComesBackWhole) {
+    const auto file = test::real_data("vtk/Domain_Mesh_FaultModel.vtu");
+    if (!file) GTEST_SKIP() << "no real data";
+    auto dataset = load(file->string(), {});
+    ASSERT_TRUE(dataset);
+    std::vector<Loss> losses;
+    const auto real = volume_mesh_in(*dataset, losses);
+    ASSERT_TRUE(real) << real.why().error.message;
+    HexMesh mesh{(*real)->vertices, {}};
+    for (std::uint32_t c = 0; c < (*real)->cell_count(); ++c) {
+        const auto nodes = (*real)->nodes_of(c);
+        if (nodes.size() == 8) mesh.cells.push_back({nodes[0], nodes[1], nodes[2], nodes[3], nodes[4], nodes[5], nodes[6], nodes[7]});
+    }
+    ASSERT_EQ(mesh.cells.size(), 6000u);
+    for (const std::uint32_t seed : {1u, 2u}) expect_whole(mesh, seed);
+}
+
+}  // namespace
+}  // namespace geomend::hexes
