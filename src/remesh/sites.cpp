@@ -89,7 +89,7 @@ double diagonal_of(std::span<const BrepData* const> models) {
             }
         }
     }
-    return length_of(minus(high, low));
+    return length(minus(high, low));
 }
 
 double area_of(const BrepData& brep) {
