@@ -157,8 +157,8 @@ std::string names_of(const ModelScope& scope, std::span<const std::uint32_t> sur
     return text;
 }
 
-std::string free_border_text(const ModelScope& scope, std::span<const FreeBorder> borders) {
-    return borders.empty() ? "" : "; free border of " + border_text(scope, borders);
+std::string free_border_text(const ModelScope& scope, std::span<const FreeBorder> borders, bool many) {
+    return borders.empty() ? "" : (many ? "; they end freely along " : "; it ends freely along ") + border_text(scope, borders);
 }
 
 void report_around_nothing(const ModelScope& scope, const OpenGroup& group, std::span<const Meant> bends, std::vector<Finding>& findings) {
@@ -168,8 +168,9 @@ void report_around_nothing(const ModelScope& scope, const OpenGroup& group, std:
     if (meant == Meant::open) return;
     const bool many = group.surfaces.size() > 1;
     std::string message =
-        names_of(scope, group.surfaces) + (many ? " enclose" : " encloses") + " no volume" + free_border_text(scope, borders);
-    if (meant == Meant::undecided) message += "; no role says that " + std::string(many ? "they" : "it") + " may be open";
+        names_of(scope, group.surfaces) + (many ? " enclose" : " encloses") + " no volume" + free_border_text(scope, borders, many);
+    if (meant == Meant::undecided)
+        message += "; the file states no role that lets " + std::string(many ? "them" : "it") + " be open, as that of a fault does";
     Finding finding = finding_of(meant == Meant::closed ? "B06" : "B29", std::move(message));
     name_surfaces(scope, group.surfaces, finding);
     mark_borders(scope, borders, finding);
@@ -187,12 +188,12 @@ void report_undecided(const ModelScope& scope, const OpenGroup& group, std::vect
     const auto borders = free_borders(scope, lines_of(scope, undecided));
     const bool outside = group.region == no_index, many = undecided.size() > 1;
     if (outside && borders.empty()) return;  // nothing is open
-    Finding finding =
-        finding_of("B29", names_of(scope, undecided) + (many ? " lie " : " lies ") +
-                              (outside ? std::string("outside all regions") : "inside " + found_region_name(scope, group.region)) +
-                              " with both sides" + free_border_text(scope, borders) + "; no role says whether " +
-                              (many ? "they separate " : "it separates ") + (outside ? "a region from the outside" : "it") +
-                              ": if so, it leaks there");
+    Finding finding = finding_of(
+        "B29", std::string(many ? "both sides of each of " : "both sides of ") + names_of(scope, undecided) + " lie " +
+                   (outside ? std::string("outside all regions") : "in " + found_region_name(scope, group.region)) +
+                   free_border_text(scope, borders, many) + "; the file states no role for " + (many ? "them" : "it") + ": if " +
+                   (many ? "they are" : "it is") + " meant to separate " +
+                   (outside ? "a region from the outside, the region is open there" : "two regions, these are open to each other there"));
     name_surfaces(scope, undecided, finding);
     mark_borders(scope, borders, finding);
     findings.push_back(std::move(finding));

@@ -433,7 +433,7 @@ void mark_shared_sides(const ModelScope& scope, const std::pair<std::uint32_t, s
     const BrepData& brep = scope.brep();
     const auto has_cells = [&](std::uint32_t r) { return !brep.regions[r].cell_types.empty(); };
     if (!has_cells(regions.first) || !has_cells(regions.second)) {
-        if (scope.model().regions_stated) finding.message += ": both lists have " + StatedRecords(scope).sides_text(sides);
+        if (scope.model().regions_stated) finding.message += ": the lists of both have " + StatedRecords(scope).sides_text(sides);
         return;
     }
     auto first = cell_faces_on(scope, regions.first, sides), second = cell_faces_on(scope, regions.second, sides);
@@ -441,7 +441,7 @@ void mark_shared_sides(const ModelScope& scope, const std::pair<std::uint32_t, s
     const auto side_text = [&](std::uint32_t r, std::size_t faces) {
         return counted(faces, "face", "faces") + " of cells of " + quoted(brep.regions[r].name);
     };
-    finding.message += ": " + side_text(regions.first, first.size()) + " and " + side_text(regions.second, second.size()) + " lie there";
+    finding.message += ", where it has " + side_text(regions.first, first.size()) + " and " + side_text(regions.second, second.size());
     finding.measures = {{"faces_of_first", static_cast<double>(first.size())}, {"faces_of_second", static_cast<double>(second.size())}};
     finding.points = std::move(first.size() <= second.size() ? first : second);
     std::ranges::sort(finding.points);
@@ -464,7 +464,7 @@ void check_region_overlap(const ModelScope& scope, std::vector<Finding>& finding
     for (const auto& [pair, sides] : shared) {
         Finding finding =
             finding_of("B14", "regions " + quoted(brep.regions[pair.first].name) + " and " + quoted(brep.regions[pair.second].name) +
-                                  " are both stated on the same side of " + quoted(brep.surfaces[sides[0] / 2].name));
+                                  " overlap: the file puts both on the same side of " + quoted(brep.surfaces[sides[0] / 2].name));
         finding.entities = {region_ref(scope, pair.first), region_ref(scope, pair.second)};
         for (const std::uint32_t side : sides) {
             if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, side / 2));

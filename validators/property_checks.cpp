@@ -73,8 +73,10 @@ void check_property_values(const ObjectScope& scope, std::vector<Finding>& findi
         }
         const auto usual = undeclared(values[i]);
         if (!usual) continue;
-        if (++marked.count == 1)
-            number = rounded(usual_no_data[*usual]) + " stands " + std::to_string(values[i].suspicious[*usual]) + " times";
+        if (++marked.count == 1) {
+            number = " is " + rounded(usual_no_data[*usual]) + " at " + counted(values[i].suspicious[*usual], "place", "places") +
+                     ", and from " + rounded(values[i].low) + " to " + rounded(values[i].high) + " elsewhere";
+        }
         if (marked.entities.size() + 1 < listed_elements) marked.entities.push_back(property_ref(a));
     }
     const auto tell = [&](Finding& part, std::string_view code, std::string message) {
@@ -89,8 +91,9 @@ void check_property_values(const ObjectScope& scope, std::vector<Finding>& findi
          counted(empty.count, "property", "properties") + of_object(scope) + " without any value: " + first(empty) +
              (empty.count > 1 ? ", ..." : ""));
     tell(marked, "M43",
-         counted(marked.count, "property", "properties") + of_object(scope) + (marked.count == 1 ? " holds" : " hold") +
-             " what looks like no-data without being declared so: in " + first(marked) + " " + number);
+         counted(marked.count, "property", "properties") + of_object(scope) + (marked.count == 1 ? " has a value" : " have values") +
+             " that probably " + (marked.count == 1 ? "stands" : "stand") + " for missing ones, but " + (marked.count == 1 ? "is" : "are") +
+             " not declared so: " + first(marked) + number + (marked.count > 1 ? "; ..." : ""));
 }
 
 }  // namespace geomend::validators

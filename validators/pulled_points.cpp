@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "geometry/vectors.h"
+#include "validators/stacked_points.h"
 
 namespace geomend::validators {
 
@@ -269,10 +270,11 @@ std::optional<Vec3> Places::middle(const Outlier& one) const {
     return at;
 }
 
-/// One round: those that are joined with something known.
+/// One round: those that are joined with something known. Where others offer places for points of a border, these wait for their
+/// neighbours on the border, as long as any gets a place.
 /// \return false where none got a place
 bool Places::place_some() {
-    std::vector<std::pair<std::size_t, Vec3>> found;
+    std::vector<std::pair<std::size_t, Vec3>> found, waiting;
     std::vector<std::size_t> fixed;
     for (std::size_t i = 0; i < outliers_.size(); ++i) {
         const Outlier& one = outliers_[i];
@@ -282,8 +284,10 @@ bool Places::place_some() {
         auto shared = on_others(one, one.offered, (*between)[2]);
         if (!shared) shared = on_others(one, one.offered_within, (*between)[2]);
         if (shared) fixed.push_back(i);
-        found.emplace_back(i, shared ? *shared : *between);
+        const bool may_come = !shared && !one.border.empty() && !(one.offered.empty() && one.offered_within.empty());
+        (may_come ? waiting : found).emplace_back(i, shared ? *shared : *between);
     }
+    if (found.empty()) found = std::move(waiting);
     for (const auto& [i, place] : found) {
         outliers_[i].place = place;
         outliers_[i].placed = true;
@@ -312,6 +316,7 @@ void Places::smooth() {
 std::optional<Dataset> with_outlying_points_pulled_in(const Dataset& dataset, const topology::LocalLengths& lengths) {
     if (lengths.outlying.empty()) return std::nullopt;
     Dataset pulled = dataset;
+    part_stacked_points(pulled, lengths.outlying);
     std::map<Vec3, bool> outlying;
     for (const auto& one : lengths.outlying) outlying.emplace((*points_of(pulled.objects[one.object]))[one.point], one.usual);
     std::vector<std::uint32_t> objects;  // with a point at such a position
@@ -319,7 +324,7 @@ std::optional<Dataset> with_outlying_points_pulled_in(const Dataset& dataset, co
         const auto* points = points_of(pulled.objects[o]);
         if (points != nullptr && std::ranges::any_of(*points, [&](const Vec3& p) { return outlying.contains(p); })) objects.push_back(o);
     }
-    const Places places(dataset, objects, std::move(outlying));
+    const Places places(pulled, objects, std::move(outlying));
     const auto move = [&](Vec3& p) { places.move(p); };
     for (const std::uint32_t o : objects) std::ranges::for_each(*points_of(pulled.objects[o]), move);
     for (StatedModel& model : pulled.models) {

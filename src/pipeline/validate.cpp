@@ -22,7 +22,14 @@ bool has_errors(const std::vector<Finding>& findings) {
 
 bool has_model_checks(const Object& object) { return std::holds_alternative<Surface>(object) || std::holds_alternative<CellMesh>(object); }
 
-bool has_checks(const Object& object) {
+// Whether a corner-point grid has cells, none of which is judged.
+bool is_all_inactive(const Object& object, const validators::CheckOptions& options) {
+    const auto* grid = std::get_if<CornerPointGrid>(&object);
+    return grid != nullptr && !options.all_cells && validators::has_geometry(*grid) && active_count(*grid) == 0;
+}
+
+bool has_checks(const Object& object, const validators::CheckOptions& options) {
+    if (is_all_inactive(object, options)) return false;
     return has_model_checks(object) || std::holds_alternative<CornerPointGrid>(object) || validators::is_judged_alone(object);
 }
 
@@ -32,10 +39,10 @@ bool lacks_a_part(const Dataset& dataset) {
 }
 
 // One finding for each kind of object of which some hold nothing to judge.
-void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
+void tell_unchecked(const Dataset& dataset, const validators::CheckOptions& options, std::vector<Finding>& findings) {
     std::map<std::string, Finding> kinds;
     for (const Object& object : dataset.objects) {
-        if (has_checks(object)) continue;
+        if (has_checks(object, options)) continue;
         Finding& f = kinds[kind_name(object)];
         ++f.count;
         if (f.entities.size() < 100) f.entities.push_back({kind_name(object), info_of(object).name});
@@ -43,7 +50,8 @@ void tell_unchecked(const Dataset& dataset, std::vector<Finding>& findings) {
     for (auto& [kind, f] : kinds) {
         f.code = "F160";
         f.message = std::to_string(f.count) + (f.count == 1 ? " object" : " objects") + " of kind " + kind +
-                    (f.count == 1 ? " was read, but holds" : " were read, but hold") + " nothing that a check looks at";
+                    (f.count == 1 ? " was read, but holds" : " were read, but hold") + " nothing that a check looks at" +
+                    (kind == "corner-point-grid" ? ": no cell is active (--option cells=all judges them all the same)" : "");
         findings.push_back(std::move(f));
     }
 }
@@ -108,8 +116,9 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
     };
     const validators::CheckOptions run = with_causes(options);
     topology::LocalLengths lengths;
-    bool all_judged = !dataset.objects.empty() && std::ranges::all_of(dataset.objects, has_checks) && !lacks_a_part(dataset) &&
-                      validators::judges_anything(options);
+    bool all_judged = !dataset.objects.empty() &&
+                      std::ranges::all_of(dataset.objects, [&](const Object& o) { return has_checks(o, options); }) &&
+                      !lacks_a_part(dataset) && validators::judges_anything(options);
     for (const Object& object : dataset.objects) {
         const auto* grid = std::get_if<CornerPointGrid>(&object);
         if (grid == nullptr && !validators::is_judged_alone(object)) continue;
@@ -132,7 +141,7 @@ Result<ReportedFile> validate(const std::string& path, const Dataset& dataset, c
         file.clusters = lengths_by_cluster(dataset, lengths, options.tolerance >= 0);
         if (const auto& c = checked->closing) file.closing = {c->tolerance, c->errors, c->left};
     }
-    if (validators::wanted(options, "F160")) tell_unchecked(dataset, file.findings);
+    if (validators::wanted(options, "F160")) tell_unchecked(dataset, options, file.findings);
     if (const validators::Target* target = validators::find_target(options.target)) {
         auto ready = validators::readiness(dataset, *target, lengths, file.findings);
         if (!ready) return std::move(ready).why();

@@ -64,7 +64,8 @@ constexpr std::array advice = {
     Advice{"B27", "repair --step weld inserts the vertices of the border into the triangles that it ends on"},
     Advice{"B28", "repair --step cut shares the point; or move one of the two parts away"},
     Advice{"B29",
-           "state the role of the surface; or close the border that the finding shows: repair --step holes fills a hole, and --steps "
+           "state the role of the surface, such as horizon or fault (GEOLOGICAL_TYPE in Gocad files); or close the border that the finding "
+           "shows: repair --step holes fills a hole, and --steps "
            "close,cut,tails closes a gap, with --max-gap above it"},
     Advice{"B30", "turn the key triangles of the file over, so that they are as their surfaces; or change the sign in the list",
            "reversed_keys"},

@@ -331,6 +331,23 @@ TEST(Wells, WithoutAPathAreNotCalledValid) {
     EXPECT_EQ(validate("points", data, {})->valid, true);
 }
 
+TEST(Grids, WithoutActiveCellsAreNotCalledValid) {
+    CornerPointGrid grid = testing::brick_grid(2, 2, 1);
+    grid.activity.assign(grid.cell_count(), 0);
+    Dataset data;
+    data.objects.emplace_back(grid);
+    const auto file = validate("grid", data, {});
+    ASSERT_TRUE(file);
+    EXPECT_FALSE(file->valid.has_value());
+    EXPECT_EQ(testing::codes_of(file->findings), Codes{"F160 info"});
+    EXPECT_NE(file->findings[0].message.find("no cell is active"), std::string::npos) << file->findings[0].message;
+    testing::CheckOptions all;
+    all.all_cells = true;
+    EXPECT_EQ(validate("grid", data, all)->valid, true);
+    std::get<CornerPointGrid>(data.objects[0]).activity[1] = 1;
+    EXPECT_EQ(validate("grid", data, {})->valid, true);
+}
+
 // ---- rasters
 
 Raster flat_raster(std::uint32_t ni, std::uint32_t nj, std::uint32_t nk) {

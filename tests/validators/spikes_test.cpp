@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <map>
 
 #include "validators/rewritten.h"
@@ -96,6 +98,30 @@ TEST_P(Spike, IsReportedAloneOnBordersToo) {
         found.erase("M15");
         EXPECT_EQ(found, sound) << name;
     });
+}
+
+/// Points inside of several surfaces that stand above each other, all put far down: at one position, though they are not one point.
+TEST_P(Spike, OfSurfacesAboveEachOtherAreReportedAlone) {
+    const Animal animal = GetParam().make();
+    Patient patient(animal);
+    std::map<std::array<double, 2>, std::map<std::uint32_t, std::uint32_t>> at;  // by place on the map, then by object
+    for (std::size_t face = 0; face < patient.faces(); ++face) {
+        for (const std::uint32_t point : patient.inner_points(face)) {
+            const Vec3 p = patient.at(face, point);
+            at[{p[0], p[1]}].emplace(patient.model().faces[face].object, point);
+        }
+    }
+    const auto sound = told(animal.model.data);
+    unsigned tried = 0;
+    for (const auto& [place, points] : at) {
+        if (points.size() < 2 || ++tried > 5) continue;
+        Dataset data = animal.model.data;
+        for (const auto& [object, point] : points) std::get<Surface>(data.objects[object]).points[point][2] = -99999;
+        auto found = told(data);
+        EXPECT_EQ(found["M15"], points.size()) << place[0] << ' ' << place[1];
+        found.erase("M15");
+        EXPECT_EQ(found, sound) << points.size() << " at " << place[0] << ' ' << place[1];
+    }
 }
 
 TEST(Spikes, AlongASideOfASurfaceAreReportedAlone) {
