@@ -2,8 +2,13 @@
 #include "validators/loose_seams.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <set>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "topology/face_edges.h"
 
@@ -20,6 +25,32 @@ std::span<const std::uint32_t> points_of_element(const Object& object, std::size
 
 bool share_two_points(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
     return std::ranges::count_if(a, [&](std::uint32_t point) { return std::ranges::find(b, point) != b.end(); }) >= 2;
+}
+
+/// Takes seams out that at both of their ends go on as contacts of the same two pieces with another surface: it is that surface which
+/// lacks something between.
+void leave_out_gaps_of_others(const BrepData& brep, std::vector<std::uint8_t>& seam) {
+    if (std::ranges::none_of(seam, [](std::uint8_t is) { return is != 0; })) return;
+    std::vector<std::set<std::uint32_t>> surfaces(brep.lines.size());
+    for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
+        for (const auto& use : brep.surfaces[s].lines) surfaces[use.line.value].insert(s);
+    }
+    std::map<std::uint32_t, std::vector<std::uint32_t>> lines_at;  // by corner
+    for (std::uint32_t l = 0; l < brep.lines.size(); ++l) {
+        for (const CornerId corner : brep.lines[l].corners) lines_at[corner.value].push_back(l);
+    }
+    const auto source = [&](std::uint32_t s) { return std::pair(brep.surfaces[s].source_object, brep.surfaces[s].source_part); };
+    const auto goes_on = [&](std::uint32_t l, CornerId corner) {
+        const auto own = source(*surfaces[l].begin());  // that of both pieces
+        return std::ranges::any_of(lines_at[corner.value], [&](std::uint32_t next) {
+            return next != l && std::ranges::includes(surfaces[next], surfaces[l]) &&
+                   std::ranges::any_of(surfaces[next], [&](std::uint32_t s) { return source(s) != own; });
+        });
+    };
+    for (std::uint32_t l = 0; l < seam.size(); ++l) {
+        const auto& ends = brep.lines[l].corners;
+        if (seam[l] != 0 && ends[0] != ends[1] && goes_on(l, ends[0]) && goes_on(l, ends[1])) seam[l] = 0;
+    }
 }
 
 }  // namespace
@@ -51,6 +82,7 @@ std::vector<std::uint8_t> seams_between_pieces(const ModelScope& scope) {
         (is_seam() ? seam : other)[edge.line] = 1;
     }
     for (std::size_t l = 0; l < seam.size(); ++l) seam[l] = seam[l] != 0 && other[l] == 0 ? 1 : 0;
+    leave_out_gaps_of_others(brep, seam);
     return seam;
 }
 

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
@@ -130,6 +132,50 @@ TEST(ALineInAFace, StaysACutInAModelOfSurfacesWhereTheMeshCutsTheFace) {
 TEST(ALineInAFace, AlongWhichTheFaceIsCutIsASeam) {
     EXPECT_TRUE(codes(sheet_with_line(1, 3, true)).contains("B07"));
     EXPECT_TRUE(codes(sheet_with_line(0, 4, true)).contains("B07"));
+}
+
+/// Two loose pieces of a floor side by side, with points of their own, and a wall on their common border but for some of its edges.
+Dataset floor_with_wall(const std::set<std::uint32_t>& gaps) {
+    Dataset data;
+    Surface floor, wall;
+    floor.info.name = "floor";
+    wall.info.name = "wall";
+    wall.info.role = FeatureRole::fault;
+    const auto add = [](Surface& surface, const Vec3& a, const Vec3& b, const Vec3& c) {
+        std::array<std::uint32_t, 3> corners{};
+        const std::array points{a, b, c};
+        for (std::size_t k = 0; k < 3; ++k) {
+            corners[k] = static_cast<std::uint32_t>(std::ranges::find(surface.points, points[k]) - surface.points.begin());
+            if (corners[k] == surface.points.size()) surface.points.push_back(points[k]);
+        }
+        surface.polygons.push_back(corners);
+    };
+    for (const double side : {-1.0, 1.0}) {
+        Surface piece;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const Vec3 a{1.0 * i, 0, 0}, b{1.0 * i + 1, 0, 0}, c{1.0 * i + 1, side, 0}, d{1.0 * i, side, 0};
+            add(piece, a, side > 0 ? b : c, side > 0 ? c : b);
+            add(piece, a, side > 0 ? c : d, side > 0 ? d : c);
+        }
+        const auto first = static_cast<std::uint32_t>(floor.points.size());
+        floor.points.insert(floor.points.end(), piece.points.begin(), piece.points.end());
+        for (const std::uint32_t corner : piece.polygons.corners) floor.polygons.corners.push_back(first + corner);
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const Vec3 a{1.0 * i, 0, 0}, b{1.0 * i + 1, 0, 0}, c{1.0 * i + 1, 0, 1}, d{1.0 * i, 0, 1};
+        if (!gaps.contains(i)) add(wall, a, b, c);
+        add(wall, a, c, d);
+    }
+    data.objects.emplace_back(std::move(floor));
+    data.objects.emplace_back(std::move(wall));
+    return data;
+}
+
+TEST(ASeamBetweenPieces, IsNoneWhereAnotherSurfaceOnlyHasAHole) {
+    EXPECT_FALSE(codes(floor_with_wall({})).contains("B07"));
+    EXPECT_FALSE(codes(floor_with_wall({1})).contains("B07")) << "the wall stands on both sides of its hole";
+    EXPECT_TRUE(codes(floor_with_wall({2, 3})).contains("B07")) << "the wall ends, and the pieces go on apart";
+    EXPECT_TRUE(codes(floor_with_wall({0, 1, 2, 3})).contains("B07"));
 }
 
 }  // namespace
