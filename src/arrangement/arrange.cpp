@@ -208,7 +208,7 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     Snapped s = snapped(soup, options.tolerance);
     Arrangement result;
     cut(soup, options.reach, options.monitor, options.most_rounds, s, result);
-    if (!result.clean) cut_in_sheets(soup, options, s, result);
+    if (!result.clean && options.sheets) cut_in_sheets(soup, options, s, result);
     take_stacks_apart(s.state);
     write_vertices(soup, s, result);
     write_origins(soup, s, result);

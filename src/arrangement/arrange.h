@@ -15,6 +15,7 @@ struct ArrangeOptions {
     double tolerance = 0;       ///< above 0: what is nearer to each other than this becomes one point; in the unit of the coordinates
     double reach = 1.0 / 32;    ///< share of the tolerance within which a vertex becomes a part of an edge or a face; below 1
     unsigned most_rounds = 12;  ///< before what has not settled is cut anew, as sheets
+    bool sheets = true;         ///< false: what has not settled then stays as it is
     const Monitor* monitor = nullptr;
 };
 

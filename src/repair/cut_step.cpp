@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "arrangement/arrange.h"
 #include "base/wording.h"
+#include "repair/lay_borders.h"
 #include "repair/overlaps.h"
 #include "repair/soup_edges.h"
 #include "repair/surface_steps.h"
@@ -51,33 +53,81 @@ void tell_overlaps(const SurfaceModel& model, const std::vector<LeftOverlap>& le
     }
 }
 
-/// \param reach share of the tolerance within which a vertex becomes a part of an edge or a face
-/// \param nothing what the report says where nothing was done
-Result<StepOutcome> arrange_model(SurfaceModel& model, const SurfaceStepOptions& options, double reach, const char* nothing) {
-    note_uncut_borders(model);
-    auto cut = arrangement::arrange(model.model.soup, {.tolerance = model.lengths.tolerance, .reach = reach, .monitor = options.monitor});
-    if (!cut) return std::move(cut).why();
+Result<arrangement::Arrangement> arranged(const TriangleSoup& soup, const SurfaceModel& model, const SurfaceStepOptions& options,
+                                          double reach, bool sheets) {
+    // Where all within the tolerance is one, and does not settle soon, it does not settle.
+    const unsigned most_rounds = sheets ? arrangement::ArrangeOptions().most_rounds : 8;
+    return arrangement::arrange(
+        soup,
+        {.tolerance = model.lengths.tolerance, .reach = reach, .most_rounds = most_rounds, .sheets = sheets, .monitor = options.monitor});
+}
+
+/// Puts what was cut in place of the soup. \param nothing what the report says where nothing was done
+StepOutcome take_arrangement(SurfaceModel& model, arrangement::Arrangement cut, const char* nothing) {
     StepOutcome outcome;
-    outcome.what.message = message_of(*cut, nothing);
-    if (!cut->clean) outcome.what.message += "; after " + counted(cut->rounds, "round", "rounds") + " something still crosses";
-    outcome.changed = cut->cut + cut->merged + cut->collapsed + cut->doubled;
-    const Displacement d = displacement(model.model.soup, cut->soup, cut->becomes);
+    outcome.what.message = message_of(cut, nothing);
+    if (!cut.clean) outcome.what.message += "; after " + counted(cut.rounds, "round", "rounds") + " something still crosses";
+    outcome.changed = cut.cut + cut.merged + cut.collapsed + cut.doubled;
+    const Displacement d = displacement(model.model.soup, cut.soup, cut.becomes);
     outcome.max_displacement = d.largest;
     outcome.mean_displacement = d.mean;
-    take_soup(model, std::move(cut->soup), cut->origin);
+    take_soup(model, std::move(cut.soup), cut.origin);
     tell_overlaps(model, leave_out_overlaps(model), outcome);
     return outcome;
+}
+
+/// Brings borders onto what they run along, and cuts; again where that has brought others near.
+Result<StepOutcome> weld_borders(SurfaceModel& model, const SurfaceStepOptions& options, const char* nothing) {
+    constexpr unsigned most_rounds = 3;
+    StepOutcome all;
+    std::uint64_t moved = 0, made = 0, dropped = 0;
+    for (unsigned round = 0; round < most_rounds; ++round) {
+        LaidBorders laid = lay_borders(model.model.soup, model.lengths.tolerance);
+        const std::uint64_t changed = laid.moved + laid.made + laid.dropped;
+        if (round > 0 && changed == 0) break;
+        auto cut = arranged(laid.soup, model, options, arrangement::ArrangeOptions().reach, true);
+        if (!cut) return std::move(cut).why();
+        const auto became = std::span(cut->becomes).first(model.model.soup.vertices.size());
+        const Displacement d = displacement(model.model.soup, cut->soup, became);
+        take_soup(model, std::move(laid.soup), laid.origin);
+        StepOutcome outcome = take_arrangement(model, std::move(*cut), nothing);
+        outcome.changed += changed;
+        moved += laid.moved;
+        made += laid.made;
+        dropped += laid.dropped;
+        if (round == 0) {
+            all = std::move(outcome);
+            all.max_displacement = d.largest;
+            all.mean_displacement = d.mean;
+            continue;
+        }
+        all.changed += outcome.changed;
+        all.max_displacement += d.largest;  // at most
+    }
+    all.what.message += "; borders alone became one with what they lie on within the tolerance (" +
+                        counted(moved, "vertex was", "vertices were") + " moved there, " + std::to_string(made) + " made, " +
+                        counted(dropped, "sliver", "slivers") +
+                        " left out): surfaces are so near each other that all of it would not settle";
+    return all;
 }
 
 }  // namespace
 
 Result<StepOutcome> weld_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
     constexpr double nearly_all = 0.99;  // vertices keep the tolerance from each other, so that edges bend and do not fold
-    return arrange_model(model, options, nearly_all, "nothing lies within the tolerance of something else, and nothing crosses");
+    constexpr const char* nothing = "nothing lies within the tolerance of something else, and nothing crosses";
+    note_uncut_borders(model);
+    auto cut = arranged(model.model.soup, model, options, nearly_all, false);
+    if (!cut) return std::move(cut).why();
+    if (!cut->clean) return weld_borders(model, options, nothing);
+    return take_arrangement(model, std::move(*cut), nothing);
 }
 
 Result<StepOutcome> cut_surfaces(SurfaceModel& model, const SurfaceStepOptions& options) {
-    return arrange_model(model, options, arrangement::ArrangeOptions().reach, "nothing crosses");
+    note_uncut_borders(model);
+    auto cut = arranged(model.model.soup, model, options, arrangement::ArrangeOptions().reach, true);
+    if (!cut) return std::move(cut).why();
+    return take_arrangement(model, std::move(*cut), "nothing crosses");
 }
 
 }  // namespace geomend::repair

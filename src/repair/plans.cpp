@@ -231,6 +231,10 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}, {}};
     }
     if (!search || (left_by(best->repair).errors == 0 && best->repair.closed)) return std::move(*best);
+    // What is left of a closed model where nearly all is mended is no matter of a larger tolerance, and a try takes as long as the repair.
+    constexpr std::uint64_t nearly_all = 10;
+    const auto had = static_cast<std::uint64_t>(std::ranges::count(before, Severity::error, &Finding::severity));
+    if (best->repair.closed && nearly_all * left_by(best->repair).errors <= had) return std::move(*best);
     auto wider = wider_tolerances(dataset, options);
     if (!wider) return std::move(wider).why();
     for (const double tolerance : wider->lengths) {
