@@ -78,15 +78,16 @@ StepOutcome take_arrangement(SurfaceModel& model, arrangement::Arrangement cut, 
 
 /// Brings borders onto what they run along, and cuts; again where that has brought others near.
 Result<StepOutcome> weld_borders(SurfaceModel& model, const SurfaceStepOptions& options, const char* nothing) {
-    constexpr unsigned most_rounds = 3;
+    constexpr unsigned most_rounds = 2;
     StepOutcome all;
     std::uint64_t moved = 0, made = 0, dropped = 0;
     for (unsigned round = 0; round < most_rounds; ++round) {
         LaidBorders laid = lay_borders(model.model.soup, model.lengths.tolerance);
         const std::uint64_t changed = laid.moved + laid.made + laid.dropped;
         if (round > 0 && changed == 0) break;
-        auto cut = arranged(laid.soup, model, options, arrangement::ArrangeOptions().reach, true);
+        auto cut = arranged(laid.soup, model, options, arrangement::ArrangeOptions().reach, round == 0);
         if (!cut) return std::move(cut).why();
+        if (round > 0 && !cut->clean) break;
         const auto became = std::span(cut->becomes).first(model.model.soup.vertices.size());
         const Displacement d = displacement(model.model.soup, cut->soup, became);
         take_soup(model, std::move(laid.soup), laid.origin);

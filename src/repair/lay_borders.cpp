@@ -163,7 +163,7 @@ private:
             if (t == use.triangle || closest_points(edge, corners_of(t)).distance > tolerance_) return;
             const bool same = soup_.patches[t] == soup_.patches[use.triangle], beside = std::ranges::any_of(other, is_shared);
             for (const std::uint32_t end : {from, to}) {
-                if (!beside || (!same && !ends_on(end, soup_.patches[t]))) offer(end, t);
+                if (same ? !beside : !ends_on(end, soup_.patches[t])) offer(end, t);
             }
             for (std::size_t k = 0; k < 3; ++k) {
                 if (is_shared(other[k])) continue;

@@ -60,16 +60,21 @@ bool is_sealed(const BrepData& brep) {
     return std::ranges::none_of(brep.surfaces, [](const auto& s) { return s.regions[0] == s.regions[1]; });
 }
 
-/// The same steps and, after the cut, what brings together what still lies within the tolerance; none where that is not what is left.
-std::optional<SurfacePlan> welded_at_the_end(const SurfacePlan& plan, const ErrorCounts& left) {
-    const SurfaceStepRow& row = *surface_step("weld");
-    const bool helps = std::ranges::any_of(row.mends, [&](std::string_view code) { return left.contains(std::string(code)); });
+/// The same steps and a weld after the cut; none where there is no cut, or it is there.
+std::optional<SurfacePlan> welded_after_cut(const SurfacePlan& plan) {
     const auto tails = std::ranges::find(plan.steps, "tails");
-    if (!helps || tails == plan.steps.end()) return std::nullopt;
+    if (tails == plan.steps.end() || std::find(tails, plan.steps.end(), "weld") != plan.steps.end()) return std::nullopt;
     SurfacePlan longer = plan;
     longer.steps.insert(longer.steps.begin() + (tails - plan.steps.begin()) + 1, "weld");
     longer.why += std::string(longer.why.empty() ? "" : "; ") + "welded after the cut, since borders lie within the tolerance there";
     return longer;
+}
+
+/// The same steps and, after the cut, what brings together what still lies within the tolerance; none where that is not what is left.
+std::optional<SurfacePlan> welded_at_the_end(const SurfacePlan& plan, const ErrorCounts& left) {
+    const SurfaceStepRow& row = *surface_step("weld");
+    const bool helps = std::ranges::any_of(row.mends, [&](std::string_view code) { return left.contains(std::string(code)); });
+    return helps ? welded_after_cut(plan) : std::nullopt;
 }
 
 /// The same steps, and holes and notches are filled once more after the cut, since it joins borders to others; none where the
@@ -188,6 +193,12 @@ Result<std::optional<double>> closing_gap(const Dataset& dataset, const SurfaceP
 std::vector<SurfacePlan> plans_for(const PlanFacts& facts) {
     const auto usual = plan_for(facts.findings, facts.close_gaps, facts.box);
     std::vector<SurfacePlan> plans;
+    if (facts.box && has(usual, "close") && has(usual, "weld")) {
+        // All is cut then, whatever is welded before; what ends beside something is better told once it is cut.
+        add(plans, {without(usual, weld), -1, {}});
+        if (auto longer = welded_after_cut(plans.front())) add(plans, std::move(*longer));
+        return plans;
+    }
     const std::string at =
         facts.closing ? "borders agree within " + rounded(*facts.closing) + ": that is the tolerance by which it is mended" : std::string();
     if (facts.closing && facts.closes_whole && !facts.close_gaps)
