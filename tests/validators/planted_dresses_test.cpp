@@ -171,7 +171,8 @@ TEST_P(Dressed, ADefectIsOfTheSameKindAndVerdictWhateverTheModelIsWrittenAs) {
             for (const Dress& dress : dresses()) {
                 if (is_unstated(defect, dress)) continue;
                 const test::TemporaryFolder folder;
-                const auto news = news_of(report_of(dress.judge(patient.data(), folder.path())), sound_report(zoo[s], dress));
+                auto news = news_of(report_of(dress.judge(patient.data(), folder.path())), sound_report(zoo[s], dress));
+                news.erase("F116w");  // the defect changed a key triangle, which only some dresses state
                 const std::string where = std::string(zoo[s].name) + ", seed " + std::to_string(seed) + ", " + dress.name;
                 EXPECT_TRUE(matches(news, kind->of(dress.left)))
                     << where << ": expected " << kind->of(dress.left) << ", found" << joined_words(news);
