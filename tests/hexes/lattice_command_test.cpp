@@ -149,7 +149,7 @@ TEST(HexDominant, LayersThatDipBelowALevelTopAreMostlyHexahedra) {
     };
     const json report = meshed(folder, layers(5, height, whole), {"--cells", "hex-dominant", "--size", "40"});
     ASSERT_TRUE(report.is_object());
-    EXPECT_GE(share(report, "hexahedron"), 0.97);
+    EXPECT_GE(share(report, "hexahedron"), 0.98);
     EXPECT_GE(report["quality"]["min_scaled_jacobian"].get<double>(), 0.3);
     EXPECT_NEAR(volume(report), 4.8e8, 1e-9 * 4.8e8);
 }
