@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "base/length.h"
 #include "remesh/centroidal.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/length.h"
 #include "base/vectors.h"
 #include "made_surfaces.h"
 #include "remesh/triangle_quality.h"
