@@ -259,7 +259,8 @@ Result<std::string> run(vtkXMLWriter& writer, vtkDataSet& data, const XmlWriteSe
     std::string text = writer.GetOutputString();
     if (done == 0 || writer.GetErrorCode() != 0 || !listener->said().empty() || !text.ends_with("</VTKFile>\n")) {
         // It writes into memory, and a stream keeps to itself that there is no more.
-        if (listener->said().empty()) return failure(FailureKind::limit, "F023", {}, "there is not enough memory for VTK to write the data");
+        if (listener->said().empty())
+            return failure(FailureKind::limit, "F023", {}, "there is not enough memory for VTK to write the data");
         return failure(FailureKind::internal, "F020", {}, "VTK could not write the data: " + listener->said());
     }
     return text;
