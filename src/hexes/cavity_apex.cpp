@@ -8,6 +8,7 @@
 #include "base/vectors.h"
 #include "hexes/half_spaces.h"
 #include "hexes/jacobian.h"
+#include "hexes/uphill.h"
 
 namespace geomend::hexes {
 
@@ -80,19 +81,10 @@ ApexPlace place_for_apex(const CavityBorder& border) {
     const auto deepest = deepest_in(border, insides_of(border), size);
     if (!deepest || !(deepest->depth > 0)) return best;
     best = {deepest->place, least_shape_at(border, deepest->place, 0)};
-    double step = 0.1 * size;
-    for (int round = 0; round < 24; ++round) {
-        const ApexPlace before = best;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (const double sign : {-1.0, 1.0}) {
-                Vec3 p = before.position;
-                p[axis] += sign * step;
-                const double shape = least_shape_at(border, p, best.quality);
-                if (shape > best.quality) best = {p, shape};
-            }
-        }
-        if (best.quality <= before.quality) step *= 0.5;
-    }
+    go_uphill(0.1 * size, best, [&](const Vec3& p, ApexPlace& now) {
+        const double shape = least_shape_at(border, p, now.quality);
+        if (shape > now.quality) now = {p, shape};
+    });
     return best;
 }
 

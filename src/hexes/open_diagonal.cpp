@@ -8,6 +8,7 @@
 #include "base/vectors.h"
 #include "hexes/half_spaces.h"
 #include "hexes/jacobian.h"
+#include "hexes/uphill.h"
 
 namespace geomend::hexes {
 
@@ -84,19 +85,7 @@ ApexPlace place_for_apex(const Fan& fan) {
     ApexPlace best{q[0], -1};
     try_above(fan, 2, best);
     if (best.quality <= 0) try_deepest(fan, best);
-    // Uphill steps along the axes, halved where none leads on.
-    double step = 0.1 * size;
-    for (int round = 0; round < 24; ++round) {
-        const ApexPlace before = best;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (const double sign : {-1.0, 1.0}) {
-                Vec3 p = before.position;
-                p[axis] += sign * step;
-                try_place(fan, p, best);
-            }
-        }
-        if (best.quality <= before.quality) step *= 0.5;
-    }
+    go_uphill(0.1 * size, best, [&](const Vec3& p, ApexPlace& now) { try_place(fan, p, now); });
     return best;
 }
 
