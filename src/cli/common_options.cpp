@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/wording.h"
 #include "report/advice.h"
 
 namespace geomend::cli {

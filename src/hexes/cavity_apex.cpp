@@ -2,6 +2,7 @@
 #include "hexes/cavity_apex.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 

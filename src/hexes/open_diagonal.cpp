@@ -2,6 +2,7 @@
 #include "hexes/open_diagonal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
