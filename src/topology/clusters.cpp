@@ -11,6 +11,7 @@
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "geometry/closest_points.h"
+#include "geometry/predicates.h"
 #include "geometry/triangle_tree.h"
 
 namespace geomend::topology {
@@ -100,12 +101,32 @@ PartExtent extent_of(const Dataset& dataset, const UsedPoints& used, std::span<c
     return part;
 }
 
-/// Tells whether two parts come close to each other.
+/// On which side along an axis a triangle lies of a point that it covers seen along that axis: +1 ahead, -1 behind, 0 through it or
+/// not covering it.
+int covers(const std::array<Vec3, 3>& t, const Vec3& point, unsigned axis) {
+    int sense = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int sign = orientation_2d(t[k], t[(k + 1) % 3], point, axis);
+        if (sign * sense < 0) return 0;
+        if (sign != 0) sense = sign;
+    }
+    return -sense * orientation(t[0], t[1], t[2], point);
+}
+
+/// Tells whether two parts belong together: one comes close to the other, or lies inside of it.
 class Closeness {
 public:
     Closeness(const UsedPoints& used, const HangingParts& parts, std::span<const PartExtent> extents,
               std::span<const std::uint8_t> left_out)
         : used_(used), parts_(parts), extents_(extents), left_out_(left_out) {}
+
+    bool belong_together(std::uint32_t a, std::uint32_t b) { return are_close(a, b) || surrounds(a, b) || surrounds(b, a); }
+
+private:
+    const UsedPoints& used_;
+    const HangingParts& parts_;
+    std::span<const PartExtent> extents_;
+    std::span<const std::uint8_t> left_out_;
 
     bool are_close(std::uint32_t a, std::uint32_t b) {
         const double reach = closeness * 2 * std::max(extents_[a].radius, extents_[b].radius);
@@ -115,11 +136,35 @@ public:
         return std::ranges::any_of(parts_[b], [&](std::uint32_t t) { return comes_close(t, a, reach); });
     }
 
-private:
-    const UsedPoints& used_;
-    const HangingParts& parts_;
-    std::span<const PartExtent> extents_;
-    std::span<const std::uint8_t> left_out_;
+    /// Whether a lies around b: all ways along the axes from a vertex of b meet a. \pre they are not close
+    bool surrounds(std::uint32_t a, std::uint32_t b) {
+        const Vec3 d = minus(extents_[a].centroid, extents_[b].centroid);
+        if (std::sqrt(dot(d, d)) + extents_[b].radius > extents_[a].radius) return false;
+        const auto inner = std::ranges::find_if(parts_[b], [&](std::uint32_t t) { return counts(used_, t, left_out_); });
+        if (inner == parts_[b].end()) return false;
+        const Vec3 point = used_.corners(*inner)[0];
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            if (!is_covered(a, point, axis)) return false;
+        }
+        return true;
+    }
+
+    /// Whether ways from a point along an axis, ahead and back, both meet a part.
+    bool is_covered(std::uint32_t part, const Vec3& point, unsigned axis) {
+        const Tree& tree = tree_of(part);
+        if (tree.triangles->size() == 0) return false;
+        Vec3 low = point, high = point;
+        low[axis] = extents_[part].low[axis];
+        high[axis] = extents_[part].high[axis];
+        bool ahead = false, behind = false;
+        tree.triangles->visit_triangles(tree.triangles->box(low, high), [&](std::size_t i) {
+            const auto& [p, q, r] = tree.triangles->triangle(i);
+            const int side = covers({tree.points[p], tree.points[q], tree.points[r]}, point, axis);
+            ahead = ahead || side > 0;
+            behind = behind || side < 0;
+        });
+        return ahead && behind;
+    }
 
     /// A part by itself: what lies between two parts need not be looked at, however much it is.
     struct Tree {
@@ -211,7 +256,7 @@ std::vector<std::uint32_t> cluster_parts(const UsedPoints& used, const HangingPa
     DisjointSets sets(parts.size());
     Closeness closeness_of(used, parts, extents, left_out);
     each_candidate(extents, [&](std::uint32_t a, std::uint32_t b) {
-        if (sets.root(a) != sets.root(b) && closeness_of.are_close(a, b)) sets.join(a, b);
+        if (sets.root(a) != sets.root(b) && closeness_of.belong_together(a, b)) sets.join(a, b);
     });
     auto cluster = std::move(sets).roots();
     std::uint32_t count = 0;

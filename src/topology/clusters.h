@@ -29,8 +29,9 @@ std::vector<PartExtent> part_extents(const Dataset& dataset, const UsedPoints& u
 double stored_steps(const PartExtent& part);
 
 /// The cluster of each part, numbered from 0 in the order of their first parts: parts that come closer to each other than a
-/// hundredth of the larger one's diameter (twice the radius) are in one, and so is what a chain of such parts links.
-/// The measure is the distance of triangles, which does not change when a model is turned.
+/// hundredth of the larger one's diameter (twice the radius) are in one, as are a part and what lies inside of it, and so is what a
+/// chain of such parts links. The measures are the distance of triangles, which does not change when a model is turned, and whether
+/// all six ways along the axes from one part meet the other.
 /// Cost: near-linear; as the number of triangles that lie near the bounds of other parts, times a search for each.
 std::vector<std::uint32_t> cluster_parts(const UsedPoints& used, const HangingParts& parts, std::span<const PartExtent> extents,
                                          std::span<const std::uint8_t> left_out);

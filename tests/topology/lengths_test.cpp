@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace geomend {
@@ -96,6 +97,34 @@ TEST(Lengths, of_copies_in_a_row_are_those_of_one) {
 TEST(Lengths, of_surfaces_that_nearly_touch_are_common_ones) {
     const auto both = lengths_of(with({flat_sheet("a", 4, 250, {0, 0, 0}), flat_sheet("b", 4, 250, {1001, 300, 0})}));
     EXPECT_EQ(both.clusters.size(), 1u);
+}
+
+/// A cube around a point, turned about two axes.
+Surface turned_cube(const char* name, double half, const Vec3& middle, double angle) {
+    Surface surface;
+    surface.info.name = name;
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (int v = 0; v < 8; ++v) {
+        const double x = (v & 1) != 0 ? half : -half, y = (v & 2) != 0 ? half : -half, z = (v & 4) != 0 ? half : -half;
+        const double u = c * x - s * y, w = s * x + c * y;
+        surface.points.push_back({middle[0] + u, middle[1] + c * w - s * z, middle[2] + s * w + c * z});
+    }
+    for (const auto& [p, q, r, t] :
+         {std::array{0u, 2u, 3u, 1u}, {4u, 5u, 7u, 6u}, {0u, 1u, 5u, 4u}, {2u, 6u, 7u, 3u}, {0u, 4u, 6u, 2u}, {1u, 3u, 7u, 5u}}) {
+        surface.polygons.corners.insert(surface.polygons.corners.end(), {p, q, r, p, r, t});
+    }
+    return surface;
+}
+
+TEST(Lengths, of_a_body_inside_of_another_are_common_ones_however_both_are_turned) {
+    for (const double angle : {0.0, 0.3, 0.785398, 1.1}) {
+        const auto inside = lengths_of(with({turned_cube("in", 1, {0.5, 4, -3}, 2 * angle), turned_cube("out", 10, {0, 0, 0}, angle)}));
+        EXPECT_EQ(inside.clusters.size(), 1u) << angle;
+        const auto beside = lengths_of(with({turned_cube("small", 1, {0, 0, 20}, 2 * angle), turned_cube("large", 10, {0, 0, 0}, angle)}));
+        EXPECT_EQ(beside.clusters.size(), 2u) << angle;
+        const auto above = lengths_of(with({turned_cube("small", 1, {500, 500, 100}, angle), flat_sheet("sheet", 4, 250, {0, 0, 0})}));
+        EXPECT_EQ(above.clusters.size(), 2u) << angle;
+    }
 }
 
 TEST(Lengths, are_not_changed_by_a_stray_part) {
