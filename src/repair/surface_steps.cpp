@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 13> clean_mends = {"B01", "M02", "M03", "
 constexpr std::array<std::string_view, 15> cut_mends = {"B05", "B06", "B09", "B12", "B23", "B02", "B08", "B10",
                                                         "B11", "B20", "B22", "B26", "B27", "B28", "B32"};
 constexpr std::array<std::string_view, 5> holes_mends = {"B05", "B06", "B12", "B29", "M07"};
-constexpr std::array<std::string_view, 6> weld_mends = {"M01", "B05", "B07", "B11", "B12", "B27"};
+constexpr std::array<std::string_view, 7> weld_mends = {"M01", "M03", "B05", "B07", "B11", "B12", "B27"};
 constexpr std::array<std::string_view, 7> close_mends = {"B05", "B06", "B07", "B09", "B12", "B23", "B29"};
 constexpr std::array<std::string_view, 12> tails_mends = {"B02", "B05", "B06", "B08", "B09", "B10",
                                                           "B11", "B12", "B16", "B20", "B22", "B23"};

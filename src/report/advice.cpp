@@ -177,7 +177,7 @@ constexpr std::array advice = {
     // Meshes of surfaces and cells.
     Advice{"M01", "repair --step weld joins them; or check again with a smaller --tolerance"},
     Advice{"M02", "repair --step clean removes them"},
-    Advice{"M03", "collapse its shortest edge"},
+    Advice{"M03", "collapse its shortest edge, or move the vertex onto the edge that it nearly lies on: repair --steps clean,weld"},
     Advice{"M04", "repair --step clean removes the repeats"},
     Advice{"M05", "repair --step clean turns them over"},
     Advice{"M06", "cut the surface along a line, so that it has two sides"},

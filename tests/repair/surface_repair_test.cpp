@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -376,6 +377,26 @@ TEST(SurfaceRepair, DoublesAndTrianglesWithoutAreaAreRemoved) {
     const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ts"});
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     EXPECT_EQ(info(folder / "out.ts")["objects"][0]["counts"]["triangles"], 2);
+}
+
+TEST(SurfaceRepair, ATriangleFlatterThanTheToleranceIsMendedByWhatItsFindingNames) {
+    const TemporaryFolder folder;
+    // A cube; on its top a vertex lies five tenths of a micrometre from an edge, on the surface's side of it.
+    const std::vector<Point> points = {{0, 0, 0},   {10, 0, 0},   {10, 10, 0}, {0, 10, 0},   {0, 0, 10},
+                                       {10, 0, 10}, {10, 10, 10}, {0, 10, 10}, {5, 5e-7, 10}};
+    const Triangles faces = {{0, 2, 1}, {0, 3, 2}, {4, 5, 8}, {4, 8, 7}, {8, 6, 7}, {8, 5, 6}, {0, 1, 5},
+                             {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+    write_file(folder / "in.ts", tsurf("cube", points, faces));
+    const auto codes = [&](const std::string& file) {
+        std::vector<std::string> all;
+        const auto report = nlohmann::json::parse(run_geomend({"validate", "--json", folder / file}).out);
+        for (const auto& f : report["files"][0]["findings"]) all.push_back(f["code"]);
+        return all;
+    };
+    EXPECT_TRUE(std::ranges::count(codes("in.ts"), "M03") == 1);
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ts"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_TRUE(codes("out.ts").empty());
 }
 
 }  // namespace
