@@ -2,8 +2,8 @@
 // What parts of a mesh of cells have in common where no face joins them: faces that lie on each other, edges and corners.
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "base/bounds.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/wording.h"
@@ -48,14 +48,8 @@ std::vector<Pair> facing_pairs(const CellScope& scope, const OuterFaces& outer) 
         for (std::size_t i = 1024 * part; i < std::min(tree.size(), 1024 * (part + 1)) && !scope.stopped(); ++i) {
             const auto a = corners(tree.triangle(i));
             const OuterTriangle& own = outer.of[tree.number(i)];
-            Vec3 low = a[0], high = a[0];
-            for (const Vec3& p : a) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    low[k] = std::min(low[k], p[k]);
-                    high[k] = std::max(high[k], p[k]);
-                }
-            }
-            tree.visit_triangles(tree.box(low, high, tolerance), [&](std::size_t j) {
+            const Bounds around = bounds_around(a);
+            tree.visit_triangles(tree.box(around.low, around.high, tolerance), [&](std::size_t j) {
                 const OuterTriangle& other = outer.of[tree.number(j)];
                 if (j <= i || scope.faces()[own.face].cell == scope.faces()[other.face].cell) return;
                 if (dot(own.normal, other.normal) >= 0) return;

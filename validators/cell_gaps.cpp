@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/bounds.h"
 #include "base/parallel.h"
 #include "base/wording.h"
 #include "geometry/triangle_tree.h"
@@ -106,14 +107,8 @@ private:
     void look_around(std::size_t i, std::vector<AcrossGap>& found) const {
         const Corners3 a = corners(i);
         const double reach = std::max(scope_.lengths().near, narrow_share * longest_edge(a));
-        Vec3 low = a[0], high = a[0];
-        for (const Vec3& p : a) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], p[k]);
-                high[k] = std::max(high[k], p[k]);
-            }
-        }
-        tree_.visit_triangles(tree_.box(low, high, reach), [&](std::size_t j) {
+        const Bounds around = bounds_around(a);
+        tree_.visit_triangles(tree_.box(around.low, around.high, reach), [&](std::size_t j) {
             if (j <= i || cell_at(i) == cell_at(j) || share_a_corner(tree_.triangle(i), tree_.triangle(j))) return;
             if (dot(of(i).normal, of(j).normal) >= 0) return;
             const Corners3 b = corners(j);

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "base/bounds.h"
 #include "base/length.h"
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
@@ -77,42 +78,31 @@ double prism(const CellMesh& mesh, std::span<const std::uint32_t> nodes) {
     return prism_volume(p, nodes.first(N));
 }
 
-struct Box {
-    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    Vec3 high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-
+/// The box around what is added of finite points.
+struct FiniteBox : Bounds {
+    using Bounds::add;
     void add(const Vec3& p) {
-        if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], p[axis]);
-            high[axis] = std::max(high[axis], p[axis]);
-        }
-    }
-    void add(const Box& other) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], other.low[axis]);
-            high[axis] = std::max(high[axis], other.high[axis]);
-        }
+        if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) Bounds::add(p);
     }
     std::optional<std::array<Vec3, 2>> result() const {
-        if (low[0] > high[0]) return std::nullopt;
+        if (empty()) return std::nullopt;
         return std::array<Vec3, 2>{low, high};
     }
 };
 
-Box box_of(const std::vector<Vec3>& points) {
-    std::vector<Box> blocks((points.size() + block_size - 1) / block_size);
+FiniteBox box_of(const std::vector<Vec3>& points) {
+    std::vector<FiniteBox> blocks((points.size() + block_size - 1) / block_size);
     parallel_for_each_index(blocks.size(), [&](std::size_t block) {
         const std::size_t last = std::min(points.size(), (block + 1) * block_size);
         for (std::size_t i = block * block_size; i < last; ++i) blocks[block].add(points[i]);
     });
-    Box all;
-    for (const Box& block : blocks) all.add(block);
+    FiniteBox all;
+    for (const FiniteBox& block : blocks) all.add(block);
     return all;
 }
 
-Box lattice_box(const Raster& raster) {
-    Box box;
+FiniteBox lattice_box(const Raster& raster) {
+    FiniteBox box;
     if (!raster.coordinates[0].empty()) {
         Vec3 low, high;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -134,7 +124,7 @@ Box lattice_box(const Raster& raster) {
 /// The lattice of a horizon grid stretches from its lowest to its highest defined node, above the lattice's own z.
 std::optional<std::array<Vec3, 2>> horizon_bounds(const Raster& raster) {
     const Attribute& height = raster.info.attributes[raster.height_attribute];
-    Box box = lattice_box(raster), heights;
+    FiniteBox box = lattice_box(raster), heights;
     const std::size_t count = value_count(height);
     for (std::size_t i = 0; i < count; ++i) {
         const double h = value_as_double(height, i);
@@ -152,14 +142,14 @@ std::optional<std::array<Vec3, 2>> bounds_of(const Raster& raster) {
 }
 
 std::optional<std::array<Vec3, 2>> bounds_of(const StructuredGrid& grid) {
-    Box box = box_of(grid.points);
+    FiniteBox box = box_of(grid.points);
     for (const StructuredGrid::Split& split : grid.splits) box.add(split.position);
     return box.result();
 }
 
 /// Of the active cells, or of all where none is active; elevation-up like every other box.
 std::optional<std::array<Vec3, 2>> bounds_of(const CornerPointGrid& grid) {
-    Box box;
+    FiniteBox box;
     if (!misfit(grid).empty()) return box.result();  // properties without geometry
     const bool all = active_count(grid) == 0;
     for (std::uint32_t k = 0; k < grid.dims[2]; ++k) {
@@ -175,7 +165,7 @@ std::optional<std::array<Vec3, 2>> bounds_of(const CornerPointGrid& grid) {
 
 std::optional<std::array<Vec3, 2>> bounds_of(const Well& well) {
     if (!well.path.empty()) return box_of(well.path).result();
-    Box box;
+    FiniteBox box;
     box.add(well.head);
     return box.result();
 }

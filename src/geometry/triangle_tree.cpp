@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "base/bounds.h"
 #include "base/parallel.h"
 #include "geometry/hilbert_curve.h"
 #include "geometry/predicates.h"
@@ -24,28 +24,14 @@ constexpr float largest = std::numeric_limits<float>::max();
 float low_end(double x) { return x > -double{largest} ? static_cast<float>(std::min(x, double{largest})) : -largest; }
 float high_end(double x) { return x < double{largest} ? static_cast<float>(std::max(x, -double{largest})) : largest; }
 
-struct Extent {
-    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-};
-
-Extent extent_of(std::span<const Vec3> points) {
-    std::vector<Extent> parts((points.size() + grain - 1) / grain);
+Bounds extent_of(std::span<const Vec3> points) {
+    std::vector<Bounds> parts((points.size() + grain - 1) / grain);
     parallel_for_each_index(parts.size(), [&](std::size_t part) {
         const std::size_t last = std::min(points.size(), (part + 1) * grain);
-        for (std::size_t i = part * grain; i < last; ++i) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                parts[part].low[k] = std::min(parts[part].low[k], points[i][k]);
-                parts[part].high[k] = std::max(parts[part].high[k], points[i][k]);
-            }
-        }
+        for (std::size_t i = part * grain; i < last; ++i) parts[part].add(points[i]);
     });
-    Extent all;
-    for (const Extent& part : parts) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            all.low[k] = std::min(all.low[k], part.low[k]);
-            all.high[k] = std::max(all.high[k], part.high[k]);
-        }
-    }
+    Bounds all;
+    for (const Bounds& part : parts) all.add(part);
     return all;
 }
 
@@ -161,7 +147,7 @@ Box TriangleTree::widened(const Box& box, double distance) const {
 void TriangleTree::sort_triangles(std::span<const Triangle> triangles, std::span<const std::uint32_t> groups) {
     const std::size_t count = triangles.size();
     if (count == 0) return;
-    Extent extent = extent_of(vertices_);
+    Bounds extent = extent_of(vertices_);
     space_ = SqueezedSpace(vertices_, triangles, extent.low, extent.high);
     double side = 0, stretch = 0;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/bounds.h"
 #include "base/vectors.h"
 
 namespace geomend {
@@ -13,26 +14,11 @@ namespace {
 
 constexpr double most_points = 4'000;  // TetGen takes long for tetrahedra between more of them
 
-struct Box {
-    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-};
-
-Box box_of(const volumes::RegionFacets& facets) {
-    Box box;
-    for (const Vec3& p : facets.positions) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            box.low[k] = std::min(box.low[k], p[k]);
-            box.high[k] = std::max(box.high[k], p[k]);
-        }
-    }
-    return box;
-}
-
 }  // namespace
 
 std::vector<volumes::SizedPoint> lattice_of_sizes(const volumes::RegionFacets& facets, double step,
                                                   const std::function<double(const Vec3&)>& size) {
-    const Box box = box_of(facets);
+    const Bounds box = bounds_around(facets.positions);
     const Vec3 across = minus(box.high, box.low);
     std::array<std::size_t, 3> count{};
     for (;; step *= 1.2) {
@@ -59,7 +45,7 @@ std::vector<volumes::SizedPoint> lattice_of_sizes(const volumes::RegionFacets& f
 }
 
 std::vector<volumes::SizedPoint> sizes_around(const volumes::RegionFacets& facets, std::span<const volumes::SizedPoint> all) {
-    const Box box = box_of(facets);
+    const Bounds box = bounds_around(facets.positions);
     const Vec3 across = minus(box.high, box.low), middle = times(0.5, plus(box.low, box.high));
     const double margin = 0.1 * std::sqrt(dot(across, across));
     std::vector<volumes::SizedPoint> some;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/bounds.h"
 #include "base/wording.h"
 #include "pipeline/stressed_cells.h"
 #include "volume/stress_error.h"
@@ -17,26 +18,14 @@ namespace geomend {
 
 namespace {
 
-/// The corners of the box around points.
-struct BoxAround {
-    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+double volume_of(const Bounds& box) {
+    double product = 1;
+    for (std::size_t k = 0; k < 3; ++k) product *= std::max(0.0, box.high[k] - box.low[k]);
+    return product;
+}
 
-    void add(const Vec3& p) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
-    }
-    /// \pre not empty
-    double volume() const {
-        double product = 1;
-        for (std::size_t k = 0; k < 3; ++k) product *= std::max(0.0, high[k] - low[k]);
-        return product;
-    }
-};
-
-BoxAround common_box(const BoxAround& a, const BoxAround& b) {
-    BoxAround both;
+Bounds common_box(const Bounds& a, const Bounds& b) {
+    Bounds both;
     for (std::size_t k = 0; k < 3; ++k) {
         both.low[k] = std::max(a.low[k], b.low[k]);
         both.high[k] = std::min(a.high[k], b.high[k]);
@@ -44,7 +33,7 @@ BoxAround common_box(const BoxAround& a, const BoxAround& b) {
     return both;
 }
 
-std::string box_text(const BoxAround& box) {
+std::string box_text(const Bounds& box) {
     std::string text;
     for (std::size_t k = 0; k < 3; ++k) {
         text += std::string(k == 0 ? "" : ", ") + "xyz"[k] + " " + short_number(box.low[k]) + " to " + short_number(box.high[k]);
@@ -55,13 +44,13 @@ std::string box_text(const BoxAround& box) {
 /// Whether a result lies where the model does: it may leave out a part of it, or reach farther, which is told.
 Result<std::string> compare_places(const StressedCells& cells, std::span<const Vec3> model, const std::string& file) {
     constexpr double least = 0.5, most = 0.95;  // shares of the boxes
-    BoxAround own, other;
-    for (const Vec3& p : model) own.add(p);
+    const Bounds own = bounds_around(model);
+    Bounds other;
     for (const auto& cell : cells.cells) {
         for (const std::uint32_t v : cell) other.add(cells.points[v]);
     }
-    if (model.empty() || !(own.volume() > 0)) return std::string();
-    const double common = common_box(own, other).volume(), covered = common / own.volume(), used = common / other.volume();
+    if (model.empty() || !(volume_of(own) > 0)) return std::string();
+    const double common = volume_of(common_box(own, other)), covered = common / volume_of(own), used = common / volume_of(other);
     const std::string places = "it lies in " + box_text(other) + ", the model in " + box_text(own);
     if (!(covered >= least)) return no_stress(file, "the result is not of this model: " + places);
     if (covered < most) return "the result leaves out a part of the model, where cells get the sizes at its end: " + places;

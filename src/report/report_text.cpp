@@ -45,7 +45,8 @@ public:
                             : !file.valid ? "not fully checked"
                             : *file.valid ? "valid"
                                           : "not valid";
-        text_ += file.file + ": " +
+        // The verdict on what a repair made stands beside the name of what it was made from.
+        text_ += file.file + (file.steps.empty() ? ": " : ", as repaired: ") +
                  painted(state, !file.valid   ? "33"
                                 : *file.valid ? "32"
                                               : "31") +

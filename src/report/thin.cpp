@@ -1,39 +1,28 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 
+#include "base/bounds.h"
 #include "report/scene.h"
 
 namespace geomend {
 
 namespace {
 
-struct Bounds {
-    Vec3 low{}, high{};
-    bool any = false;
-
-    void take(const Vec3& p) {
-        if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return;
-        if (!any) low = high = p;
-        any = true;
-        for (std::size_t a = 0; a < 3; ++a) {
-            low[a] = std::min(low[a], p[a]);
-            high[a] = std::max(high[a], p[a]);
-        }
-    }
-};
+void take(Bounds& bounds, const Vec3& p) {
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) bounds.add(p);
+}
 
 Bounds bounds_of(const Scene& scene) {
     Bounds bounds;
-    for (const ScenePart& part : scene.parts) std::ranges::for_each(part.points, [&](const Vec3& p) { bounds.take(p); });
-    if (bounds.any) return bounds;
+    for (const ScenePart& part : scene.parts) std::ranges::for_each(part.points, [&](const Vec3& p) { take(bounds, p); });
+    if (!bounds.empty()) return bounds;
     for (const SceneMark& mark : scene.marks) {
-        std::ranges::for_each(mark.points, [&](const Vec3& p) { bounds.take(p); });
-        for (const auto& line : mark.polylines) std::ranges::for_each(line, [&](const Vec3& p) { bounds.take(p); });
+        std::ranges::for_each(mark.points, [&](const Vec3& p) { take(bounds, p); });
+        for (const auto& line : mark.polylines) std::ranges::for_each(line, [&](const Vec3& p) { take(bounds, p); });
     }
-    return bounds;
+    return bounds.empty() ? Bounds{{}, {}} : bounds;
 }
 
 std::size_t count_triangles(const Scene& scene) {

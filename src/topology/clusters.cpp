@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
+#include "base/bounds.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "geometry/closest_points.h"
@@ -23,19 +23,6 @@ constexpr double closeness = 0.01;  // of the larger diameter
 bool counts(const UsedPoints& used, std::uint32_t t, std::span<const std::uint8_t> left_out) {
     return std::ranges::none_of(used.triangles[t], [&](std::uint32_t v) { return left_out[v] != 0; });
 }
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-struct Bounds {
-    Vec3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
-
-    void widen(const Vec3& p) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
-    }
-};
 
 /// Adds what one object has of a part. The largest coordinates, as they are stored, are at the bounds, since rounding keeps order.
 void widen(PartExtent& part, const ObjectInfo& info, const Bounds& bounds) {
@@ -69,8 +56,8 @@ struct PartSums {
 PartExtent extent_of(const Dataset& dataset, const UsedPoints& used, std::span<const std::uint32_t> triangles,
                      std::span<const std::uint8_t> left_out) {
     PartExtent part;
-    part.low = {infinite, infinite, infinite};
-    part.high = {-infinite, -infinite, -infinite};
+    part.low = Bounds().low;
+    part.high = Bounds().high;
     PartSums sums;
     // Triangles come object by object.
     for (std::size_t i = 0; i < triangles.size();) {
@@ -81,7 +68,7 @@ PartExtent extent_of(const Dataset& dataset, const UsedPoints& used, std::span<c
             if (!counts(used, t, left_out)) continue;
             const auto corners = used.corners(t);
             sums.add(corners, used.weights[t]);
-            for (const Vec3& p : corners) bounds.widen(p);
+            for (const Vec3& p : corners) bounds.add(p);
         }
         widen(part, info_of(dataset.objects[object]), bounds);
     }
@@ -192,10 +179,8 @@ private:
     bool comes_close(std::uint32_t t, std::uint32_t part, double reach) {
         if (!counts(used_, t, left_out_)) return false;
         const auto corners = used_.corners(t);
-        Vec3 low = corners[0], high = corners[0];
+        const auto [low, high] = bounds_around(corners);
         for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min({corners[0][k], corners[1][k], corners[2][k]});
-            high[k] = std::max({corners[0][k], corners[1][k], corners[2][k]});
             if (low[k] > extents_[part].high[k] + reach || high[k] < extents_[part].low[k] - reach) return false;
         }
         bool close = false;

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "base/bounds.h"
 #include "base/disjoint_sets.h"
 #include "geometry/predicates.h"
 #include "geometry/vectors.h"
@@ -223,17 +224,12 @@ public:
     }
 
 private:
-    /// A box along the axes around the vertices of a group of surfaces.
-    struct Extent {
-        Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    };
-
     /// False only where no other group reaches around the whole group of a shell. Rays answer for very many groups.
     bool another_group_is_around(const Shell& inner) {
         constexpr std::size_t many = 1000;
         if (extents_.empty()) measure_groups();
         if (extents_.size() > many) return true;
-        const Extent& own = extents_.at(inner.group);
+        const Bounds& own = extents_.at(inner.group);
         return std::ranges::any_of(extents_, [&](const auto& other) {
             const auto& [group, extent] = other;
             bool around = group != inner.group;
@@ -244,15 +240,10 @@ private:
 
     void measure_groups() {
         for (const Shell& shell : shells_) {
-            Extent& extent = extents_[shell.group];
+            Bounds& extent = extents_[shell.group];
             for (const auto& side : shell.sides) {
                 if (!side.front) continue;  // both sides have the same vertices
-                for (const VertexId v : brep_.surfaces[side.surface.value].nodes) {
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        extent.low[k] = std::min(extent.low[k], brep_.vertices[v.value][k]);
-                        extent.high[k] = std::max(extent.high[k], brep_.vertices[v.value][k]);
-                    }
-                }
+                for (const VertexId v : brep_.surfaces[side.surface.value].nodes) extent.add(brep_.vertices[v.value]);
             }
         }
     }
@@ -283,7 +274,7 @@ private:
     DisjointSets& groups_;
     std::vector<std::uint32_t> shell_of_side_;
     bool several_ = false;
-    std::map<std::uint32_t, Extent> extents_;  ///< per group, once asked for
+    std::map<std::uint32_t, Bounds> extents_;  ///< around the vertices of each group, once asked for
     std::optional<UpwardRay> ray_;
 };
 
