@@ -21,7 +21,7 @@ namespace {
 
 struct MeshOptions : CommonOptions {
     std::vector<std::string> inputs;
-    std::string output, split = "none", method, cells, select = "search";
+    std::string output, split = "none", wells = "all", method, cells, select = "search";
     std::vector<std::string> stated;  ///< options for filling that were given
     double size = 0, ratio = 1.4, seconds = 120, megabytes = 0, max_distance = 0;
     SizeArguments sizes;
@@ -51,6 +51,7 @@ std::string region_lines(const MeshReport& report, bool all_tries, const std::st
         if (!all_tries && r.filled() && r.as_asked) continue;
         for (const std::string& why : r.why_not) text += "    " + why + '\n';
     }
+    text += wells_text(report.wells);
     if (!report.outside.empty())
         text += counted(report.outside.size(), "surface lies", "surfaces lie") +
                 " outside of all regions, where there are no cells: " + geomend::quoted(report.outside.front()) +
@@ -144,6 +145,7 @@ ExitStatus run(const MeshOptions& o) {
     take_files(o, std::move(*options), &monitor, request.files);
     request.checks = std::move(*checks);
     request.split = o.split;
+    request.wells = o.wells;
     request.fill.size = o.size;
     request.fill.ratio = o.ratio;
     request.fill.limits.seconds = o.seconds;
@@ -246,6 +248,10 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
         ->check(CLI::IsMember(std::vector<std::string>(hexes::heuristic_names.begin(), hexes::heuristic_names.end())));
     command->add_option("--split", o->split, "Double the points along surfaces: none (default), faults, all, or names between commas")
         ->type_name("WHICH");
+    command
+        ->add_option("--wells", o->wells,
+                     "Wells that become chains of edges of cells: all (default), none, or names of wells and lines between commas")
+        ->type_name("WHICH");
     command->add_option("--time-limit", o->seconds, "Most time for one try to fill a region; 0 is no limit (default 120)")
         ->type_name("SECONDS")
         ->check(is_length());
@@ -253,7 +259,7 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
     add_common_options(*command, *o, true);
     command->callback([o, command, &status] {
-        for (const char* name : {"--ratio", "--time-limit", "--memory-limit"}) {
+        for (const char* name : {"--ratio", "--time-limit", "--memory-limit", "--wells"}) {
             if (command->count(name) > 0) o->stated.emplace_back(name);
         }
         status = run(*o);

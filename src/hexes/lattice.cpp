@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <tuple>
 
 #include "base/vectors.h"
 #include "geometry/closest_points.h"
+#include "geometry/site_grid.h"
 #include "geometry/triangle_tree.h"
 
 namespace geomend::hexes {
@@ -148,14 +150,34 @@ std::vector<Crossing> crossings_of(const volumes::RegionFacets& facets, const La
     return all;
 }
 
-/// Whether points are far enough from facets.
+/// Points along the edges that cells are to have, so close that all of an edge is near one of them.
+std::vector<Vec3> points_along_edges(const volumes::RegionFacets& facets, double step) {
+    std::vector<Vec3> points;
+    for (const auto& [from, to] : facets.edges) {
+        const Vec3 a = facets.positions[from], d = minus(facets.positions[to], a);
+        const double parts = std::clamp(std::ceil(std::sqrt(dot(d, d)) / step), 1.0, 1e4);
+        for (double i = 0; i <= parts; ++i) points.push_back(plus(a, times(i / parts, d)));
+    }
+    return points;
+}
+
+/// Whether points are far enough from facets, and from further edges.
 class Clearance {
 public:
     Clearance(const volumes::RegionFacets& facets, double distance)
-        : facets_(facets), tree_(facets.positions, facets.triangles), distance_(distance) {}
+        : facets_(facets),
+          tree_(facets.positions, facets.triangles),
+          distance_(distance),
+          on_edges_(points_along_edges(facets, distance / 4)) {
+        if (!on_edges_.empty()) edges_.emplace(on_edges_);
+    }
 
     bool operator()(const Vec3& p) const {
         bool clear = true;
+        if (edges_) {
+            const Vec3 away = minus(on_edges_[edges_->nearest(p)], p);
+            if (dot(away, away) < distance_ * distance_) return false;
+        }
         tree_.visit_triangles(tree_.box(p, p, distance_), [&](std::size_t i) {
             if (!clear || tree_.is_farther(p, i, distance_)) return;
             const Triangle& t = tree_.triangle(i);
@@ -168,6 +190,8 @@ private:
     const volumes::RegionFacets& facets_;
     TriangleTree tree_;
     double distance_;
+    std::vector<Vec3> on_edges_;
+    std::optional<SiteGrid> edges_;
 };
 
 }  // namespace

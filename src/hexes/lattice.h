@@ -38,9 +38,9 @@ Lattice lattice_of(const BrepData& brep, double size);
 /// The lattice of a region: with layer coordinates where it has a base and a top all over, else the one given. Cost: as of points_inside().
 Lattice lattice_of_region(const volumes::RegionFacets& facets, const Lattice& lattice);
 
-/// Those points of a lattice that lie in a region and no nearer to its facets than `clear` of the least step, in the order of their
-/// coordinates. They are moved by a ten-millionth of a step, so that no eight of them lie on a sphere.
-/// Cost: n log n in facets and points.
+/// Those points of a lattice that lie in a region and no nearer to its facets and edges than `clear` of the least step, in the order of
+/// their coordinates. They are moved by a ten-millionth of a step, so that no eight of them lie on a sphere. Cost: n log n in facets and
+/// points.
 std::vector<Vec3> points_inside(const volumes::RegionFacets& facets, const Lattice& lattice, double clear = 0.4999);
 
 }  // namespace geomend::hexes

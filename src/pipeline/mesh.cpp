@@ -2,6 +2,7 @@
 #include "pipeline/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <type_traits>
@@ -67,18 +68,23 @@ Result<topology::JudgedModel> model_to_fill(const Dataset& dataset, const MeshRe
     return std::move(models->front());
 }
 
-/// The filled model, and beside it what was not a part of it.
-Result<void> put_in_place(Dataset& dataset, BrepData filled) {
+/// The filled model, and beside it what was not a part of it. \param wells objects that are edges of the model
+Result<void> put_in_place(Dataset& dataset, volumes::Filled filled, std::span<const std::uint32_t> wells) {
     std::vector<std::uint8_t> is_part(dataset.objects.size(), 0);
-    for (const auto& surface : filled.surfaces) {
+    for (const auto& surface : filled.brep.surfaces) {
         if (surface.source_object < is_part.size()) is_part[surface.source_object] = 1;
     }
-    for (const auto& region : filled.regions) {
+    for (const auto& region : filled.brep.regions) {
         if (region.source_object < is_part.size()) is_part[region.source_object] = 1;
     }
-    auto brep = Brep::make(std::move(filled));
+    for (const std::uint32_t o : wells) {
+        is_part[o] = 1;
+        list_well_losses(dataset.objects[o], dataset.losses);
+    }
+    auto brep = Brep::make(std::move(filled.brep));
     if (!brep) return std::move(brep).why();
     Dataset made = exchange::tagged_model(*brep, dataset.losses);
+    if (!wells.empty()) add_wells(std::get<CellMesh>(made.objects.front()), filled.wells);
     for (std::size_t o = 0; o < dataset.objects.size(); ++o) {
         if (is_part[o] == 0) made.objects.push_back(std::move(dataset.objects[o]));
     }
@@ -139,6 +145,15 @@ Result<void> recombine(Dataset& dataset, const MeshRequest& request, MeshReport&
     for (const auto& set : (*made)->face_sets)
         report.face_sets.push_back({set.name, set.role, set.side == FaceSide::none ? "" : to_string(set.side), set.faces.size()});
     return {};
+}
+
+/// What coordinates cannot tell apart, for models whose points are to be the same only where they are equal.
+double least_tolerance(const BrepData& brep) {
+    double far = 0;
+    for (const Vec3& p : brep.vertices) {
+        for (const double x : p) far = std::max(far, std::abs(x));
+    }
+    return 1e-12 * (far > 0 ? far : 1);
 }
 
 /// Sizes by names go to regions, or to the new triangles of surfaces; all names are there.
@@ -236,6 +251,7 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& ask
     report.errors = std::move(*errors);
     if (!report.errors.empty()) return cannot_fill(request.files.inputs.front(), "the model has errors");
     if (auto parted = part_sizes(dataset, request); !parted) return parted;
+    if (auto known = chosen_wells(dataset, request.wells); !known) return std::move(known).why();
     if (request.remesh) request.remesh->size_by = request.size_by;
     const auto points = take_resize(dataset, request, report);
     if (!points) return points.why();
@@ -261,16 +277,22 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& ask
     }
     const remeshing::RuleSizes rules(*model->brep, request.size_by, request.fill.size);
     how.sizes = inner_sizes(rules, request, *points);
+    auto wells = chosen_wells(dataset, request.wells);  // once more: with new triangles there are other objects
+    if (!wells) return std::move(wells).why();
+    how.wells = paths_of(dataset, *wells);
+    how.well_tolerance = model->tolerance > 0 ? model->tolerance : least_tolerance(*model->brep);
+    if (!has_edges(target)) wells->clear();
     auto filled = volumes::fill_dividing_surfaces(*model->brep, model->found, how);
     if (!filled) return std::move(filled).why();
     report.regions = std::move(filled->regions);
     report.surface_vertices = filled->surface_vertices;
+    report.wells = mesh_wells(filled->wells);
     for (Loss& loss : filled->losses) add_loss(dataset.losses, std::move(loss));
     list_face_sets(filled->brep, report);
     if (!std::ranges::all_of(report.regions, &volumes::FilledRegion::filled))
         return cannot_fill(request.files.inputs.front(), "not all regions could be filled");
     list_blocks(report);
-    return put_in_place(dataset, std::move(filled->brep));
+    return put_in_place(dataset, std::move(*filled), *wells);
 }
 
 Result<void> make_cells(Dataset& dataset, const Format& target, const MeshRequest& request, MeshReport& report) {
@@ -366,6 +388,15 @@ std::string mesh_json(const MeshReport& report) {
         }
         all["loss"] = losses_json(report.written.losses);
     }
+    Json wells = Json::array();
+    for (const MeshWell& w : report.wells)
+        wells.push_back({{"name", w.name},
+                         {"length", w.length},
+                         {"inside", w.inside},
+                         {"edges", w.edges},
+                         {"on_surfaces", w.on_surfaces},
+                         {"crossings", w.crossings}});
+    all["wells"] = std::move(wells);
     all["surfaces_outside_regions"] = report.outside;
     all["surface_vertices_added"] = report.surface_vertices;
     all["split"] = {{"surfaces", report.split.surfaces}, {"vertices", report.split.vertices}, {"pairs", report.split.pairs}};

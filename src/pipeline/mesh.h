@@ -9,6 +9,7 @@
 #include "hexes/recombine.h"
 #include "pipeline/convert.h"
 #include "pipeline/mesh_split.h"
+#include "pipeline/mesh_wells.h"
 #include "pipeline/remesh.h"
 #include "pipeline/resize.h"
 #include "validators/registry.h"
@@ -22,6 +23,7 @@ struct MeshRequest {
     validators::CheckOptions checks;  ///< by which the model is judged before it is filled
     volumes::FillOptions fill;
     std::string split = "none";                           ///< along which surfaces, see split_mesh()
+    std::string wells = "all";                            ///< which wells and lines become edges of cells, see chosen_wells()
     std::optional<remeshing::RemeshOptions> remesh;       ///< new triangles before regions are filled
     std::vector<std::pair<std::string, double>> size_of;  ///< sizes of regions, and with new triangles of surfaces and interfaces, by name
     std::vector<remeshing::SizeRule> size_by;             ///< of new triangles, if there are any, and of cells inside; with a size of cells
@@ -62,6 +64,7 @@ struct MeshReport {
     std::optional<ResizeReport> resized;   ///< where that was asked for
     std::vector<volumes::FilledRegion> regions;
     std::vector<MeshFaceSet> face_sets;
+    std::vector<MeshWell> wells;                       ///< that became edges
     std::vector<std::string> outside;                  ///< surfaces that lie in no region: their triangles are faces of no cell
     std::uint64_t surface_vertices = 0;                ///< added on lines and surfaces, since cells could not be made without
     std::optional<hexes::RecombineReport> recombined;  ///< where that was asked for

@@ -41,7 +41,7 @@ Result<const Attribute*> young_of(const CellMesh& mesh, const std::string& file)
     for (const Attribute& a : mesh.info.attributes) {
         if (a.location != AttributeLocation::cell || !same_word(a.name, "young")) continue;
         if (a.components == 1 && !std::holds_alternative<std::vector<std::string>>(a.values)) return &a;
-        return no_stress(file, "the property " + quoted(a.name) + " has " + counted(a.components, "component", "components") +
+        return no_stress(file, "the property " + geomend::quoted(a.name) + " has " + counted(a.components, "component", "components") +
                                    ", where one modulus for each cell is expected");
     }
     return nullptr;
@@ -81,7 +81,7 @@ public:
         std::uint32_t last_group = first_group_;
         for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
             if (is_beside(mesh.types[c])) continue;
-            const std::string where = "cell " + std::to_string(c) + " (from 0) of " + quoted(mesh.info.name);
+            const std::string where = "cell " + std::to_string(c) + " (from 0) of " + geomend::quoted(mesh.info.name);
             if (mesh.types[c] != CellType::tetrahedron)
                 return no_stress(file_, where + " is no tetrahedron of first order, for which errors are estimated");
             const auto nodes = mesh.cell_nodes(c);

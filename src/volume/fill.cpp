@@ -12,10 +12,12 @@
 
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "base/vectors.h"
 #include "base/wording.h"
 #include "exchange/empty_regions.h"
 #include "volume/region_cells.h"
 #include "volume/region_facets.h"
+#include "volume/well_pieces.h"
 
 namespace geomend::volumes {
 
@@ -192,7 +194,7 @@ void put_in(BrepData& brep, const RegionFacets& facets, RegionCells cells) {
 }
 
 /// Vertices that only cells used are gone with them; the others keep their order.
-void drop_unused_vertices(BrepData& brep) {
+void drop_unused_vertices(BrepData& brep, std::vector<WellChain>& chains) {
     std::vector<std::uint32_t> number(brep.vertices.size(), no_index);
     const auto each = [&](const auto& visit) {
         for (auto& corner : brep.corners) visit(corner.vertex);
@@ -209,14 +211,42 @@ void drop_unused_vertices(BrepData& brep) {
     }
     brep.vertices.resize(kept);
     each([&](VertexId& v) { v.value = number[v.value]; });
+    for (WellChain& chain : chains) {
+        for (auto& edge : chain.edges) edge = {number[edge[0]], number[edge[1]]};
+    }
+}
+
+/// The model and its facets, with wells as edges of both.
+Result<std::vector<RegionFacets>> facets_with_wells(CutByWells& cut, const topology::FoundRegions& found, const FillOptions& options) {
+    if (!options.wells.empty()) {
+        auto made = cut_by_wells(cut.brep, found, options.wells, options.well_tolerance);
+        if (!made) return std::move(made).why();
+        cut = std::move(*made);
+    }
+    auto facets = facets_of_regions(cut.brep, found, cut.inner);
+    if (!facets || cut.inner.empty()) return facets;
+    std::vector<std::vector<SizedPoint>> sizes(cut.brep.regions.size());
+    if (options.sizes) {
+        for (const RegionFacets& region : *facets) sizes[region.region] = options.sizes(region);
+    }
+    part_edges(cut, *facets, [&](const RegionFacets& region, const Vec3& place) {
+        const auto away = [&](const SizedPoint& s) {
+            const Vec3 d = minus(s.place, place);
+            return dot(d, d);
+        };
+        const auto& own = sizes[region.region];
+        return own.empty() ? size_in(region, options, cut.brep.regions[region.region].name) : std::ranges::min_element(own, {}, away)->size;
+    });
+    return facets;
 }
 
 }  // namespace
 
 Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options) {
-    auto facets = facets_of_regions(brep, found);
+    CutByWells cut{brep, {}, {}};
+    auto facets = facets_with_wells(cut, found, options);
     if (!facets) return std::move(facets).why();
-    Filled filled{brep, {}, {}, 0};
+    Filled filled{std::move(cut.brep), {}, {}, std::move(cut.chains), 0};
     for (const auto& region : filled.brep.regions) {
         filled.regions.emplace_back().name = region.name;
     }
@@ -233,7 +263,7 @@ Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& 
         if (results[i].stopped) return *results[i].stopped;
         put_in(filled.brep, (*facets)[i], std::move(results[i].cells));
     }
-    drop_unused_vertices(filled.brep);
+    drop_unused_vertices(filled.brep, filled.wells);
     return filled;
 }
 

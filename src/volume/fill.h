@@ -10,9 +10,11 @@
 #include "base/result.h"
 #include "model/loss.h"
 #include "topology/assemble.h"
+#include "volume/cut_by_wells.h"
 #include "volume/improve.h"
 #include "volume/narrow_cells.h"
 #include "volume/tetrahedra.h"
+#include "volume/well_network.h"
 
 namespace geomend::volumes {
 
@@ -26,7 +28,9 @@ struct FillOptions {
     std::function<std::vector<Vec3>(const RegionFacets&)> points;
     /// Sizes of cells at points in and around a region, between which they change, in place of one size for all of it.
     std::function<std::vector<SizedPoint>(const RegionFacets&)> sizes;
-    ChildLimits limits;  ///< for each try
+    std::vector<WellPath> wells;  ///< that are to be chains of edges of cells
+    double well_tolerance = 0;    ///< with wells: points and surfaces nearer to them than that lie on them; above 0
+    ChildLimits limits;           ///< for each try
     const Monitor* monitor = nullptr;
 };
 
@@ -52,13 +56,14 @@ struct Filled {
     BrepData brep;                       ///< the model with tetrahedra in its regions; those that were not filled are empty
     std::vector<FilledRegion> regions;   ///< as those of the boundary representation
     std::vector<Loss> losses;            ///< cells that regions had before, and their values
+    std::vector<WellChain> wells;        ///< one for each that was asked for
     std::uint64_t surface_vertices = 0;  ///< that lines and surfaces got since cells could not be made without them
 };
 
 /// Fills all regions of a sealed model with tetrahedra. Surfaces stay as they are: each of their triangles is a face of one cell on
-/// either side that is in a region. Cells that regions held before give way. Each region is tried with good shapes first, then with any.
-/// Failure as of facets_of_regions(), or (cancelled). Regions that nothing fills are told in `regions`. Results do not depend on the
-/// number of threads. Cost: that of TetGen; regions side by side.
+/// either side that is in a region; wells cut them first, where there are any. Cells that regions held before give way. Each region is
+/// tried with good shapes first, then with any. Failure as of facets_of_regions() and cut_by_wells(), or (cancelled). Regions that nothing
+/// fills are told in `regions`. Results do not depend on the number of threads. Cost: that of TetGen; regions side by side.
 Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options);
 
 inline Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOptions& options) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "volume/cut_by_wells.h"
 #include "volume/fill.h"
 #include "volume/region_facets.h"
 #include "volume/surface_points.h"
@@ -49,8 +50,13 @@ Result<SurfacePoints> wanted_points(const BrepData& brep, const topology::FoundR
 
 Result<Filled> fill_dividing_surfaces(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options) {
     constexpr int most_rounds = 3;
-    auto filled = fill_regions(brep, found, options);
     BrepData divided = brep;
+    if (!options.wells.empty()) {
+        auto cut = cut_by_wells(brep, found, options.wells, options.well_tolerance);
+        if (!cut) return std::move(cut).why();
+        divided = std::move(cut->brep);
+    }
+    auto filled = fill_regions(divided, found, options);
     std::uint64_t added = 0;
     for (int round = 0; filled && round < most_rounds; ++round) {
         if (std::ranges::all_of(filled->regions, &FilledRegion::filled)) break;

@@ -19,12 +19,13 @@ constexpr double bad_sine = 0.17364817766693033;     // of 10 and 170 degrees
 constexpr double wanted_sine = 0.34202014332566871;  // of 20: cells below it are worked on
 constexpr double gain = 1e-6;                        // less is none
 
-/// Edges and faces of facets, which stay.
+/// Edges and faces of facets, and further edges, which stay.
 class FixedParts {
 public:
-    FixedParts(std::span<const Triangle> triangles, std::span<const std::array<std::uint32_t, 2>> edges) {
+    FixedParts(const RegionFacets& facets, std::span<const std::array<std::uint32_t, 2>> edges) {
+        for (const auto& e : facets.edges) edges_.insert(key(e[0], e[1]));
         for (const auto& e : edges) edges_.insert(key(e[0], e[1]));
-        for (const Triangle& t : triangles) {
+        for (const Triangle& t : facets.triangles) {
             Triangle sorted = t;
             std::ranges::sort(sorted);
             faces_.insert(key(sorted));
@@ -243,7 +244,7 @@ private:
 class Improver {
 public:
     Improver(const RegionFacets& facets, RegionCells& region, std::span<const std::array<std::uint32_t, 2>> kept = {})
-        : first_free_(static_cast<std::uint32_t>(facets.positions.size())), fixed_(facets.triangles, kept), mesh_(facets, region) {}
+        : first_free_(static_cast<std::uint32_t>(facets.positions.size())), fixed_(facets, kept), mesh_(facets, region) {}
 
     void run(const Monitor* monitor) {
         done.bad_before = count_bad();

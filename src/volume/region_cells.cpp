@@ -132,11 +132,31 @@ private:
             if (where[root[c]] == inside) region.cells.push_back(all_.cells[c]);
         }
         take_vertices(region);
+        if (auto there = find_edges(region); !there) return std::move(there).why();
         measure(facets_, region);
         if (!(std::abs(region.volume - facets_.volume) <= 1e-9 * std::abs(facets_.volume)))
             return not_filled("cells have a volume of " + short_number(region.volume) + " where surfaces enclose " +
                               short_number(facets_.volume));
         return region;
+    }
+
+    Result<void> find_edges(const RegionCells& region) const {
+        if (facets_.edges.empty()) return {};
+        std::vector<std::array<std::uint32_t, 2>> edges;
+        const auto known = static_cast<std::uint32_t>(facets_.positions.size());
+        for (const auto& c : region.cells) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                for (std::size_t k = i + 1; k < 4; ++k) {
+                    if (c[i] < known && c[k] < known) edges.push_back({std::min(c[i], c[k]), std::max(c[i], c[k])});
+                }
+            }
+        }
+        std::ranges::sort(edges);
+        for (const auto& [a, b] : facets_.edges) {
+            if (!std::ranges::binary_search(edges, std::array<std::uint32_t, 2>{std::min(a, b), std::max(a, b)}))
+                return not_filled("a piece of a well is no edge of a cell, at " + place(facets_.positions[a]));
+        }
+        return {};
     }
 
     /// New vertices that the cells use, in the order of their numbers.

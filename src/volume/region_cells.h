@@ -27,8 +27,8 @@ struct RegionCells {
 };
 
 /// The tetrahedra on the region's sides of its facets, with no others. All is proven: each facet is a face of one cell on each side
-/// that the region has, no cell is flat (exact predicates), no face has more than two cells, and volumes agree within 1e-9.
-/// Failure (limit, F026) with what is not so and where. Cost: n log n in the number of cells.
+/// that the region has, each of its edges an edge of a cell, no cell is flat (exact predicates), no face has more than two cells, and
+/// volumes agree within 1e-9. Failure (limit, F026) with what is not so and where. Cost: n log n in the number of cells.
 Result<RegionCells> cells_of_region(const RegionFacets& facets, Tetrahedra all);
 
 /// Volume, least angle and shapes of the cells as they stand. Linear.

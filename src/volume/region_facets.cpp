@@ -76,15 +76,16 @@ double enclosed_volume(const RegionFacets& facets) {
 
 void number_vertices(const BrepData& brep, RegionFacets& facets) {
     for (const Triangle& t : facets.triangles) facets.vertices.insert(facets.vertices.end(), t.begin(), t.end());
+    for (const auto& e : facets.edges) facets.vertices.insert(facets.vertices.end(), e.begin(), e.end());
     std::ranges::sort(facets.vertices);
     const auto repeats = std::ranges::unique(facets.vertices);
     facets.vertices.erase(repeats.begin(), repeats.end());
     for (const std::uint32_t v : facets.vertices) facets.positions.push_back(brep.vertices[v]);
-    for (Triangle& t : facets.triangles) {
-        for (std::uint32_t& v : t) {
-            v = static_cast<std::uint32_t>(std::ranges::lower_bound(facets.vertices, v) - facets.vertices.begin());
-        }
-    }
+    const auto number = [&](std::uint32_t& v) {
+        v = static_cast<std::uint32_t>(std::ranges::lower_bound(facets.vertices, v) - facets.vertices.begin());
+    };
+    for (Triangle& t : facets.triangles) std::ranges::for_each(t, number);
+    for (auto& e : facets.edges) std::ranges::for_each(e, number);
     facets.volume = enclosed_volume(facets);
     facets.median_edge = median_edge(facets);
 }
@@ -93,7 +94,8 @@ Failure cannot_fill(const std::string& why) { return failure(FailureKind::cannot
 
 }  // namespace
 
-Result<std::vector<RegionFacets>> facets_of_regions(const BrepData& brep, const topology::FoundRegions& found) {
+Result<std::vector<RegionFacets>> facets_of_regions(const BrepData& brep, const topology::FoundRegions& found,
+                                                    std::span<const InnerEdge> inner) {
     const auto stated = stated_regions(brep, found);
     if (stated.empty()) return cannot_fill("no region is closed by surfaces: there is nothing to fill");
     std::vector<RegionFacets> all(stated.size());
@@ -121,6 +123,7 @@ Result<std::vector<RegionFacets>> facets_of_regions(const BrepData& brep, const 
             }
         }
     }
+    for (const InnerEdge& edge : inner) all[edge.region].edges.push_back(edge.ends);
     for (RegionFacets& facets : all) number_vertices(brep, facets);
     std::ranges::stable_sort(all, {}, &RegionFacets::region);
     const auto repeat = std::ranges::adjacent_find(all, {}, &RegionFacets::region);

@@ -40,6 +40,17 @@ void fill_input(const WorkerFacets& facets, tetgenio& in) {
     }
 }
 
+void take_edges(const WorkerFacets& facets, tetgenio& in) {
+    if (facets.edges.empty()) return;
+    in.numberofedges = static_cast<int>(facets.edges.size());
+    in.edgelist = new int[2 * facets.edges.size()];
+    in.edgemarkerlist = new int[facets.edges.size()];
+    for (std::size_t e = 0; e < facets.edges.size(); ++e) {
+        for (std::size_t k = 0; k < 2; ++k) in.edgelist[2 * e + k] = static_cast<int>(facets.edges[e][k]);
+        in.edgemarkerlist[e] = 1;
+    }
+}
+
 /// Tetrahedra between points with sizes, from which TetGen interpolates those at its vertices.
 void take_sizes(const std::vector<SizedPoint>& sizes, tetgenio& background) {
     std::vector<Vec3> places;
@@ -114,6 +125,7 @@ int tetrahedra_worker(const std::vector<std::string>& arguments) {
         if (!behaviour.parse_commandline(switches.data())) return 1;
         tetgenio in, added, background, out;
         fill_input(*facets, in);
+        take_edges(*facets, in);
         std::vector<Vec3> points = facets->positions;
         if (behaviour.insertaddpoints != 0) take_points(facets->points, added);
         else points.insert(points.end(), facets->points.begin(), facets->points.end());

@@ -134,11 +134,14 @@ Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const Inside& insid
     }
     std::vector<Triangle> triangles = facets.triangles;
     for (Triangle& t : triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
+    auto edges = facets.edges;
+    for (auto& e : edges) e = {number[e[0]], number[e[1]]};
     std::vector<Vec3> more(inside.points.begin(), inside.points.end());
     for (Vec3& p : more) p = minus(p, origin);
     std::vector<SizedPoint> sizes = with_corners(inside.sizes, facets.positions);
     for (SizedPoint& s : sizes) s.place = minus(s.place, origin);
-    const MemoryFile file(worker_question({std::move(positions), std::move(triangles), std::move(more), std::move(sizes)}));
+    const MemoryFile file(
+        worker_question({std::move(positions), std::move(triangles), std::move(more), std::move(sizes), std::move(edges)}));
     if (!file.ok()) return failure(FailureKind::limit, "F023", {}, "not enough memory for what TetGen is to fill");
     WorkerJob job;
     job.command = limits.program.empty() ? std::vector<std::string>{this_program()} : limits.program;

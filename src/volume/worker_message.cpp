@@ -11,6 +11,8 @@ namespace geomend::volumes {
 namespace {
 
 using Counts = std::array<std::uint64_t, 2>;
+using Head = std::array<std::uint64_t, 3>;  ///< how many positions are those of facets, and the sizes of the first two messages
+using Edge = std::array<std::uint32_t, 2>;
 
 template <class Second>
 std::string message(std::span<const Vec3> first, std::span<const Second> second) {
@@ -60,23 +62,26 @@ std::string worker_question(const WorkerFacets& facets) {
         places.push_back(s.place);
         sizes.push_back(s.size);
     }
-    const Counts head{facets.positions.size(), first.size()};
+    const std::string second = message<double>(places, sizes);
+    const Head head{facets.positions.size(), first.size(), second.size()};
     std::string bytes(sizeof head, '\0');
     std::memcpy(bytes.data(), &head, sizeof head);
-    return bytes + first + message<double>(places, sizes);
+    return bytes + first + second + message<Edge>({}, facets.edges);
 }
 
 std::optional<WorkerFacets> worker_facets(std::string_view bytes) {
     WorkerFacets facets;
-    Counts head{};
+    Head head{};
     if (bytes.size() < sizeof head) return std::nullopt;
     std::memcpy(&head, bytes.data(), sizeof head);
     bytes.remove_prefix(sizeof head);
-    if (head[1] > bytes.size() || !parts(bytes.substr(0, head[1]), facets.positions, facets.triangles)) return std::nullopt;
-    std::vector<Vec3> places;
+    if (head[1] > bytes.size() || head[2] > bytes.size() - head[1]) return std::nullopt;
+    if (!parts(bytes.substr(0, head[1]), facets.positions, facets.triangles)) return std::nullopt;
+    std::vector<Vec3> places, none;
     std::vector<double> sizes;
-    if (head[0] > facets.positions.size() || !parts(bytes.substr(head[1]), places, sizes) || places.size() != sizes.size())
+    if (head[0] > facets.positions.size() || !parts(bytes.substr(head[1], head[2]), places, sizes) || places.size() != sizes.size())
         return std::nullopt;
+    if (!parts(bytes.substr(head[1] + head[2]), none, facets.edges) || !none.empty()) return std::nullopt;
     facets.points.assign(facets.positions.begin() + static_cast<std::ptrdiff_t>(head[0]), facets.positions.end());
     facets.positions.resize(head[0]);
     for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -85,6 +90,7 @@ std::optional<WorkerFacets> worker_facets(std::string_view bytes) {
     }
     if (!are_finite(facets.points) || !are_finite(places)) return std::nullopt;
     if (!are_finite(facets.positions) || !are_below<Triangle>(facets.triangles, facets.positions.size())) return std::nullopt;
+    if (!are_below<Edge>(facets.edges, facets.positions.size())) return std::nullopt;
     return facets;
 }
 

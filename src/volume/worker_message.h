@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,8 +23,9 @@ inline constexpr const char* out_of_memory = "it ran out of memory";
 struct WorkerFacets {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
-    std::vector<Vec3> points;       ///< that are to be vertices of cells, too
-    std::vector<SizedPoint> sizes;  ///< how long edges are to be
+    std::vector<Vec3> points;                         ///< that are to be vertices of cells, too
+    std::vector<SizedPoint> sizes;                    ///< how long edges are to be
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< that cells are to have, over the positions
 };
 
 std::string worker_question(const WorkerFacets& facets);

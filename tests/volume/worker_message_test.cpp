@@ -40,7 +40,8 @@ TEST(WorkerMessage, QuestionsAreReadAsTheyWereAsked) {
     const std::vector<Triangle> triangles = {{0, 1, 2}};
     const std::vector<Vec3> points = {{4, 5, 6}};
     const std::vector<SizedPoint> sizes = {{{7, 8, 9}, 0.5}, {{-1, 0, 2}, 3}};
-    const auto read = worker_facets(worker_question({positions, triangles, points, sizes}));
+    const std::vector<std::array<std::uint32_t, 2>> edges = {{0, 2}, {2, 1}};
+    const auto read = worker_facets(worker_question({positions, triangles, points, sizes, edges}));
     ASSERT_TRUE(read.has_value());
     ASSERT_EQ(read->sizes.size(), 2u);
     EXPECT_EQ(read->sizes[1].place, sizes[1].place);
@@ -48,9 +49,11 @@ TEST(WorkerMessage, QuestionsAreReadAsTheyWereAsked) {
     EXPECT_EQ(read->points, points);
     EXPECT_EQ(read->positions, positions);
     EXPECT_EQ(read->triangles, triangles);
+    EXPECT_EQ(read->edges, edges);
     const std::vector<Triangle> beyond = {{0, 1, 3}};
-    EXPECT_FALSE(worker_facets(worker_question({positions, beyond, points, sizes})).has_value());
-    EXPECT_FALSE(worker_facets(worker_question({positions, triangles, points, {{{7, 8, 9}, -1}}})).has_value());
+    EXPECT_FALSE(worker_facets(worker_question({positions, beyond, points, sizes, edges})).has_value());
+    EXPECT_FALSE(worker_facets(worker_question({positions, triangles, points, {{{7, 8, 9}, -1}}, edges})).has_value());
+    EXPECT_FALSE(worker_facets(worker_question({positions, triangles, points, sizes, {{0, 3}}})).has_value());
 }
 
 }  // namespace
