@@ -29,6 +29,15 @@ struct MeshOptions : CommonOptions {
     bool lossy = false, recombine = false;
 };
 
+/// How good the tetrahedra of a region are. Those that hexahedra are made of are not in the result: flat ones are wanted there.
+std::string quality_text(const volumes::FilledRegion& r) {
+    return ", least dihedral angle " + rounded(r.least_dihedral) + " degrees" +
+           (r.improvement.bad_after > 0 ? ", " + counted(r.improvement.bad_after, "bad cell", "bad cells") : std::string()) +
+           (r.narrow.all > 0 ? ", " + std::to_string(r.narrow.all) + " below 5 degrees (" + std::to_string(r.narrow.forced) +
+                                   " of them beside surfaces that are close or meet sharply)"
+                             : std::string());
+}
+
 /// One line for each region: what it holds, or why it is empty.
 std::string region_lines(const MeshReport& report, bool all_tries, const std::string& split) {
     std::string text = report.resized ? resize_text(*report.resized) : std::string();
@@ -36,13 +45,8 @@ std::string region_lines(const MeshReport& report, bool all_tries, const std::st
     for (const auto& r : report.regions) {
         text += "  region " + geomend::quoted(r.name) + ": ";
         if (r.filled()) {
-            text += counted(r.cells, "tetrahedron", "tetrahedra") + ", volume " + short_number(r.volume) + ", least dihedral angle " +
-                    rounded(r.least_dihedral) + " degrees" +
-                    (r.improvement.bad_after > 0 ? ", " + counted(r.improvement.bad_after, "bad cell", "bad cells") : std::string()) +
-                    (r.narrow.all > 0 ? ", " + std::to_string(r.narrow.all) + " below 5 degrees (" + std::to_string(r.narrow.forced) +
-                                            " of them beside surfaces that are close or meet sharply)"
-                                      : std::string()) +
-                    " (" + r.rung + ", " + rounded(r.seconds) + " s)\n";
+            text += counted(r.cells, "tetrahedron", "tetrahedra") + ", volume " + short_number(r.volume) +
+                    (report.recombined ? std::string() : quality_text(r)) + " (" + r.rung + ", " + rounded(r.seconds) + " s)\n";
         } else {
             text += "not filled\n";
         }
