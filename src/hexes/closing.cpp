@@ -504,10 +504,9 @@ private:
         }
         std::ranges::sort(border_edges_);
         is_simple_ = true;
-        for (std::size_t i = 0; i < border_edges_.size(); ++i) {
+        for (std::size_t i = 0; i < border_edges_.size(); i += 2) {
             const bool pairs = i + 1 < border_edges_.size() && border_edges_[i].first == border_edges_[i + 1].first;
             is_simple_ = is_simple_ && pairs && (i + 2 == border_edges_.size() || border_edges_[i].first != border_edges_[i + 2].first);
-            ++i;
         }
         std::ranges::sort(halves);
         for (std::size_t i = 0; i + 1 < halves.size(); ++i) {
