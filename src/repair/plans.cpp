@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <compare>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 
@@ -73,7 +74,9 @@ std::optional<SurfacePlan> welded_after_cut(const SurfacePlan& plan) {
 /// The same steps and, after the cut, what brings together what still lies within the tolerance; none where that is not what is left.
 std::optional<SurfacePlan> welded_at_the_end(const SurfacePlan& plan, const ErrorCounts& left) {
     const SurfaceStepRow& row = *surface_step("weld");
-    const bool helps = std::ranges::any_of(row.mends, [&](std::string_view code) { return left.contains(std::string(code)); });
+    // After a cut surfaces that overlap do so within the tolerance, which makes them one.
+    const bool helps =
+        left.contains("B20") || std::ranges::any_of(row.mends, [&](std::string_view code) { return left.contains(std::string(code)); });
     return helps ? welded_after_cut(plan) : std::nullopt;
 }
 
@@ -87,6 +90,20 @@ std::optional<SurfacePlan> filled_after_cut(const SurfacePlan& plan, const Surfa
     longer.steps.insert(std::ranges::find(longer.steps, "cut") + 1, "holes");
     longer.why += std::string(longer.why.empty() ? "" : "; ") + "holes are filled after the cut, too, which joins borders to others";
     return longer;
+}
+
+/// Adds the errors that are found by a tolerance larger than the one by rule, by which steps are judged: the result is looked at by both.
+Result<void> add_errors_as_asked(validators::CheckOptions checks, SurfaceRepair& repair) {
+    const Dataset& dataset = repair.result.dataset;
+    if (checks.tolerance < 0 || checks.tolerance <= topology::local_lengths(dataset, {}).largest.tolerance) return {};
+    checks.closing_tolerance = false;
+    const auto checked = validators::check_models(dataset, checks);
+    if (!checked) return checked.why();
+    for (const auto& [code, count] : errors_of(checked->findings)) {
+        std::uint64_t& known = repair.errors[code];
+        known = std::max(known, count);
+    }
+    return {};
 }
 
 std::string reason(double tolerance) {
@@ -217,11 +234,14 @@ std::vector<SurfacePlan> plans_for(const PlanFacts& facts) {
 Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Finding> before, std::span<const SurfacePlan> plans,
                                       const SurfaceDriverOptions& options, bool search) {
     std::optional<PlannedRepair> best;
-    const auto attempt = [&](const SurfacePlan& plan, std::optional<double> gap = {}) {
+    const auto attempt = [&](const SurfacePlan& plan, std::optional<double> gap = {}) -> Result<SurfaceRepair> {
         SurfaceDriverOptions own = options;
         if (plan.tolerance >= 0) own.checks.tolerance = plan.tolerance;
         if (gap) own.steps.max_gap = *gap;
-        return repair_surfaces(dataset, before, plan.steps, own);
+        auto repaired = repair_surfaces(dataset, before, plan.steps, own);
+        if (!repaired) return repaired;
+        if (auto added = add_errors_as_asked(options.checks, *repaired); !added) return std::move(added).why();
+        return repaired;
     };
     const auto is_better = [&](const SurfaceRepair& repair) { return !best || left_by(repair) < left_by(best->repair); };
     for (const SurfacePlan& plan : plans) {

@@ -43,9 +43,9 @@ struct PlannedRepair {
 };
 
 /// Takes the steps of one plan after the other until a model has no errors and is closed where it should be. Of several that end
-/// worse the best is taken: with fewest errors, then fewest borders that nearly meet a surface, the earlier one of equals. As
-/// repair_surfaces() for each. \pre there is a plan \param search where none of them mends it, the lengths at which border points come
-/// together are looked for, and tried
+/// worse the best is taken: with fewest errors, by rule and by a larger tolerance that was asked for, then fewest borders that nearly meet
+/// a surface, the earlier one of equals. As repair_surfaces() for each. \pre there is a plan \param search where none of them mends it, the
+/// lengths at which border points come together are looked for, and tried
 Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Finding> before, std::span<const SurfacePlan> plans,
                                       const SurfaceDriverOptions& options, bool search);
 

@@ -48,7 +48,7 @@ struct SurfaceRepair {
     std::vector<SurfaceStepDone> steps;
     topology::Lengths lengths;           ///< by which the model was mended and judged
     std::vector<std::uint32_t> objects;  ///< of the Dataset that the result takes the place of, ascending
-    ErrorCounts errors;                  ///< that are left, by the tolerance that the model was judged at
+    ErrorCounts errors;                  ///< that are left, by the tolerance that the model was judged at; see also repair_by_plans()
     std::uint64_t near_misses = 0;       ///< borders that still nearly meet a surface
     bool should_close = false;           ///< it had regions, or surfaces that are stated to bound it, or an error said that it is open
     bool closed = false;                 ///< it has a region

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -22,12 +23,18 @@ void PrintTo(const Faults& faults, std::ostream* out) { *out << faults.what; }
 
 class RealFaults : public ::testing::TestWithParam<Faults> {};
 
+/// The command that repairs some faults.
+std::vector<std::string> repair_of(const Faults& faults, const std::filesystem::path& folder) {
+    std::vector<std::string> words{"repair"};
+    for (const std::string& name : faults.names) words.push_back((folder / (name + "_2000m.ts")).string());
+    return words;
+}
+
 TEST_P(RealFaults, InABoxBecomeASealedModel) {
     const auto folder = real_data("gocad/scec_cfm7_2000m");
     if (!folder) GTEST_SKIP() << "no real data";
     const TemporaryFolder out;
-    std::vector<std::string> words{"repair"};
-    for (const std::string& name : GetParam().names) words.push_back((*folder / (name + "_2000m.ts")).string());
+    auto words = repair_of(GetParam(), *folder);
     const std::string sealed = (out / "sealed.ml").string();
     words.insert(words.end(), {"--box", "auto", "--max-gap", "200", "-o", sealed});
     const ProgramRun repaired = run_geomend(words);
@@ -52,6 +59,31 @@ INSTANTIATE_TEST_SUITE_P(
                               "PNRA-SJFZ-SSMT-West_Mesa_fault-CFM5", "PNRA-CRSF-ALCM-Sawtooth_Range_fault-CFM4",
                               "PNRA-CRSF-PGWS-Painted_Gorge_Wash_fault-CFM4", "PNRA-SJFZ-ANZA-Clark_fault_south_east-CFM4"}}),
     [](const auto& info) { return std::string(info.param.what); });
+
+// Steps are judged by the tolerance by rule, the result also by one that was asked for: what is found by that alone is mended, too.
+class RealFaultsAndATolerance : public ::testing::TestWithParam<Faults> {};
+
+TEST_P(RealFaultsAndATolerance, AreSoundByThatOne) {
+    const auto folder = real_data("gocad/scec_cfm7_2000m");
+    if (!folder) GTEST_SKIP() << "no real data";
+    const TemporaryFolder out;
+    auto words = repair_of(GetParam(), *folder);
+    const std::string sealed = (out / "sealed.ml").string(), tolerance = "0.5";
+    words.insert(words.end(), {"--box", "auto", "--max-gap", "100", "--tolerance", tolerance, "-o", sealed});
+    const ProgramRun repaired = run_geomend(words);
+    ASSERT_EQ(repaired.status, 0) << repaired.out << repaired.err;
+    EXPECT_EQ(run_geomend({"validate", sealed}).status, 0);
+    const ProgramRun valid = run_geomend({"validate", sealed, "--tolerance", tolerance});
+    EXPECT_EQ(valid.status, 0) << valid.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfCalifornia, RealFaultsAndATolerance,
+                         ::testing::Values(Faults{"EarthquakeValley",
+                                                  {"PNRA-ATEV-MULT-Agua_Tibia_Earthquake_Valley_fault_east-CFM4",
+                                                   "PNRA-ATEV-MULT-Agua_Tibia_Earthquake_Valley_fault_main-CFM4",
+                                                   "PNRA-ATEV-MULT-Agua_Tibia_Earthquake_Valley_fault_west-CFM4"}},
+                                           Faults{"GreatValley", {"GVFA-CGVT-DlS5-Great_Valley-CFM7", "GVFA-CGVT-ENGH-Great_Valley-CFM7"}}),
+                         [](const auto& info) { return std::string(info.param.what); });
 
 }  // namespace
 }  // namespace geomend::test
