@@ -85,7 +85,7 @@ Result<StepOutcome> weld_borders(SurfaceModel& model, const SurfaceStepOptions& 
         LaidBorders laid = lay_borders(model.model.soup, model.lengths.tolerance);
         const std::uint64_t changed = laid.moved + laid.made + laid.dropped;
         if (round > 0 && changed == 0) break;
-        auto cut = arranged(laid.soup, model, options, arrangement::ArrangeOptions().reach, round == 0);
+        auto cut = arranged(laid.soup, model, options, arrangement::ArrangeOptions().reach, true);
         if (!cut) return std::move(cut).why();
         if (round > 0 && !cut->clean) break;
         const auto became = std::span(cut->becomes).first(model.model.soup.vertices.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 #include <string>
@@ -84,6 +85,22 @@ INSTANTIATE_TEST_SUITE_P(OfCalifornia, RealFaultsAndATolerance,
                                                    "PNRA-ATEV-MULT-Agua_Tibia_Earthquake_Valley_fault_west-CFM4"}},
                                            Faults{"GreatValley", {"GVFA-CGVT-DlS5-Great_Valley-CFM7", "GVFA-CGVT-ENGH-Great_Valley-CFM7"}}),
                          [](const auto& info) { return std::string(info.param.what); });
+
+// Faults that lie so near each other that a weld of all does not settle: borders are laid and cut twice, both times in sheets where a cut
+// does not settle; without these in the second round one error more is left.
+TEST(RealFaultsSoNear, AreWeldedByTheirBordersTwice) {
+    const auto folder = real_data("gocad/scec_cfm7_2000m");
+    if (!folder) GTEST_SKIP() << "no real data";
+    std::vector<std::string> words{"repair"};
+    for (const auto& file : std::filesystem::directory_iterator(*folder)) {
+        if (file.path().filename().string().starts_with("OCBA-")) words.push_back(file.path().string());
+    }
+    std::ranges::sort(words.begin() + 1, words.end());
+    const TemporaryFolder out;
+    words.insert(words.end(), {"--box", "auto", "--max-gap", "100", "--tolerance", "0.16", "-o", (out / "sealed.ml").string(), "--json"});
+    const auto result = nlohmann::json::parse(run_geomend(words).out, nullptr, false);
+    EXPECT_LE(result["report"]["files"][0]["counts"]["error"], 2);
+}
 
 }  // namespace
 }  // namespace geomend::test
