@@ -8,6 +8,7 @@
 #include "formats/meshes/read_tetgen.h"
 #include "formats/meshes/write_abaqus.h"
 #include "formats/meshes/write_code_aster.h"
+#include "formats/meshes/write_csmp.h"
 #include "formats/meshes/write_exodus.h"
 #include "formats/meshes/write_feflow.h"
 #include "formats/meshes/write_gprs.h"
@@ -28,7 +29,8 @@ constexpr std::string_view medit_extensions[] = {".mesh", ".meshb"}, tetgen_exte
                            abaqus_extensions[] = {".inp"}, code_aster_extensions[] = {".mail"}, openfoam_extensions[] = {".foam"},
                            pflotran_extensions[] = {".uge"}, modflow_extensions[] = {".disu"}, ucd_extensions[] = {".ucd", ".avs"},
                            mfem_extensions[] = {".mfem"}, exodus_extensions[] = {".exo", ".e", ".ex2", ".g"},
-                           feflow_extensions[] = {".fem"}, gprs_extensions[] = {".gprs"}, tough2_extensions[] = {".tough2"};
+                           feflow_extensions[] = {".fem"}, csmp_extensions[] = {".asc"}, gprs_extensions[] = {".gprs"},
+                           tough2_extensions[] = {".tough2"};
 constexpr std::string_view tried = "fixtures and clients: no real file was found",
                            tried_by_readers_of_tests = "fixtures only: no client was at hand";
 
@@ -91,6 +93,19 @@ constexpr Format code_aster_row() {
     Format format = row("code-aster", "Code_Aster: elements split along faults, and groups of elements and nodes", code_aster_extensions,
                         "substance: polyhedra, second order, attributes, points, grids, wells; identity: names that are no words of 24 "
                         "characters, roles, units, coordinate system");
+    format.keeps.fault_faces = Keeping::yes;
+    format.keeps.names = Keeping::partly;
+    format.keeps.exact_coordinates = Keeping::yes;
+    format.tried_on = tried_by_readers_of_tests;
+    return format;
+}
+
+constexpr Format csmp_row() {
+    Format format = row(
+        "csmp", "CSMP++: families of elements for regions, surfaces and lines, with their neighbours, in .asc, .dat and -regions.txt",
+        csmp_extensions,
+        "substance: polyhedra, second order, further sets on the same faces, node sets, attributes, points, grids; identity: names that "
+        "are no words or twice, sides, roles, units, coordinate system");
     format.keeps.fault_faces = Keeping::yes;
     format.keeps.names = Keeping::partly;
     format.keeps.exact_coordinates = Keeping::yes;
@@ -164,6 +179,7 @@ constexpr std::array rows = {
     abaqus_row(),
     ucd_row(),
     code_aster_row(),
+    csmp_row(),
     exodus_row(),
     feflow_row(),
     network_row(
@@ -181,6 +197,7 @@ constexpr std::array rows = {
 constexpr std::array mesh_rows = {MeshFormat{"abaqus", "abaqus", write_abaqus},
                                   MeshFormat{"avs-ucd", "avs-ucd", write_ucd},
                                   MeshFormat{"code-aster", "code-aster", write_code_aster},
+                                  MeshFormat{"csmp", "csmp", write_csmp},
                                   MeshFormat{"exodus", "exodus", write_exodus},
                                   MeshFormat{"feflow", "feflow", write_feflow},
                                   MeshFormat{"gprs", "gprs", write_gprs},
