@@ -122,7 +122,7 @@ ExitStatus run(const MeshOptions& o) {
     if (resizes && method == "lattice")
         return report(
             failure(FailureKind::usage, "F018", {}, "--method lattice has cells of one size: --resize-by needs isotropic, cvt or keep"));
-    if ((method == "isotropic" || method == "cvt") && !(o.size > 0) && !resizes)
+    if ((method == "isotropic" || method == "frontal" || method == "cvt") && !(o.size > 0) && !resizes)
         return report(failure(FailureKind::usage, "F018", {}, "--method " + method + " needs --size, the length that edges should have"));
     if (hexes && !(o.sizes.size_of.empty() && o.sizes.size_by.empty()))
         return report(
@@ -138,7 +138,7 @@ ExitStatus run(const MeshOptions& o) {
     if (auto taken = take_sizes(o.sizes, sizes); !taken) return report(taken.why());
     const bool by_curvature = std::ranges::any_of(
         sizes.size_by, [](const remeshing::SizeRule& rule) { return rule.kind != remeshing::SizeRule::Kind::distance; });
-    if (by_curvature && method != "isotropic" && method != "cvt")
+    if (by_curvature && method != "isotropic" && method != "frontal" && method != "cvt")
         return report(failure(FailureKind::usage, "F018", {},
                               "--size-by curvature and property give sizes to surfaces: they need --method isotropic or cvt"));
     const ThreadBudget budget(o.threads);
@@ -212,16 +212,17 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
         ->type_name("L")
         ->check(is_positive_length());
     command
-        ->add_option(
-            "--method", o->method,
-            "What becomes of surfaces: keep (default) leaves them as they are; isotropic and cvt give them new triangles of --size first; "
-            "lattice (default for hex-dominant) makes halves of squares of them that agree with cells inside")
+        ->add_option("--method", o->method,
+                     "What becomes of surfaces: keep (default) leaves them as they are; isotropic, frontal and cvt give them new triangles "
+                     "of --size first; "
+                     "lattice (default for hex-dominant) makes halves of squares of them that agree with cells inside")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"keep", "isotropic", "cvt", "lattice"}));
+        ->check(CLI::IsMember({"keep", "isotropic", "frontal", "cvt", "lattice"}));
     command
-        ->add_option("--max-distance", o->max_distance,
-                     "Largest distance between new and old surfaces with --method isotropic, cvt or lattice (default: a tenth of the size, "
-                     "1/200 of the model at most)")
+        ->add_option(
+            "--max-distance", o->max_distance,
+            "Largest distance between new and old surfaces with --method isotropic, frontal, cvt or lattice (default: a tenth of the size, "
+            "1/200 of the model at most)")
         ->type_name("L")
         ->check(is_positive_length());
     add_size_options(*command, o->sizes);

@@ -115,9 +115,9 @@ void add_remesh(CLI::App& program, ExitStatus& status) {
     command
         ->add_option("--method", o->method,
                      "How: isotropic (default): edges are split, collapsed and turned; cvt: vertices become the centroids of their Voronoi "
-                     "cells, with better shapes in a longer time; keep: not at all")
+                     "cells, with better shapes in a longer time; frontal: equilateral triangles from lines inwards; keep: not at all")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"keep", "isotropic", "cvt"}));
+        ->check(CLI::IsMember({"keep", "isotropic", "frontal", "cvt"}));
     add_size_options(*command, o->sizes);
     command->add_option("--growth", o->growth, "Sizes grow by no more than this share of the way (default 0.3, with cvt 0.1)")
         ->type_name("SHARE")

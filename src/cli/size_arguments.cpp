@@ -87,6 +87,7 @@ void add_size_options(CLI::App& command, SizeArguments& arguments) {
 std::optional<remeshing::Method> surface_method(const std::string& word) {
     if (word == "keep") return remeshing::Method::keep;
     if (word == "isotropic") return remeshing::Method::isotropic;
+    if (word == "frontal") return remeshing::Method::frontal;
     if (word == "cvt") return remeshing::Method::centroidal;
     return std::nullopt;
 }

@@ -39,17 +39,17 @@ double shape_on_edge(const EdgeMesh& mesh, std::uint32_t h, const Vec3& p) {
     return worst_shape(guard, std::array<std::array<Vec3, 3>, 4>{{{a, p, c}, {p, b, c}, {b, p, d}, {p, a, d}}});
 }
 
-/// Puts a point of the surface into the mesh, which is the surface still, only finer: into a triangle or onto one of its edges, whichever
-/// makes the better triangles. A vertex that is there already stays.
-void put_point(WorkSurface& work, const SurfacePoint& point) {
+}  // namespace
+
+std::uint32_t put_vertex(WorkSurface& work, const SurfacePoint& point, std::uint32_t from_triangle) {
     const EdgeMesh& mesh = work.mesh;
-    const SurfacePoint at = closest_point(mesh, point.place, point.triangle);
+    const SurfacePoint at = closest_point(mesh, point.place, from_triangle);
     const std::uint32_t h = 3 * at.triangle;
     const auto greatest = static_cast<std::uint32_t>(std::ranges::max_element(at.weights) - at.weights.begin());
     if (at.weights[greatest] > 1 - 1e-6) {
         const std::uint32_t v = mesh.corners[h + greatest];
         if (work.kinds[v] == VertexKind::inner) work.kinds[v] = VertexKind::fixed;
-        return;
+        return v;
     }
     double best = shape_in_triangle(mesh, at.triangle, point.place);
     std::uint32_t edge = no_index;
@@ -60,10 +60,12 @@ void put_point(WorkSurface& work, const SurfacePoint& point) {
         best = shape;
         edge = e;
     }
-    if (!(best > 1e-9)) return;
-    if (edge != no_index) add_on_edge(work, edge, point.place, point, VertexKind::fixed);
-    else add_in_triangle(work, at.triangle, point.place, point, VertexKind::fixed);
+    if (!(best > 1e-9)) return no_index;
+    return edge != no_index ? add_on_edge(work, edge, point.place, point, VertexKind::fixed)
+                            : add_in_triangle(work, at.triangle, point.place, point, VertexKind::fixed);
 }
+
+namespace {
 
 /// The worst shape of the triangles around a vertex where it gives way to another one; 0 where one of them folds.
 double shape_without(const WorkSurface& work, std::uint32_t gone, std::uint32_t stays) {
@@ -139,14 +141,7 @@ void choose_diagonals(WorkSurface& work, const Pattern& pattern, std::uint32_t s
 
 }  // namespace
 
-void remesh_to_pattern(WorkSurface& work, const Pattern& pattern, std::uint32_t surface, double size) {
-    std::vector<Vec3> taken;
-    for (std::uint32_t v = 0; v < work.reference->places.size(); ++v) {
-        if (work.kinds[v] != VertexKind::inner || work.reference_sizes.at[v] >= 0.9 * size) continue;
-        work.kinds[v] = VertexKind::fixed;
-        taken.push_back(work.reference->places[v]);
-    }
-    for (const SurfacePoint& point : pattern.on_surface(surface, *work.reference, taken)) put_point(work, point);
+void leave_fixed_vertices(WorkSurface& work) {
     for (const double least_shape : {0.2, 0.05, 0.01, 0.001}) {
         std::size_t gone = 1;
         for (int again = 0; again < 10 && gone > 0; ++again) {
@@ -155,6 +150,17 @@ void remesh_to_pattern(WorkSurface& work, const Pattern& pattern, std::uint32_t 
         }
     }
     flip_all(work);
+}
+
+void remesh_to_pattern(WorkSurface& work, const Pattern& pattern, std::uint32_t surface, double size) {
+    std::vector<Vec3> taken;
+    for (std::uint32_t v = 0; v < work.reference->places.size(); ++v) {
+        if (work.kinds[v] != VertexKind::inner || work.reference_sizes.at[v] >= 0.9 * size) continue;
+        work.kinds[v] = VertexKind::fixed;
+        taken.push_back(work.reference->places[v]);
+    }
+    for (const SurfacePoint& point : pattern.on_surface(surface, *work.reference, taken)) put_vertex(work, point, point.triangle);
+    leave_fixed_vertices(work);
     if (pattern.is_better) choose_diagonals(work, pattern, surface);
 }
 

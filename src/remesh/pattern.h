@@ -25,4 +25,12 @@ struct Pattern {
 /// been lowered below `size`. Results depend on the input alone. Cost: linear for each of a few rounds.
 void remesh_to_pattern(WorkSurface& work, const Pattern& pattern, std::uint32_t surface, double size);
 
+/// Puts a point of the surface into the mesh, which is the surface still, only finer: into a triangle or onto one of its edges, whichever
+/// makes the better triangles. A vertex that is there already stays. \param point on the reference \param from_triangle of the mesh, near
+/// it \return the vertex, which is fixed; no_index: only triangles without area would be there
+std::uint32_t put_vertex(WorkSurface& work, const SurfacePoint& point, std::uint32_t from_triangle);
+
+/// Lets all vertices give way that are not fixed, as far as shapes allow, and turns edges towards Delaunay triangles.
+void leave_fixed_vertices(WorkSurface& work);
+
 }  // namespace geomend::remeshing

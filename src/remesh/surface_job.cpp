@@ -11,6 +11,7 @@
 #include "base/vectors.h"
 #include "remesh/centroidal.h"
 #include "remesh/crossings.h"
+#include "remesh/frontal.h"
 #include "remesh/isotropic.h"
 
 namespace geomend::remeshing {
@@ -268,6 +269,7 @@ NewSurface remeshed_surface(const BrepData& brep, std::uint32_t s, const LinePla
     work.monitor = rules.monitor;
     if (rules.pattern != nullptr) remesh_to_pattern(work, *rules.pattern, s, rules.size);
     else if (rules.method == Method::centroidal) remesh_centroidal(work, {});
+    else if (rules.method == Method::frontal) remesh_frontal(work, {});
     else remesh_isotropic(work, {});
     if (work.stopped()) return keep("stopped");
     if (work.mesh.triangle_count() >= work.most_triangles)

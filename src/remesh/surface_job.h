@@ -36,9 +36,10 @@ struct NewSurface {
 
 /// How surfaces get new triangles.
 enum class Method : std::uint8_t {
-    keep,       ///< they have none: all stays as it is
-    isotropic,  ///< remesh_isotropic()
-    centroidal  ///< remesh_centroidal()
+    keep,        ///< they have none: all stays as it is
+    isotropic,   ///< remesh_isotropic()
+    centroidal,  ///< remesh_centroidal()
+    frontal      ///< remesh_frontal()
 };
 
 struct SurfaceRules {

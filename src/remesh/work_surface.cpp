@@ -9,9 +9,6 @@
 
 namespace geomend::remeshing {
 
-namespace {
-
-/// The size at a point of the reference.
 double size_at(const WorkSurface& work, const SurfacePoint& at) {
     const VertexSizes& sizes = work.reference_sizes;
     double between = 0, most = 0, grown = HUGE_VAL;
@@ -25,8 +22,6 @@ double size_at(const WorkSurface& work, const SurfacePoint& at) {
     const double size = std::max(between, std::min(most, grown));
     return sizes.limit != nullptr ? std::min(size, (*sizes.limit)(at.place)) : size;
 }
-
-}  // namespace
 
 WorkSurface work_surface(const EdgeMesh& reference, const VertexSizes& sizes) {
     WorkSurface work;

@@ -36,6 +36,9 @@ struct WorkSurface {
     bool stopped_at(std::uint32_t item) const { return (item & 0xfff) == 0 && stopped(); }
 };
 
+/// The size at a point of the reference.
+double size_at(const WorkSurface& work, const SurfacePoint& at);
+
 /// The reference as it is, all vertices inner ones but those on borders, which are old.
 WorkSurface work_surface(const EdgeMesh& reference, const VertexSizes& sizes);
 

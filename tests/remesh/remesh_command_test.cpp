@@ -213,6 +213,22 @@ TEST(Remesh, CentroidsKeepTheModelAndMakeBetterTriangles) {
     EXPECT_EQ(run_geomend({"validate", out}).status, 0);
 }
 
+TEST(Remesh, FrontsKeepTheModelAndMakeBetterTriangles) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.ml";
+    const json even = remesh(sample("layered_box.ml"), folder / "even.ml", {"--size", "40"});
+    const json report = remesh(sample("layered_box.ml"), out, {"--size", "40", "--method", "frontal"});
+    ASSERT_TRUE(report.is_object() && report["written"] == true && even["written"] == true);
+    const json &after = report["models"][0]["after"], &other = even["models"][0]["after"];
+    EXPECT_EQ(report["models"][0]["entities"], report["models"][0]["entities_after"]);
+    EXPECT_GT(after["mean_quality"].get<double>(), other["mean_quality"].get<double>());
+    EXPECT_GE(after["above_30"].get<double>(), 0.99);
+    EXPECT_LE(report["models"][0]["distance"]["hausdorff"].get<double>(), report["models"][0]["max_distance"].get<double>());
+    EXPECT_EQ(run_geomend({"validate", out}).status, 0);
+    const auto filled = run_geomend({"mesh", sample("layered_box.ml"), "-o", folder / "out.vtu", "--size", "80", "--method", "frontal"});
+    EXPECT_EQ(filled.status, 0) << filled.err;
+}
+
 TEST(Remesh, ANumberOfSitesIsThatOfVerticesInsideOfSurfaces) {
     const TemporaryFolder folder;
     for (const std::string method : {"isotropic", "cvt"}) {
