@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
@@ -11,89 +10,11 @@
 #include "geometry/closest_points.h"
 #include "geometry/site_grid.h"
 #include "geometry/triangle_tree.h"
+#include "hexes/main_axes.h"
 
 namespace geomend::hexes {
 
 namespace {
-
-using Axes = std::array<Vec3, 3>;
-
-/// Sum over triangles of area times n(x)n(x)n(x)n, for their normals n.
-struct NormalMoments {
-    std::array<double, 81> sums{};
-    double area = 0;
-
-    void add(const std::array<Vec3, 3>& t) {
-        Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-        const double twice = std::sqrt(dot(n, n));
-        if (!(twice > 0)) return;
-        n = times(1 / twice, n);
-        area += twice;
-        for (std::size_t i = 0; i < 81; ++i) sums[i] += twice * n[i / 27] * n[i / 9 % 3] * n[i / 3 % 3] * n[i % 3];
-    }
-    /// Sum of area times (n.a)^3 n.
-    Vec3 pull(const Vec3& a) const {
-        Vec3 sum{};
-        for (std::size_t i = 0; i < 81; ++i) sum[i / 27] += sums[i] * a[i / 9 % 3] * a[i / 3 % 3] * a[i % 3];
-        return sum;
-    }
-    double fit(const Axes& axes) const {
-        double sum = 0;
-        for (const Vec3& a : axes) sum += dot(a, pull(a));
-        return sum;
-    }
-};
-
-/// The rotation nearest to three directions (Newton's iteration for the polar decomposition). \pre they span space
-Axes nearest_rotation(Axes m) {
-    for (int round = 0; round < 60; ++round) {
-        const Vec3 c0 = cross(m[1], m[2]), c1 = cross(m[2], m[0]), c2 = cross(m[0], m[1]);
-        const double det = dot(m[0], c0);
-        const Axes inverse{times(1 / det, c0), times(1 / det, c1), times(1 / det, c2)};
-        double change = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 half = times(0.5, plus(m[k], inverse[k]));
-            const Vec3 d = minus(half, m[k]);
-            change = std::max(change, dot(d, d));
-            m[k] = half;
-        }
-        if (change < 1e-30) break;
-    }
-    return m;
-}
-
-Axes climbed(const NormalMoments& moments, Axes axes) {
-    for (int round = 0; round < 200; ++round) {
-        Axes pulled;
-        for (std::size_t k = 0; k < 3; ++k) pulled[k] = plus(times(1 / moments.area, moments.pull(axes[k])), times(1e-2, axes[k]));
-        const Axes next = nearest_rotation(pulled);
-        double change = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 d = minus(next[k], axes[k]);
-            change = std::max(change, dot(d, d));
-        }
-        axes = next;
-        if (change < 1e-26) break;
-    }
-    return axes;
-}
-
-Axes turned(double about_z, double tilt) {
-    const double c = std::cos(about_z), s = std::sin(about_z), u = std::cos(tilt), w = std::sin(tilt);
-    return {{{c, s, 0}, {-s * u, c * u, w}, {s * w, -c * w, u}}};
-}
-
-/// The axes in the order and with the signs that bring them closest to x, y and z.
-Axes named(Axes axes) {
-    const auto by_axis = [&](std::size_t k) { return [k](const Vec3& a, const Vec3& b) { return std::abs(a[k]) < std::abs(b[k]); }; };
-    std::iter_swap(axes.begin() + 2, std::max_element(axes.begin(), axes.end(), by_axis(2)));
-    if (std::abs(axes[1][0]) > std::abs(axes[0][0])) std::swap(axes[0], axes[1]);
-    for (std::size_t k : {2, 0}) {
-        if (axes[k][k] < 0) axes[k] = times(-1, axes[k]);
-    }
-    axes[1] = cross(axes[2], axes[0]);
-    return axes;
-}
 
 /// A number from -1 to 1 that seems to be random.
 double scattered(std::uint64_t seed) {
@@ -132,6 +53,7 @@ std::vector<Crossing> crossings_of(const volumes::RegionFacets& facets, const La
         const std::array<Vec3, 3> p{at[t[0]], at[t[1]], at[t[2]]};
         const auto [low_u, high_u] = std::minmax({p[0][0], p[1][0], p[2][0]});
         const auto [low_v, high_v] = std::minmax({p[0][1], p[1][1], p[2][1]});
+        const auto [low_w, high_w] = std::minmax({p[0][2], p[1][2], p[2][2]});
         const Vec3 n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
         if (n[2] == 0) continue;
         const Vec3 normal{n[0] / lattice.steps[0], n[1] / lattice.steps[1], n[2] / lattice.steps[2]};
@@ -142,7 +64,9 @@ std::vector<Crossing> crossings_of(const volumes::RegionFacets& facets, const La
                 unsigned left = 0;
                 for (std::size_t k = 0; k < 3; ++k) left += is_left(p[k], p[(k + 1) % 3], t[k], t[(k + 1) % 3], u, v) ? 1 : 0;
                 if (left != 0 && left != 3) continue;
-                all.push_back({i, j, p[0][2] - (n[0] * (u - p[0][0]) + n[1] * (v - p[0][1])) / n[2], across});
+                // The height is that of the column itself, which may be an edge or a corner of the triangle.
+                const double du = static_cast<double>(i) - p[0][0], dv = static_cast<double>(j) - p[0][1];
+                all.push_back({i, j, std::clamp(p[0][2] - (n[0] * du + n[1] * dv) / n[2], low_w, high_w), across});
             }
         }
     }
@@ -211,31 +135,6 @@ Vec3 Lattice::place(const Vec3& c) const {
 }
 
 double Lattice::least_step() const { return std::min({steps[0], steps[1], layers ? layers->least_height() * base_step : steps[2]}); }
-
-std::array<Vec3, 3> main_axes(const BrepData& brep) {
-    NormalMoments moments;
-    for (const auto& surface : brep.surfaces) {
-        for (std::size_t p = 0; p < surface.polygons.size(); ++p) {
-            const auto polygon = surface.polygons[p];
-            const auto at = [&](std::size_t k) { return brep.vertices[surface.nodes[polygon[k]].value]; };
-            for (std::size_t k = 1; k + 1 < polygon.size(); ++k) moments.add({at(0), at(k), at(k + 1)});
-        }
-    }
-    Axes best{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    if (!(moments.area > 0)) return best;
-    best = climbed(moments, best);
-    double most = moments.fit(best);
-    for (int turn = 0; turn < 6; ++turn) {
-        for (int tilt = 0; tilt < 3; ++tilt) {
-            const Axes axes = climbed(moments, turned(turn * std::numbers::pi / 12 + 0.01, tilt * std::numbers::pi / 6));
-            const double fit = moments.fit(axes);
-            if (fit <= most * (1 + 1e-9)) continue;
-            most = fit;
-            best = axes;
-        }
-    }
-    return named(best);
-}
 
 namespace {
 

@@ -27,10 +27,6 @@ struct Lattice {
     double least_step() const;
 };
 
-/// The directions at right angles that the normals of a model's surfaces follow best: those of a box's sides, however it is turned.
-/// They are named so that they are close to x, y and z. Cost: linear in triangles.
-std::array<Vec3, 3> main_axes(const BrepData& brep);
-
 /// The lattice along the main axes that parts the model's extent along each of them into equal steps near `size`.
 /// \param size 0: the median edge of the triangles, by area
 Lattice lattice_of(const BrepData& brep, double size);

@@ -228,8 +228,9 @@ void visit_crossings(const std::array<Vec3, 3>& at, std::size_t axis, const Visi
 }  // namespace
 
 std::vector<LineSample> lattice_line(const Lattice& lattice, std::span<const Vec3> points, const LineRules& rules) {
-    const Polyline line(points);
-    const double step = lattice.least_step();
+    std::vector<Vec3> at;
+    for (const Vec3& p : points) at.push_back(lattice.coordinates(p));
+    const Polyline line(at);  // its way is in steps, whatever their lengths
     std::vector<LineSample> stays;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         if (i == 0 || i + 1 == points.size() || (!rules.stays.empty() && rules.stays[i] != 0)) stays.push_back({i, 0});
@@ -239,15 +240,15 @@ std::vector<LineSample> lattice_line(const Lattice& lattice, std::span<const Vec
     auto next = crossings.begin();
     const auto part_gap = [&](const LineSample& to) {
         const double from = line.way(spaced.back()), gap = line.way(to) - from;
-        const double parts = std::round(gap / step);
-        for (double k = 1; gap > 1.5 * step && k < parts; ++k) spaced.push_back(line.at(from + k * gap / parts));
+        const double parts = std::round(gap);
+        for (double k = 1; gap > 1.5 && k < parts; ++k) spaced.push_back(line.at(from + k * gap / parts));
         spaced.push_back(to);
     };
     for (std::size_t s = 1; s < stays.size(); ++s) {
         const double end = line.way(stays[s]);
         for (; next != crossings.end() && line.way(*next) < end; ++next) {
             const double way = line.way(*next);
-            if (way - line.way(spaced.back()) >= clear * step && end - way >= clear * step) part_gap(*next);
+            if (way - line.way(spaced.back()) >= clear && end - way >= clear) part_gap(*next);
         }
         part_gap(stays[s]);
     }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "exchange/empty_regions.h"
+#include "geometry/predicates.h"
 #include "volume/region_cells.h"
 #include "volume/region_facets.h"
 #include "volume/well_pieces.h"
@@ -30,6 +32,7 @@ struct Rung {
     VertexOrder order;
     bool has_shapes = false;  ///< and sizes, or points, as asked for
     bool has_points = false, has_sizes = false;
+    bool moves_points = false;  ///< a little, so that no four of them lie in a plane
 };
 
 /// The volume of a regular tetrahedron.
@@ -52,8 +55,14 @@ std::vector<Rung> rungs_for(double edge, const FillOptions& options, bool with_p
         const std::string all = options.improve ? "QpYMT1e-14" : "QpYMT1e-14O0/0", later = all + "i";
         // Inserted later, points crash TetGen more often than when they are there from the start.
         rungs.push_back({"tetgen pY, points from the start", all, {}, true, true});
-        rungs.push_back({"tetgen pY, points inserted", later, {}, true, true});
-        rungs.push_back({"tetgen pY, points inserted, shuffled", later, {1}, true, true});
+        for (const bool moves : {false, true}) {
+            const char* name = moves ? "tetgen pY, points moved a little and inserted" : "tetgen pY, points inserted";
+            const char* shuffled =
+                moves ? "tetgen pY, points moved a little and inserted, shuffled" : "tetgen pY, points inserted, shuffled";
+            rungs.push_back({name, later, {}, true, true, false, moves});
+            for (std::uint32_t shuffle = 1; shuffle <= 3; ++shuffle)
+                rungs.push_back({shuffled, later, {shuffle}, true, true, false, moves});
+        }
     }
     const bool with_sizes = static_cast<bool>(options.sizes);
     if (with_sizes) {
@@ -77,13 +86,44 @@ struct OneRegion {
     std::optional<Failure> stopped;
 };
 
+/// Points some thousandths of an edge beside where they were. The same for the same points and seed.
+std::vector<Vec3> moved_a_little(std::span<const Vec3> points, double edge, std::uint32_t seed) {
+    std::vector<Vec3> moved(points.begin(), points.end());
+    std::minstd_rand random(seed + 1);
+    for (Vec3& p : moved) {
+        for (double& x : p) x += 5e-3 * edge * (static_cast<double>(random()) / std::minstd_rand::max() - 0.5);
+    }
+    return moved;
+}
+
+/// Cells as TetGen has wound them, without those that lie flat on two facets: points of a lattice are even there but for rounding, and
+/// such cells have no volume, or are turned over.
+Tetrahedra without_flats(const RegionFacets& facets, Tetrahedra all) {
+    const std::size_t known = facets.positions.size();
+    const auto at = [&](std::uint32_t v) { return v < known ? facets.positions[v] : all.new_vertices[v - known]; };
+    double sum = 0;
+    for (const auto& c : all.cells) sum += six_volumes(at(c[0]), at(c[1]), at(c[2]), at(c[3]));
+    RegionCells cells;
+    cells.new_vertices = std::move(all.new_vertices);
+    cells.cells = std::move(all.cells);
+    if (sum < 0) {
+        for (auto& c : cells.cells) std::swap(c[2], c[3]);
+    }
+    remove_flat_cells(facets, cells);
+    return {std::move(cells.new_vertices), std::move(cells.cells)};
+}
+
 Result<RegionCells> cells_by(const Rung& rung, const RegionFacets& facets, const Inside& all, const FillOptions& options) {
     Inside inside;
-    if (rung.has_points) inside.points = all.points;
+    std::vector<Vec3> moved;
+    if (rung.moves_points) moved = moved_a_little(all.points, facets.median_edge, rung.order.shuffle);
+    if (rung.has_points) inside.points = rung.moves_points ? moved : all.points;
     if (rung.has_sizes) inside.sizes = all.sizes;
     auto made = tetrahedra_of(facets, inside, rung.switches, rung.order, options.limits, options.monitor);
     if (!made) return std::move(made).why();
-    return cells_of_region(facets, std::move(*made));
+    if (!rung.has_points) return cells_of_region(facets, std::move(*made));
+    auto proven = cells_of_region(facets, *made);
+    return proven ? std::move(proven) : cells_of_region(facets, without_flats(facets, std::move(*made)));
 }
 
 /// How many cells a region has when all are as large as a regular one with this edge.
@@ -130,6 +170,35 @@ Improvement improve_proven(const RegionFacets& facets, RegionCells& region, cons
     return done;
 }
 
+/// \param too_slow gets the switches of a try that ran out of time: another order of vertices takes no less
+/// \return whether the region is filled that way
+bool fill_by(const Rung& rung, const RegionFacets& facets, const Inside& wanted, const FillOptions& options, std::string& too_slow,
+             OneRegion& result, FilledRegion& report) {
+    const double edge = size_in(facets, options, report.name);
+    auto cells = cells_by(rung, facets, wanted, options);
+    if (!cells) {
+        if (cells.why().kind == FailureKind::cancelled) result.stopped = cells.why();
+        else report.why_not.push_back(std::string(rung.name) + ": " + cells.why().error.message);
+        if (cells.why().error.code == "F023") {
+            too_slow = rung.switches;
+            report.hit_limit = true;
+        }
+        return false;
+    }
+    const bool with_points = static_cast<bool>(options.points);
+    report.rung = rung.name;
+    report.as_asked = rung.has_shapes || (!(options.ratio > 0) && !with_points && wanted.sizes.empty());
+    result.cells = std::move(*cells);
+    if (wanted.sizes.empty() && !with_points && (options.size > 0 || edge != facets.median_edge))
+        make_smaller(facets, edge, options, result.cells, report);
+    report.improvement = improve_proven(facets, result.cells, options);
+    if (lie_apart(result.cells.cells)) return true;
+    report.why_not.push_back(report.rung + ": cells overlap");
+    report.rung.clear();
+    result.cells = {};
+    return false;
+}
+
 OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, FilledRegion& report) {
     OneRegion result;
     const auto begin = std::chrono::steady_clock::now();
@@ -137,31 +206,14 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
     const bool with_points = static_cast<bool>(options.points);
     const std::vector<Vec3> points = with_points ? options.points(facets) : std::vector<Vec3>();
     const std::vector<SizedPoint> sizes = options.sizes ? options.sizes(facets) : std::vector<SizedPoint>();
-    std::string too_slow;  // the switches of a try that ran out of time: another order of vertices takes no less
+    const Inside wanted{points, sizes};
+    std::string too_slow;
     for (const Rung& rung : rungs_for(edge, options, with_points)) {
         if (rung.switches == too_slow) continue;
         if (rung.has_sizes && sizes.empty()) continue;
-        auto cells = cells_by(rung, facets, {points, sizes}, options);
-        if (!cells && cells.why().kind == FailureKind::cancelled) {
-            result.stopped = cells.why();
-            return result;
-        }
-        if (!cells) {
-            report.why_not.push_back(std::string(rung.name) + ": " + cells.why().error.message);
-            if (cells.why().error.code == "F023") {
-                too_slow = rung.switches;
-                report.hit_limit = true;
-            }
-            continue;
-        }
-        report.rung = rung.name;
-        report.as_asked = rung.has_shapes || (!(options.ratio > 0) && !with_points && sizes.empty());
-        result.cells = std::move(*cells);
-        if (sizes.empty() && !with_points && (options.size > 0 || edge != facets.median_edge))
-            make_smaller(facets, edge, options, result.cells, report);
-        break;
+        if (fill_by(rung, facets, wanted, options, too_slow, result, report)) break;
+        if (result.stopped) return result;
     }
-    if (report.filled()) report.improvement = improve_proven(facets, result.cells, options);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report.cells = result.cells.cells.size();
     report.new_vertices = result.cells.new_vertices.size();

@@ -153,6 +153,16 @@ struct Ring {
     std::vector<std::uint32_t> cells, vertices;
 };
 
+/// The two other corners of a cell so that a, b and they are wound as it is.
+std::array<std::uint32_t, 2> others_of(const Cell& cell, std::uint32_t a, std::uint32_t b) {
+    const auto ia = static_cast<std::size_t>(std::ranges::find(cell, a) - cell.begin());
+    const auto ib = static_cast<std::size_t>(std::ranges::find(cell, b) - cell.begin());
+    // Of the even permutations the one that begins with their places.
+    constexpr std::array<std::array<std::uint8_t, 4>, 4> third{{{4, 2, 3, 1}, {3, 4, 0, 2}, {1, 3, 4, 0}, {2, 0, 1, 4}}};
+    const std::size_t ic = third[ia][ib];
+    return {cell[ic], cell[6 - ia - ib - ic]};
+}
+
 std::optional<Ring> ring_around(const Cells& mesh, std::uint32_t a, std::uint32_t b, std::size_t longest) {
     std::vector<std::array<std::uint32_t, 2>> links;  // from one vertex of the ring to the next
     Ring ring;
@@ -161,14 +171,7 @@ std::optional<Ring> ring_around(const Cells& mesh, std::uint32_t a, std::uint32_
         if (!has(cell, b)) continue;
         ring.cells.push_back(c);
         if (ring.cells.size() > longest) return std::nullopt;
-        std::array<std::uint32_t, 2> others{};
-        std::size_t n = 0;
-        for (const std::uint32_t v : cell) {
-            if (v != a && v != b) others[n++] = v;
-        }
-        if (orientation(mesh.position(a), mesh.position(b), mesh.position(others[0]), mesh.position(others[1])) < 0)
-            std::swap(others[0], others[1]);
-        links.push_back(others);
+        links.push_back(others_of(cell, a, b));
     }
     if (ring.cells.size() < 3) return std::nullopt;
     ring.vertices = {links[0][0]};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 
 #include "base/disjoint_sets.h"
@@ -198,6 +199,21 @@ void measure(const RegionFacets& facets, RegionCells& region) {
     }
     region.volume = six / 6;
     region.least_dihedral = 180 / std::numbers::pi * std::acos(std::min(cosine, 1.0));
+}
+
+bool lie_apart(std::span<const std::array<std::uint32_t, 4>> cells) {
+    // Seen from its fourth corner a face turns one way for corners 0 and 2, the other way for 1 and 3.
+    const auto turns_left = [&](const CellFace& face) {
+        const auto& v = cells[face.cell];
+        const Triangle own{v[(face.corner + 1) % 4], v[(face.corner + 2) % 4], v[(face.corner + 3) % 4]};
+        const auto first = static_cast<std::size_t>(std::ranges::min_element(own) - own.begin());
+        return (own[(first + 1) % 3] < own[(first + 2) % 3]) != (face.corner % 2 == 1);
+    };
+    const auto faces = faces_of(cells);
+    for (std::size_t i = 1; i < faces.size(); ++i) {
+        if (faces[i].vertices == faces[i - 1].vertices && turns_left(faces[i]) == turns_left(faces[i - 1])) return false;
+    }
+    return true;
 }
 
 Result<RegionCells> cells_of_region(const RegionFacets& facets, Tetrahedra all) { return RegionSearch(facets, std::move(all)).run(); }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/result.h"
@@ -30,6 +31,10 @@ struct RegionCells {
 /// that the region has, each of its edges an edge of a cell, no cell is flat (exact predicates), no face has more than two cells, and
 /// volumes agree within 1e-9. Failure (limit, F026) with what is not so and where. Cost: n log n in the number of cells.
 Result<RegionCells> cells_of_region(const RegionFacets& facets, Tetrahedra all);
+
+/// Whether the two cells at each face lie on its two sides, by how they are wound: those that are all but flat may be turned over by
+/// rounding, and overlap. \pre each cell has a positive volume. Cost: n log n.
+bool lie_apart(std::span<const std::array<std::uint32_t, 4>> cells);
 
 /// Volume, least angle and shapes of the cells as they stand. Linear.
 void measure(const RegionFacets& facets, RegionCells& region);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/vectors.h"
+#include "hexes/main_axes.h"
 #include "hexes/sampling.h"
 #include "remesh/edge_mesh.h"
 
@@ -83,6 +84,41 @@ TEST(Lattice, AxesStayWhereASideIsTiltedALittle) {
     const auto found = main_axes(brep_of(box));
     EXPECT_GT(std::abs(found[2][2]), 0.999);
     EXPECT_NEAR(std::abs(found[0][0]), std::cos(0.2), 1e-3);
+}
+
+TEST(Lattice, AxesAreThoseOfTheWallsWhereLayersInsideDip) {
+    // Three sheets across the box, with more area than its walls together and all of them tilted alike.
+    const Axes axes = turned(0.4, 0);
+    const Vec3 origin{512000, 6123000, -2000};
+    BrepData brep = brep_of(box_of(axes, origin, {300, 200, 100}));
+    for (const double height : {30, 50, 60}) {
+        BrepData::Surface& sheet = brep.surfaces.emplace_back();
+        for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(300.0, 0.0), std::pair(300.0, 200.0), std::pair(0.0, 200.0)}) {
+            sheet.nodes.push_back(VertexId(brep.vertices.size()));
+            brep.vertices.push_back(at(axes, origin, {x, y, height + 0.1 * x}));
+        }
+        sheet.polygons.push_back(Triangle{0, 1, 2});
+        sheet.polygons.push_back(Triangle{0, 2, 3});
+    }
+    const Axes found = main_axes(brep);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(std::abs(dot(axes[k], found[k])), 1, 1e-12) << k;
+}
+
+TEST(LatticeSampling, LinesAreNotPartedByTheThinnestOfLayers) {
+    // Layers from 0.4 to 1.6 steps high: along the columns' rows a step is a step.
+    std::vector<ColumnSpan> columns;
+    for (std::int64_t i = 0; i <= 12; ++i) {
+        for (std::int64_t j = 0; j <= 4; ++j) columns.push_back({i, j, 0, 2 + 0.5 * static_cast<double>(i)});
+    }
+    Lattice lattice{{0, 0, 0}, turned(0, 0), {1, 1, 1}, Layers::of(columns, columns.size()), 1};
+    ASSERT_TRUE(lattice.layers);
+    ASSERT_LT(lattice.least_step(), 0.6);
+    remeshing::LineRules rules;
+    rules.max_distance = 0.1;
+    const std::vector<Vec3> level{{0, 0, 0}, {12, 0, 0}};
+    EXPECT_EQ(lattice_line(lattice, level, rules).size(), 13u);
+    const std::vector<Vec3> upright{{12, 0, 0}, {12, 0, 8}};
+    EXPECT_EQ(lattice_line(lattice, upright, rules).size(), 1 + static_cast<std::size_t>(lattice.layers->count()));
 }
 
 TEST(Lattice, StepsPartTheExtentEvenly) {

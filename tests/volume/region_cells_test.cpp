@@ -53,6 +53,15 @@ TEST(RegionCells, CellsBeyondItsFacetsAreLeftOut) {
     EXPECT_EQ(cells->cells, (std::vector{upper}));
 }
 
+TEST(RegionCells, CellsOnOneSideOfAFaceDoNotLieApart) {
+    EXPECT_TRUE(lie_apart(std::vector{upper, lower}));
+    const std::array<std::uint32_t, 4> turned_over = {0, 1, 2, 4};  // as if its tip were above
+    for (const auto& first : {upper, std::array<std::uint32_t, 4>{1, 2, 0, 3}, std::array<std::uint32_t, 4>{3, 0, 2, 1}}) {
+        EXPECT_TRUE(lie_apart(std::vector{first, lower}));
+        EXPECT_FALSE(lie_apart(std::vector{first, turned_over}));
+    }
+}
+
 TEST(RegionCells, CellsAreTurnedTheRightWay) {
     const auto cells = cells_of_region(upper_alone(), {{}, {{1, 0, 2, 3}}});
     ASSERT_TRUE(cells);
