@@ -147,8 +147,8 @@ bool fill_whole(const TetMesh& tets, const Conflicts& conflicts, LocalSearch sea
     return false;
 }
 
-/// Of what failed in a small mesh only the smallest third gives way at a time: others may have room then.
-void keep_two_thirds(const Candidates& candidates, std::vector<std::uint32_t>& failed) {
+/// Of what failed only the smallest third gives way at a time: the larger ones may have room then.
+void let_smallest_third_give_way(const Candidates& candidates, std::vector<std::uint32_t>& failed) {
     std::ranges::sort(failed, {}, [&](std::uint32_t i) { return std::pair(candidates.volume[i], i); });
     failed.resize((failed.size() + 2) / 3);
     std::ranges::sort(failed);
@@ -199,7 +199,7 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
                 weights[selected[cell]] = 0;
             }
         }
-        if (is_small && round > forgiving_rounds && round + 8 < rounds) keep_two_thirds(conflicts.candidates(), failed);
+        if (is_small && round > forgiving_rounds && round + 8 < rounds) let_smallest_third_give_way(conflicts.candidates(), failed);
         for (const std::uint32_t i : failed) weights[i] *= round <= forgiving_rounds ? 0.5 : 0;
         selected = without(selected, failed);
         if (searches && round < searching_rounds) selected = search_selection(conflicts, weights, selected, search);
