@@ -143,12 +143,15 @@ std::vector<RegionVolumes> volumes_of_regions(const ModelScope& scope) {
     using Stated = std::pair<std::uint32_t, bool>;  // surface and side
     std::vector<std::set<Stated>> sides(brep.regions.size());
     std::vector<std::uint8_t> listed(brep.surfaces.size(), 0), has_inner(brep.regions.size(), 0);
+    std::vector<std::vector<std::uint32_t>> regions_at(2 * brep.surfaces.size());  // per surface and side
+    const auto place = [](const Stated& s) { return 2 * std::size_t{s.first} + (s.second ? 1 : 0); };
     for (const auto& side : brep.universe) listed[side.surface.value] = 1;
     for (std::uint32_t r = 0; r < brep.regions.size(); ++r) {
         for (const auto& side : brep.regions[r].sides) {
             sides[r].emplace(side.surface.value, side.front);
             listed[side.surface.value] = 1;
         }
+        for (const Stated& s : sides[r]) regions_at[place(s)].push_back(r);
         has_inner[r] = std::ranges::any_of(sides[r], [&](const Stated& s) { return sides[r].contains({s.first, !s.second}); });
     }
     const bool all_listed = std::ranges::find(listed, 0) == listed.end();
@@ -163,7 +166,8 @@ std::vector<RegionVolumes> volumes_of_regions(const ModelScope& scope) {
                 if (listed[s] == 0) unlisted.insert(s);
                 else stated.emplace(s, side.front);
             }
-            for (std::uint32_t r = 0; r < brep.regions.size() && !stated.empty(); ++r) {
+            if (stated.empty()) continue;
+            for (const std::uint32_t r : regions_at[place(*stated.begin())]) {
                 if (!std::ranges::includes(sides[r], stated)) continue;
                 ++volumes[r].count;
                 volumes[r].unlisted.insert(volumes[r].unlisted.end(), unlisted.begin(), unlisted.end());
