@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <ranges>
+#include <utility>
+#include <vector>
 
 #include "arrangement/cut_round.h"
 #include "arrangement/sheets.h"
@@ -173,10 +175,69 @@ void add_unsettled(const Snapped& s, std::vector<std::uint8_t>& unsettled) {
     }
 }
 
+double area_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 n = cross(minus(b, a), minus(c, a));
+    return 0.5 * std::sqrt(dot(n, n));
+}
+
+/// Triangles of the soup whose pieces do not add up to them, by more than points may move along their border: points that late rounds made
+/// one may have taken pieces with them. Those in sheets are not looked at. 1 for each.
+std::vector<std::uint8_t> short_of_area(const TriangleSoup& soup, const Snapped& s, double tolerance) {
+    constexpr double most = 4;  // tolerances
+    std::vector<double> left(soup.triangles.size(), 0);
+    for (std::size_t t = 0; t < s.state.triangles.size(); ++t) {
+        if (s.state.source[t] >= left.size()) continue;
+        const auto& [a, b, c] = s.state.triangles[t];
+        const auto& points = s.state.points.points();
+        left[s.state.source[t]] += area_of(s.grid.to_position(points[a]), s.grid.to_position(points[b]), s.grid.to_position(points[c]));
+    }
+    std::vector<std::uint8_t> looked_at(left.size(), 1), is_short(left.size(), 0);
+    for (const auto& stack : s.state.stacks) {
+        for (const auto& layer : stack.layers) looked_at[layer.source] = 0;
+    }
+    if (s.state.doubled > 0) {  // of doubles in a patch one stays
+        std::vector<std::uint32_t> in_patch(std::ranges::max(soup.patches) + std::size_t{1}, 0);
+        for (const std::uint32_t p : soup.patches) ++in_patch[p];
+        for (std::size_t t = 0; t < left.size(); ++t) {
+            if (in_patch[soup.patches[t]] > 1) looked_at[t] = 0;
+        }
+    }
+    for (std::size_t t = 0; t < left.size(); ++t) {
+        if (looked_at[t] == 0) continue;
+        const Vec3 &a = soup.vertices[soup.triangles[t][0]], &b = soup.vertices[soup.triangles[t][1]],
+                   &c = soup.vertices[soup.triangles[t][2]];
+        double border = 0;
+        for (const Vec3& side : {minus(b, a), minus(c, b), minus(a, c)}) border += std::sqrt(dot(side, side));
+        is_short[t] = std::abs(left[t] - area_of(a, b, c)) > most * tolerance * (border + tolerance) ? 1 : 0;
+    }
+    return is_short;
+}
+
+/// A cut that is clean since pieces are missing is none. Whether it was one; triangles that lost some, and those that they meet, are
+/// marked.
+bool has_lost_area(const TriangleSoup& soup, const Snapped& s, double tolerance, std::vector<std::uint8_t>& marked) {
+    const auto is_short = short_of_area(soup, s, tolerance);
+    if (std::ranges::find(is_short, std::uint8_t{1}) == is_short.end()) return false;
+    std::vector<std::uint8_t> is_at(s.state.points.points().size(), 0);
+    for (std::size_t t = 0; t < s.state.triangles.size(); ++t) {
+        const std::uint32_t source = s.state.source[t];
+        if (source >= is_short.size() || is_short[source] == 0) continue;
+        for (const std::uint32_t p : s.state.triangles[t]) is_at[p] = 1;
+    }
+    for (std::size_t t = 0; t < s.state.triangles.size(); ++t) {
+        const std::uint32_t source = s.state.source[t];
+        const bool meets = std::ranges::any_of(s.state.triangles[t], [&](std::uint32_t p) { return is_at[p] != 0; });
+        if (meets && source < marked.size()) marked[source] = 1;
+    }
+    for (std::size_t t = 0; t < marked.size(); ++t) marked[t] |= is_short[t];
+    return true;
+}
+
 /// What does not end is begun anew, and taken for one sheet where it lies upon each other: ever thicker ones; then with features that are
 /// one from farther away; at last whether it settled before or not. Where nothing of it ends, it stays as it was.
-void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, Snapped& s, Arrangement& result) {
-    std::vector<std::uint8_t> may_lie(soup.triangles.size(), 0);
+/// \param may_lie per triangle of the soup: what lost area
+void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, std::vector<std::uint8_t> may_lie, Snapped& s,
+                   Arrangement& result) {
     add_unsettled(s, may_lie);
     for (const double coarser : {1.0, 4.0, 8.0, 16.0, 1.0}) {
         const double share = std::max(options.reach, std::min(0.5, coarser * options.reach));
@@ -190,6 +251,7 @@ void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, Snap
             // Without sheets it is as before, but for the reach.
             if (anew.state.stacks.empty() && (share == options.reach || width != sheet_widths.front())) continue;
             cut(soup, share, options.monitor, later_patience, anew, result);
+            if (result.clean && has_lost_area(soup, anew, options.tolerance, may_lie)) result.clean = false;
             if (result.clean) {
                 s = std::move(anew);
                 return;
@@ -208,7 +270,9 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     Snapped s = snapped(soup, options.tolerance);
     Arrangement result;
     cut(soup, options.reach, options.monitor, options.most_rounds, s, result);
-    if (!result.clean && options.sheets) cut_in_sheets(soup, options, s, result);
+    std::vector<std::uint8_t> may_lie(soup.triangles.size(), 0);
+    if (result.clean && options.sheets && has_lost_area(soup, s, options.tolerance, may_lie)) result.clean = false;
+    if (!result.clean && options.sheets) cut_in_sheets(soup, options, std::move(may_lie), s, result);
     take_stacks_apart(s.state);
     write_vertices(soup, s, result);
     write_origins(soup, s, result);

@@ -48,5 +48,18 @@ TEST(ReducedSoups, ChainsNextToStraightDoNotGoRoundInCircles) {
     EXPECT_EQ(to_string(fault_in_child(soup, 1e-6, 60)), "none");
 }
 
+// Two triangles next to parallel: late rounds made points one that were far apart, and two thirds of the second triangle went with them, in
+// a cut that was called clean.
+TEST(ReducedSoups, ACutThatLosesAreaIsMadeAnew) {
+    const auto soup = soup_of({{-0.93, -0.464, 0.3695},
+                               {0.0719, 0.2375, 0.03202},
+                               {0.8354, -0.3152, -0.5514},
+                               {0.693, 0.43703, -0.2482},
+                               {0.70793, -0.23193, -0.45673},
+                               {0.7754, -0.9465, -0.70799}},
+                              {{0, 1, 2}, {3, 4, 5}});
+    EXPECT_EQ(to_string(fault_in_child(soup, 1e-3, 60)), "none");
+}
+
 }  // namespace
 }  // namespace geomend::test
