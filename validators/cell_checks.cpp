@@ -7,7 +7,7 @@
 
 #include "geometry/cell_volume.h"
 #include "geometry/corner_frames.h"
-#include "topology/near_weld.h"
+#include "topology/near_nodes.h"
 #include "validators/cell_findings.h"
 #include "validators/model_scope.h"
 
@@ -241,7 +241,7 @@ void check_cell_points(const CellScope& scope, std::vector<Finding>& findings) {
         findings.push_back(std::move(finding));
     }
     if (scope.lengths().tolerance <= 0) return;
-    const auto first = topology::clusters_within(mesh.points, scope.lengths().tolerance);
+    const auto first = topology::near_nodes(mesh, scope.lengths().tolerance);
     Finding finding = finding_of("M27", {});
     std::uint64_t equal = 0;
     for (std::uint32_t n = 0; n < first.size(); ++n) {

@@ -279,7 +279,7 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& ask
     how.sizes = inner_sizes(rules, request, *points);
     auto wells = chosen_wells(dataset, request.wells);  // once more: with new triangles there are other objects
     if (!wells) return std::move(wells).why();
-    how.wells = paths_of(dataset, *wells);
+    how.wells = paths_of(dataset, *wells, dataset.losses);
     how.well_tolerance = model->tolerance > 0 ? model->tolerance : least_tolerance(*model->brep);
     if (!has_edges(target)) wells->clear();
     auto filled = volumes::fill_dividing_surfaces(*model->brep, model->found, how);
@@ -393,6 +393,7 @@ std::string mesh_json(const MeshReport& report) {
         wells.push_back({{"name", w.name},
                          {"length", w.length},
                          {"inside", w.inside},
+                         {"repeated", w.repeated},
                          {"edges", w.edges},
                          {"on_surfaces", w.on_surfaces},
                          {"crossings", w.crossings}});

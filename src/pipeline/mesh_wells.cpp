@@ -92,12 +92,18 @@ Result<std::vector<std::uint32_t>> chosen_wells(const Dataset& dataset, const st
     return chosen;
 }
 
-std::vector<volumes::WellPath> paths_of(const Dataset& dataset, std::span<const std::uint32_t> chosen) {
+std::vector<volumes::WellPath> paths_of(const Dataset& dataset, std::span<const std::uint32_t> chosen, std::vector<Loss>& losses) {
     std::vector<volumes::WellPath> paths;
+    std::set<std::string> names;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         const Object& object = dataset.objects[chosen[i]];
         std::string name = info_of(object).name;
         if (name.empty()) name = "well " + std::to_string(i + 1);
+        const std::string stated = name;
+        for (int n = 2; !names.insert(name).second; ++n) name = stated + "_" + std::to_string(n);
+        if (name != stated)
+            add_loss(losses,
+                     {LossClass::identity, stated, "name", "another well has it: its edges are called " + geomend::quoted(name), 1});
         if (const auto* well = std::get_if<Well>(&object)) paths.push_back({name, well->path});
         if (const auto* lines = std::get_if<PolylineSet>(&object)) {
             for (auto& piece : pieces_of(*lines)) paths.push_back({name, std::move(piece)});
@@ -158,6 +164,7 @@ std::vector<MeshWell> mesh_wells(std::span<const volumes::WellChain> chains) {
         if (well == wells.end()) well = wells.insert(wells.end(), MeshWell{chain.name});
         well->length += chain.length;
         well->inside += chain.inside;
+        well->repeated += chain.repeated;
         well->edges += chain.edges.size();
         well->on_surfaces += chain.on_surfaces;
         well->crossings += chain.crossings;
@@ -169,13 +176,18 @@ std::string wells_text(std::span<const MeshWell> wells) {
     std::string text;
     for (const MeshWell& well : wells) {
         text += "  well " + geomend::quoted(well.name) + ": ";
-        const double outside = well.length - well.inside;
+        const double outside = well.length - well.inside - well.repeated;
+        if (!(well.length > 0)) {
+            text += "its path has no length: there are no edges for it\n";
+            continue;
+        }
         if (well.edges == 0) {
             text += "no part of it lies in the model: there are no edges for it\n";
             continue;
         }
         text += counted(well.edges, "edge", "edges") + ", length " + short_number(well.inside);
         if (well.on_surfaces > 0) text += ", " + counted(well.on_surfaces, "edge", "edges") + " on surfaces";
+        if (well.repeated > 0) text += "; " + short_number(well.repeated) + " of its path runs along edges that it has already";
         if (outside > 1e-6 * well.length) text += "; " + short_number(outside) + " of its path lies outside of the model, and is left out";
         text += '\n';
     }

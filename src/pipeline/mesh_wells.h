@@ -17,7 +17,8 @@ namespace geomend {
 struct MeshWell {
     std::string name;
     double length = 0;              ///< of its path
-    double inside = 0;              ///< of its edges: the rest lies outside of the model
+    double inside = 0;              ///< of its edges
+    double repeated = 0;            ///< where it runs along edges that it has already; what is left lies outside of the model
     std::uint64_t edges = 0;        ///< of cells
     std::uint64_t on_surfaces = 0;  ///< of these, on surfaces
     std::uint64_t crossings = 0;    ///< vertices on surfaces
@@ -27,8 +28,8 @@ struct MeshWell {
 /// Failure (usage, F018) where a name is none of theirs, with the nearest one.
 Result<std::vector<std::uint32_t>> chosen_wells(const Dataset& dataset, const std::string& which);
 
-/// Their paths: several for polylines of more than one piece.
-std::vector<volumes::WellPath> paths_of(const Dataset& dataset, std::span<const std::uint32_t> chosen);
+/// Their paths: several for polylines of more than one piece. Where two have one name the second gets a number, which is listed.
+std::vector<volumes::WellPath> paths_of(const Dataset& dataset, std::span<const std::uint32_t> chosen, std::vector<Loss>& losses);
 
 /// Whether a mesh in this format can have edges: others get wells beside it.
 bool has_edges(const Format& target);

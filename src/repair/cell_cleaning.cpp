@@ -11,7 +11,7 @@
 #include "exchange/turned_cell.h"
 #include "geometry/measures.h"
 #include "model/attribute_operations.h"
-#include "topology/near_weld.h"
+#include "topology/near_nodes.h"
 
 namespace geomend::repair {
 
@@ -55,7 +55,7 @@ public:
 
 private:
     void merge_nodes() {
-        const auto first = topology::clusters_within(m_.points, tolerance_);
+        const auto first = topology::near_nodes(m_, tolerance_);
         std::vector<std::uint8_t> is_merged(first.size(), 0);
         const auto renumber = [&](std::uint32_t& node) {
             const std::uint32_t to = first[node];

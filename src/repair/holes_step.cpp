@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "base/bounds.h"
+#include "base/length.h"
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "repair/border_pieces.h"
@@ -22,11 +23,6 @@ struct Loop {
     double length = 0;
 };
 
-double edge_length(const TriangleSoup& soup, const BorderEdge& e) {
-    const Vec3 along = minus(soup.vertices[e.to], soup.vertices[e.from]);
-    return std::sqrt(dot(along, along));
-}
-
 std::vector<Loop> closed_loops(const TriangleSoup& soup, const FreeBorders& borders) {
     std::vector<Loop> loops;
     std::vector<std::uint8_t> done(borders.edges.size(), 0);
@@ -37,23 +33,54 @@ std::vector<Loop> closed_loops(const TriangleSoup& soup, const FreeBorders& bord
         for (; e != no_index && done[e] == 0; e = borders.edges[e].next) {
             done[e] = 1;
             loop.edges.push_back(e);
-            loop.length += edge_length(soup, borders.edges[e]);
+            loop.length += length(minus(soup.vertices[borders.edges[e].to], soup.vertices[borders.edges[e].from]));
         }
         if (e == start) loops.push_back(std::move(loop));
     }
     return loops;
 }
 
-/// A loop is a hole where it is not the longest of its patch, or where its patch is closed without it: a single triangle is missing.
-std::vector<Loop> holes_of(const TriangleSoup& soup, const FreeBorders& borders, std::size_t patches) {
+/// Per patch the length of the edges at which it ends on others.
+std::vector<double> shared_lengths(const TriangleSoup& soup, const SoupEdges& edges, std::size_t patches) {
+    std::vector<double> lengths(patches, 0);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        const auto uses = edges[e];
+        if (is_free(uses)) continue;
+        for (const auto& use : uses) {
+            const auto is_own = [&](const SoupEdges::Use& other) { return soup.patches[other.triangle] == soup.patches[use.triangle]; };
+            if (std::ranges::count_if(uses, is_own) == 1)
+                lengths[soup.patches[use.triangle]] += length(minus(soup.vertices[use.high], soup.vertices[use.low]));
+        }
+    }
+    return lengths;
+}
+
+/// Per patch the size of the box around it.
+std::vector<double> patch_sizes(const TriangleSoup& soup, std::size_t patches) {
+    std::vector<Bounds> around(patches);
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        for (const std::uint32_t v : soup.triangles[t]) around[soup.patches[t]].add(soup.vertices[v]);
+    }
+    std::vector<double> sizes;
+    for (const Bounds& box : around) sizes.push_back(box.empty() ? 0 : length(minus(box.high, box.low)));
+    return sizes;
+}
+
+/// A loop is a hole where it is not the longest border of its patch, which may be one that it shares with others; or where it is less
+/// than half as wide as its patch, so that the patch goes on around it; or where a single triangle is missing.
+std::vector<Loop> holes_of(const TriangleSoup& soup, const SoupEdges& edges, const FreeBorders& borders, std::size_t patches) {
     auto loops = closed_loops(soup, borders);
-    std::vector<double> longest(patches, 0);
+    std::vector<double> longest = shared_lengths(soup, edges, patches);
+    const std::vector<double> sizes = patch_sizes(soup, patches);
     std::vector<std::uint32_t> triangles(patches, 0);
     for (const Loop& loop : loops) longest[loop.patch] = std::max(longest[loop.patch], loop.length);
     for (const std::uint32_t p : soup.patches) ++triangles[p];
     std::erase_if(loops, [&](const Loop& loop) {
+        Bounds box;
+        for (const std::uint32_t e : loop.edges) box.add(soup.vertices[borders.edges[e].from]);
+        const bool is_small = length(minus(box.high, box.low)) < 0.5 * sizes[loop.patch];
         const bool one_missing = loop.edges.size() == 3 && triangles[loop.patch] > 3;
-        return loop.length == longest[loop.patch] && !one_missing;
+        return loop.length >= longest[loop.patch] && !one_missing && !is_small;
     });
     return loops;
 }
@@ -91,7 +118,7 @@ Result<StepOutcome> fill_holes(SurfaceModel& model, const SurfaceStepOptions& op
             ++outcome.changed;
         }
     };
-    for (const Loop& loop : holes_of(soup, borders, model.model.patches.size())) {
+    for (const Loop& loop : holes_of(soup, edges, borders, model.model.patches.size())) {
         // Half the way around a hole is as wide as it can be.
         if (loop.edges.size() > 3 && loop.length > 2 * limit) {
             ++left;

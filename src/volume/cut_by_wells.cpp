@@ -268,7 +268,10 @@ private:
                 const std::uint32_t region = on_one ? no_index : region_at(ray, times(0.5, plus(a, b)));
                 if (!on_one && region == no_index) continue;
                 const WellEdge edge{vertex(points[i]), vertex(points[i + 1])};
-                if (!taken.insert(well_edge(edge[0], edge[1])).second) continue;
+                if (!taken.insert(well_edge(edge[0], edge[1])).second) {
+                    chain.repeated += length(minus(b, a));
+                    continue;
+                }
                 chain.edges.push_back(edge);
                 chain.inside += length(minus(b, a));
                 if (on_one) ++chain.on_surfaces;

@@ -20,6 +20,7 @@ struct WellChain {
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< in the order in which it runs, each once
     double length = 0;                                ///< of the path
     double inside = 0;                                ///< of the edges: what lies in the model or on its surfaces
+    double repeated = 0;                              ///< where the path runs along edges that it has already
     std::uint64_t on_surfaces = 0;                    ///< edges that lie on surfaces
     std::uint64_t crossings = 0;                      ///< vertices on surfaces
 };

@@ -27,6 +27,40 @@ TEST(CellCleaning, ASoundMeshStaysAsItIs) {
     EXPECT_EQ(mesh.nodes, nodes);
 }
 
+/// A layer of nx cells of 10 x 10 x 1, of nodes that each cell has for itself.
+CellMesh layer_of_cells(int nx) {
+    CellMesh mesh;
+    for (int i = 0; i < nx; ++i) {
+        std::array<std::uint32_t, 8> nodes{};
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            const double x = 10.0 * (i + (k == 1 || k == 2 || k == 5 || k == 6 ? 1 : 0)), y = k % 4 >= 2 ? 10 : 0, z = k >= 4 ? 1 : 0;
+            nodes[k] = static_cast<std::uint32_t>(mesh.points.size());
+            mesh.points.push_back({x, y, z});
+        }
+        mesh.add_cell(CellType::hexahedron, nodes);
+    }
+    return mesh;
+}
+
+// As in single precision at map coordinates, where four steps of the northing are two metres.
+TEST(CellCleaning, CellsThinnerThanTheToleranceKeepTheirVolume) {
+    CellMesh mesh = layer_of_cells(3);
+    const auto done = repair::clean_cells(mesh, 2);
+    EXPECT_EQ(mesh.cell_count(), 3u);
+    EXPECT_EQ(done.merged, 0u) << "nodes of equal positions stay as they are";
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) EXPECT_NEAR(cell_volume(mesh, c), 100, 1e-9);
+}
+
+TEST(CellCleaning, NodesOfDifferentCellsWithinTheToleranceAreMergedWhereNoCellIsThin) {
+    CellMesh mesh = layer_of_cells(3);
+    for (Vec3& p : mesh.points) p[2] *= 5;
+    for (std::size_t n = 8; n < 16; ++n) mesh.points[n][1] += 0.01;
+    const auto done = repair::clean_cells(mesh, 2);
+    EXPECT_EQ(mesh.cell_count(), 3u);
+    EXPECT_EQ(done.merged, 8u);
+    EXPECT_EQ(done.repeated, 0u);
+}
+
 TEST(CellCleaning, CellsOfEachTypeThatAreInsideOutAreTurned) {
     const std::vector<std::pair<CellType, std::vector<Vec3>>> cells = {
         {CellType::tetrahedron, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},

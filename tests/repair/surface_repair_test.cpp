@@ -369,6 +369,57 @@ TEST(SurfaceRepair, AMissingTriangleOfAClosedSurfaceIsFilled) {
     EXPECT_NEAR(total_volume(brep), 4.0 / 3, 1e-12);
 }
 
+/// The six sides of a cube of 30, each of n x n squares, without those of the top that `is_missing` tells of.
+template <class IsMissing>
+std::string cube_with_holes(int n, const IsMissing& is_missing) {
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int high = 0; high < 2; ++high) {
+            std::vector<Point> points;
+            Triangles triangles;
+            for (int j = 0; j <= n; ++j) {
+                for (int i = 0; i <= n; ++i) {
+                    Point p{};
+                    p[static_cast<std::size_t>(axis)] = 30.0 * high;
+                    p[static_cast<std::size_t>((axis + 1) % 3)] = 30.0 * i / n;
+                    p[static_cast<std::size_t>((axis + 2) % 3)] = 30.0 * j / n;
+                    points.push_back(p);
+                    if (i == n || j == n || (axis == 2 && high == 1 && is_missing(i, j))) continue;
+                    const int a = i + j * (n + 1);
+                    triangles.push_back({a, a + 1, a + n + 2});
+                    triangles.push_back({a, a + n + 2, a + n + 1});
+                }
+            }
+            text += tsurf("side_" + std::to_string(2 * axis + high), points, triangles);
+        }
+    }
+    return text;
+}
+
+TEST(SurfaceRepair, TheOnlyHoleOfASideAndHolesOfOneSizeAreFilled) {
+    const auto one = [](int i, int j) { return i == 4 && j == 5; };
+    const auto several = [](int i, int j) { return i % 3 == 1 && j % 3 == 1; };
+    const TemporaryFolder folder;
+    write_file(folder / "one.ts", cube_with_holes(20, one));
+    write_file(folder / "several.ts", cube_with_holes(20, several));
+    for (const char* name : {"one", "several"}) {
+        const std::string in = folder / (std::string(name) + ".ts"), out = folder / (std::string(name) + ".ml");
+        const auto run = run_geomend({"repair", in, "-o", out, "--step", "holes", "--max-gap", "4"});
+        EXPECT_EQ(run.status, 0) << name << run.out << run.err;
+        EXPECT_NEAR(total_volume(brep_of(out)), 27000, 1e-6) << name;
+        run_geomend({"repair", in, "-o", out, "--step", "holes", "--max-gap", "2"});
+        EXPECT_EQ(brep_of(out)["regions"], 0) << "half the way around each is 3, wider than the limit";
+    }
+}
+
+TEST(SurfaceRepair, TheBorderOfAnOpenSheetIsNoHole) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts",
+               tsurf("sheet", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0.2}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}));
+    EXPECT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ts", "--steps", "holes", "--max-gap", "100"}).status, 0);
+    EXPECT_EQ(info(folder / "out.ts")["objects"][0]["counts"]["triangles"], 4);
+}
+
 TEST(SurfaceRepair, DoublesAndTrianglesWithoutAreaAreRemoved) {
     const TemporaryFolder folder;
     write_file(folder / "in.ts", tsurf("s", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0, 0}},

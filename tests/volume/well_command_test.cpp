@@ -21,6 +21,7 @@ namespace {
 using nlohmann::json;
 using test::run_geomend;
 using test::TemporaryFolder;
+using test::write_file;
 
 std::string sample(const std::string& name) { return std::string(GEOMEND_SOURCE_DIR) + "/samples/" + name; }
 
@@ -192,6 +193,41 @@ TEST(MeshWells, LinesAreEdgesWhereTheyAreNamed) {
     ASSERT_EQ(wells.size(), 1u);
     EXPECT_NEAR(wells[0]["inside"].get<double>(), 200 + std::hypot(300, 50), 1e-9);
     EXPECT_NEAR(MshFile(folder / "l.msh").length_of("gallery"), 200 + std::hypot(300, 50), 1e-9);
+}
+
+/// A vertical well from (x, 200, -100) on, by measured depths and heights.
+std::string vertical_well(const std::string& name, double x, const std::vector<std::pair<double, double>>& stations) {
+    std::string text = "GOCAD Well 1\nHEADER {\nname:" + name + "\n}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\nAXIS_NAME X Y Z\n" +
+                       "AXIS_UNIT m m m\nZPOSITIVE Elevation\nEND_ORIGINAL_COORDINATE_SYSTEM\nWREF " + std::to_string(x) + " 200 -100\n";
+    for (const auto& [depth, z] : stations) text += "PATH " + std::to_string(depth) + " " + std::to_string(z) + " 0 0\n";
+    return text + "END\n";
+}
+
+TEST(MeshWells, ThatTurnBackAreNotSaidToLeaveTheModel) {
+    const TemporaryFolder folder;
+    write_file(folder / "back.wl", vertical_well("back", 200, {{0, -100}, {400, -500}, {600, -300}}));
+    const auto run = run_geomend({"mesh", sample("layered_box.ml"), folder / "back.wl", "-o", folder / "out.vtu", "--lossy", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto wells = json::parse(run.out)["wells"];
+    EXPECT_NEAR(wells[0]["length"].get<double>(), 600, 1e-9);
+    EXPECT_NEAR(wells[0]["inside"].get<double>(), 400, 1e-9);
+    EXPECT_NEAR(wells[0]["repeated"].get<double>(), 200, 1e-9);
+    const auto text = run_geomend({"mesh", sample("layered_box.ml"), folder / "back.wl", "-o", folder / "out.vtu", "--lossy"}).out;
+    EXPECT_NE(text.find("200 of its path runs along edges that it has already"), std::string::npos) << text;
+    EXPECT_EQ(text.find("outside of the model"), std::string::npos) << text;
+}
+
+TEST(MeshWells, OfOneNameStayTwoAndTheNumberOfTheSecondIsListed) {
+    const TemporaryFolder folder;
+    write_file(folder / "two.wl", vertical_well("A", 200, {{0, -100}, {400, -500}}) + vertical_well("A", 300, {{0, -100}, {300, -400}}));
+    const auto run = run_geomend({"mesh", sample("layered_box.ml"), folder / "two.wl", "-o", folder / "out.vtu", "--lossy", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto report = json::parse(run.out);
+    ASSERT_EQ(report["wells"].size(), 2u);
+    EXPECT_EQ(report["wells"][1]["name"], "A_2");
+    EXPECT_NEAR(report["wells"][1]["inside"].get<double>(), 300, 1e-9);
+    const std::string losses = report["loss"].dump();
+    EXPECT_NE(losses.find("its edges are called 'A_2'"), std::string::npos) << losses;
 }
 
 TEST(MeshWells, FormatsWithoutEdgesListThemAsLost) {
