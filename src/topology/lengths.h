@@ -46,8 +46,8 @@ struct LocalLengths {
 /// Works the lengths out.
 ///
 /// Parts of objects that hang together by their elements or by equal positions are one; so are parts that come closer to one
-/// another than a hundredth of the larger one's D, and a part with what it surrounds. An object is in the cluster in which most of its area is. Of each cluster, with
-/// all lengths from points that its elements use:
+/// another than a hundredth of the larger one's D, and a part with what it surrounds. An object is in the cluster in which most of its
+/// area is. Of each cluster, with all lengths from points that its elements use:
 /// - D is twice the largest distance of a point from the area-weighted centroid, so that it does not depend on how finely
 ///   something is triangulated (of meshes that have cells of three dimensions only the volume takes the place of the area);
 /// - tolerance = max(1e-7 D, 4 steps of the largest coordinate as it is stored);
