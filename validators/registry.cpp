@@ -243,9 +243,9 @@ constexpr std::array table = {
              check_cell_contacts),
     of_cells(
         "M38",
-        "outer faces of two cells face each other across a gap wider than the tolerance, up to the search length or a twentieth of their "
-        "edges, where they share no node; above and below hexahedra and wedges, between which layers of inactive cells may have been "
-        "left out, up to the search length only",
+        "outer faces of two cells face each other across a gap wider than the tolerance, up to the search length or a twentieth of the "
+        "longest edges or diagonals of both, where they share no node; above and below hexahedra and wedges, between which layers of "
+        "inactive cells may have been left out, up to the search length only",
         check_cell_gaps),
     of_object("M40", "a step is zero, the steps lie in one plane or line, or coordinates along an axis do not all grow or all shrink",
               check_raster_axes),

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 
+#include "base/wording.h"
 #include "formats/drop.h"
 #include "formats/surfaces/faces_writing.h"
 #include "formats/text_reading.h"
@@ -177,6 +180,16 @@ private:
     }
 };
 
+/// The name of a surface by its place; what has the name of another one would be a part of that, so it gets a number, which is listed.
+std::string own_name(std::string_view stated, std::size_t place, std::set<std::string>& names, std::vector<Loss>& losses) {
+    const std::string first = stated.empty() ? "surface " + std::to_string(place + 1) : std::string(stated);
+    std::string name = first;
+    for (int n = 2; !names.insert(name).second; ++n) name = first + "_" + std::to_string(n);
+    if (name != first)
+        add_loss(losses, {LossClass::identity, first, "name", "another object has it: this one is called " + geomend::quoted(name), 1});
+    return name;
+}
+
 }  // namespace
 
 int sniff_obj(std::string_view head, std::string_view base_name) {
@@ -204,10 +217,10 @@ Result<std::vector<Loss>> write_obj(const Dataset& dataset, OutputSet& out, cons
     const auto faces = faces_for_writing(dataset, {.title = "OBJ", .names = true, .polygons = true}, out, losses);
     if (!faces) return faces.why();
     OutputFile& file = out.main_file();
+    std::set<std::string> names;
     for (std::size_t s = 0; s < faces->surfaces.size(); ++s) {
         const auto& surface = faces->surfaces[s];
-        const std::string_view name = trimmed(surface.info->name);
-        file << "o " << (name.empty() ? std::string("surface ") + std::to_string(s + 1) : std::string(name)) << '\n';
+        file << "o " << own_name(trimmed(surface.info->name), s, names, losses) << '\n';
         for (std::size_t v = surface.first_point; v < faces->point_end(s) && file.good(); ++v) {
             file << "v ";
             file.number(faces->points[v][0]) << ' ';

@@ -2,6 +2,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "surfaces/surface_files.h"
@@ -55,6 +56,22 @@ RC_GTEST_PROP(SurfaceRoundTrip, EveryBitOfPositionsAndEveryPolygonComesBack, ())
             RC_ASSERT(written_surface(format, back, encoding).bytes == file.bytes);
         }
     }
+}
+
+TEST(SurfaceRoundTrip, ObjectsOfOneNameStayApartInObjAndTheNumberOfTheSecondIsListed) {
+    Surface surface;
+    surface.info.name = "dup";
+    surface.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    surface.polygons.push_back(std::array<std::uint32_t, 3>{0, 1, 2});
+    Surface numbered = surface;
+    numbered.info.name = "dup_2";
+    const WrittenSurface file = written_surface("obj", dataset_of({surface, numbered, surface}));
+    const Dataset back = good_surface("obj", file.bytes);
+    ASSERT_EQ(back.objects.size(), 3u);
+    std::set<std::string> names;
+    for (const Object& object : back.objects) names.insert(info_of(object).name);
+    EXPECT_EQ(names, (std::set<std::string>{"dup", "dup_2", "dup_3"}));
+    EXPECT_EQ(std::ranges::count(file.losses, std::string("name"), &Loss::what), 1);
 }
 
 RC_GTEST_PROP(SurfaceRoundTrip, StlKeepsTrianglesAndNamesOfSolids, ()) {
