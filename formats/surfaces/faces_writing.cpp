@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/wording.h"
+
 namespace geomend::surfaces {
 
 namespace {
@@ -104,6 +106,15 @@ Result<WrittenFaces> faces_for_writing(const Dataset& dataset, const Holds& hold
     add_loss(losses, {LossClass::identity, "", "which triangles make a polygon", std::string(holds.title) + " holds triangles only",
                       faces.polygons.size() - polygons});
     return faces;
+}
+
+std::string own_name(std::string_view stated, std::size_t place, std::set<std::string>& names, std::vector<Loss>& losses) {
+    const std::string first = stated.empty() ? "surface " + std::to_string(place + 1) : std::string(stated);
+    std::string name = first;
+    for (int n = 2; !names.insert(name).second; ++n) name = first + "_" + std::to_string(n);
+    if (name != first)
+        add_loss(losses, {LossClass::identity, first, "name", "another object has it: this one is called " + geomend::quoted(name), 1});
+    return name;
 }
 
 }  // namespace geomend::surfaces

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,5 +36,9 @@ struct Holds {
 /// Surfaces, and cell meshes by their triangles, quads and polygons. Everything else is listed as lost. Fails (F021) where there is
 /// no polygon at all.
 Result<WrittenFaces> faces_for_writing(const Dataset& dataset, const Holds& holds, const OutputSet& out, std::vector<Loss>& losses);
+
+/// The name of a surface, or by its place where it has none; what has the name of another one gets a number, which is listed.
+/// \param names those that are taken
+std::string own_name(std::string_view stated, std::size_t place, std::set<std::string>& names, std::vector<Loss>& losses);
 
 }  // namespace geomend::surfaces

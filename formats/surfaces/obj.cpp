@@ -6,7 +6,6 @@
 #include <set>
 #include <string>
 
-#include "base/wording.h"
 #include "formats/drop.h"
 #include "formats/surfaces/faces_writing.h"
 #include "formats/text_reading.h"
@@ -179,16 +178,6 @@ private:
         }
     }
 };
-
-/// The name of a surface by its place; what has the name of another one would be a part of that, so it gets a number, which is listed.
-std::string own_name(std::string_view stated, std::size_t place, std::set<std::string>& names, std::vector<Loss>& losses) {
-    const std::string first = stated.empty() ? "surface " + std::to_string(place + 1) : std::string(stated);
-    std::string name = first;
-    for (int n = 2; !names.insert(name).second; ++n) name = first + "_" + std::to_string(n);
-    if (name != first)
-        add_loss(losses, {LossClass::identity, first, "name", "another object has it: this one is called " + geomend::quoted(name), 1});
-    return name;
-}
 
 }  // namespace
 
