@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/own_name.h"
 #include "base/text_cursor.h"
 #include "formats/grdecl/deck.h"
 #include "formats/grdecl/value_text.h"
@@ -49,8 +50,7 @@ std::map<std::string, std::string> names_of_faults(const CornerPointGrid& grid, 
     }
     for (const auto& fault : grid.faults) {
         if (written.contains(fault.name)) continue;
-        std::string name = quotable(fault.name);
-        for (int n = 2; !taken.insert(name).second; ++n) name = quotable(fault.name) + "_" + std::to_string(n);
+        std::string name = own_name(quotable(fault.name), taken);
         add_loss(losses, {LossClass::identity, grid.info.name, "name of fault '" + fault.name + "'",
                           "decks hold no line ends in names, and quotes of one kind: it is written as " + in_quotes(name), 1});
         written.emplace(fault.name, std::move(name));

@@ -24,6 +24,29 @@ bool is_text(const Attribute& a);
 /// Writes the values of an attribute of numbers at one thing as they are, each after a blank.
 void write_attribute_values(OutputFile& file, const Attribute& a, std::size_t thing);
 
+/// Numbers in lines of so many, each behind what its name begins with.
+class NumberRows {
+public:
+    NumberRows(OutputFile& file, int on_a_line, std::string_view before = {}) : file_(file), most_(on_a_line), before_(before) {}
+    ~NumberRows() {
+        if (count_ > 0) file_ << '\n';
+    }
+    NumberRows(const NumberRows&) = delete;
+    NumberRows& operator=(const NumberRows&) = delete;
+    template <class Number>
+    void add(Number number) {
+        if (count_ == most_) file_ << '\n', count_ = 0;
+        if (count_++ > 0) file_ << ' ';
+        file_ << before_;
+        file_.number(number);
+    }
+
+private:
+    OutputFile& file_;
+    int most_, count_ = 0;
+    std::string_view before_;
+};
+
 /// Faces that two cells share, as each of them has it, ascending: only what one cell alone has is the border of a model.
 std::vector<CellFaceRef> shared_faces(const CellNetwork& network);
 

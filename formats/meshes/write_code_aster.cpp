@@ -18,27 +18,7 @@ constexpr std::array<std::size_t, 6> penta6_order{0, 2, 1, 3, 5, 4};
 constexpr std::array<Word, 4> words{
     {{CellType::tetrahedron, "TETRA4"}, {CellType::pyramid, "PYRAM5"}, {CellType::wedge, "PENTA6"}, {CellType::hexahedron, "HEXA8"}}};
 
-/// Names of elements ("M12") or nodes ("N12"), a few on each line: the program reads 80 characters.
-class Names {
-public:
-    Names(OutputFile& file, char letter) : file_(file), letter_(letter) {}
-    ~Names() {
-        if (on_line_ > 0) file_ << '\n';
-    }
-    Names(const Names&) = delete;
-    Names& operator=(const Names&) = delete;
-    void add(std::uint64_t number) {
-        if (on_line_ == 6) file_ << '\n', on_line_ = 0;
-        if (on_line_++ > 0) file_ << ' ';
-        file_ << letter_;
-        file_.number(number);
-    }
-
-private:
-    OutputFile& file_;
-    const char letter_;
-    int on_line_ = 0;
-};
+constexpr int names_on_a_line = 6;  // the program reads 80 characters
 
 void write_element(OutputFile& file, std::uint64_t number, std::span<const std::uint32_t> nodes) {
     file << 'M';
@@ -125,7 +105,7 @@ private:
 void write_group(OutputFile& file, const std::string& name, std::span<const SetElements::Range> ranges) {
     file << "GROUP_MA NOM=" << name << '\n';
     {
-        Names names(file, 'M');
+        NumberRows names(file, names_on_a_line, "M");
         for (const auto& [first, end] : ranges) {
             for (std::uint64_t i = first; i < end && file.good(); ++i) names.add(i);
         }
@@ -161,7 +141,7 @@ Result<std::vector<Loss>> write_code_aster(const VolumeMesh& mesh, OutputSet& ou
     for (const auto& set : mesh->node_sets) {
         file << "GROUP_NO NOM=" << set.name << '\n';
         {
-            Names names(file, 'N');
+            NumberRows names(file, names_on_a_line, "N");
             for (const std::uint32_t n : set.nodes) names.add(n + std::uint64_t{1});
         }
         file << "FINSF\n";

@@ -42,27 +42,6 @@ constexpr int triangle_number = 8, quadrangle_number = 14, bar_number = 2;
 
 const CsmpElement& csmp_cell(CellType type) { return *std::ranges::find(csmp_cells, type, &CsmpElement::type); }
 
-/// Numbers in lines of so many.
-class NumberRows {
-public:
-    NumberRows(OutputFile& file, int on_a_line) : file_(file), most_(on_a_line) {}
-    ~NumberRows() {
-        if (count_ > 0) file_ << '\n';
-    }
-    NumberRows(const NumberRows&) = delete;
-    NumberRows& operator=(const NumberRows&) = delete;
-    template <class Number>
-    void add(Number number) {
-        if (count_ == most_) file_ << '\n', count_ = 0;
-        if (count_++ > 0) file_ << ' ';
-        file_.number(number);
-    }
-
-private:
-    OutputFile& file_;
-    int most_, count_ = 0;
-};
-
 /// Elements of one name and kind that follow each other.
 struct Family {
     std::string name;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/own_name.h"
 #include "base/wording.h"
 
 namespace geomend::surfaces {
@@ -108,10 +109,9 @@ Result<WrittenFaces> faces_for_writing(const Dataset& dataset, const Holds& hold
     return faces;
 }
 
-std::string own_name(std::string_view stated, std::size_t place, std::set<std::string>& names, std::vector<Loss>& losses) {
+std::string name_in_file(std::string_view stated, std::size_t place, std::set<std::string>& names, std::vector<Loss>& losses) {
     const std::string first = stated.empty() ? "surface " + std::to_string(place + 1) : std::string(stated);
-    std::string name = first;
-    for (int n = 2; !names.insert(name).second; ++n) name = first + "_" + std::to_string(n);
+    std::string name = own_name(first, names);
     if (name != first)
         add_loss(losses, {LossClass::identity, first, "name", "another object has it: this one is called " + geomend::quoted(name), 1});
     return name;

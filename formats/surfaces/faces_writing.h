@@ -39,6 +39,6 @@ Result<WrittenFaces> faces_for_writing(const Dataset& dataset, const Holds& hold
 
 /// The name of a surface, or by its place where it has none; what has the name of another one gets a number, which is listed.
 /// \param names those that are taken
-std::string own_name(std::string_view stated, std::size_t place, std::set<std::string>& names, std::vector<Loss>& losses);
+std::string name_in_file(std::string_view stated, std::size_t place, std::set<std::string>& names, std::vector<Loss>& losses);
 
 }  // namespace geomend::surfaces

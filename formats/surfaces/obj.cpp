@@ -209,7 +209,7 @@ Result<std::vector<Loss>> write_obj(const Dataset& dataset, OutputSet& out, cons
     std::set<std::string> names;
     for (std::size_t s = 0; s < faces->surfaces.size(); ++s) {
         const auto& surface = faces->surfaces[s];
-        file << "o " << own_name(trimmed(surface.info->name), s, names, losses) << '\n';
+        file << "o " << name_in_file(trimmed(surface.info->name), s, names, losses) << '\n';
         for (std::size_t v = surface.first_point; v < faces->point_end(s) && file.good(); ++v) {
             file << "v ";
             file.number(faces->points[v][0]) << ' ';

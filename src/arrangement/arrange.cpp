@@ -12,6 +12,7 @@
 #include "arrangement/sheets.h"
 #include "arrangement/snap_grid.h"
 #include "arrangement/unfold.h"
+#include "base/length.h"
 #include "base/parallel.h"
 #include "geometry/vectors.h"
 
@@ -175,11 +176,6 @@ void add_unsettled(const Snapped& s, std::vector<std::uint8_t>& unsettled) {
     }
 }
 
-double area_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 n = cross(minus(b, a), minus(c, a));
-    return 0.5 * std::sqrt(dot(n, n));
-}
-
 /// Triangles of the soup whose pieces do not add up to them, by more than points may move along their border: points that late rounds made
 /// one may have taken pieces with them. Those in sheets are not looked at. 1 for each.
 std::vector<std::uint8_t> short_of_area(const TriangleSoup& soup, const Snapped& s, double tolerance) {
@@ -189,7 +185,8 @@ std::vector<std::uint8_t> short_of_area(const TriangleSoup& soup, const Snapped&
         if (s.state.source[t] >= left.size()) continue;
         const auto& [a, b, c] = s.state.triangles[t];
         const auto& points = s.state.points.points();
-        left[s.state.source[t]] += area_of(s.grid.to_position(points[a]), s.grid.to_position(points[b]), s.grid.to_position(points[c]));
+        left[s.state.source[t]] +=
+            triangle_area(s.grid.to_position(points[a]), s.grid.to_position(points[b]), s.grid.to_position(points[c]));
     }
     std::vector<std::uint8_t> looked_at(left.size(), 1), is_short(left.size(), 0);
     for (const auto& stack : s.state.stacks) {
@@ -207,8 +204,8 @@ std::vector<std::uint8_t> short_of_area(const TriangleSoup& soup, const Snapped&
         const Vec3 &a = soup.vertices[soup.triangles[t][0]], &b = soup.vertices[soup.triangles[t][1]],
                    &c = soup.vertices[soup.triangles[t][2]];
         double border = 0;
-        for (const Vec3& side : {minus(b, a), minus(c, b), minus(a, c)}) border += std::sqrt(dot(side, side));
-        is_short[t] = std::abs(left[t] - area_of(a, b, c)) > most * tolerance * (border + tolerance) ? 1 : 0;
+        for (const Vec3& side : {minus(b, a), minus(c, b), minus(a, c)}) border += length(side);
+        is_short[t] = std::abs(left[t] - triangle_area(a, b, c)) > most * tolerance * (border + tolerance) ? 1 : 0;
     }
     return is_short;
 }

@@ -34,8 +34,6 @@ double ordered_sum(std::size_t count, const Measure& measure) {
     return sum;
 }
 
-double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * length(cross(minus(b, a), minus(c, a))); }
-
 double polygon_area(const std::vector<Vec3>& points, std::span<const std::uint32_t> polygon) {
     const std::size_t n = polygon.size();
     if (n < 3) return 0;

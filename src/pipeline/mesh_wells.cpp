@@ -11,6 +11,7 @@
 
 #include "base/length.h"
 #include "base/nearest_word.h"
+#include "base/own_name.h"
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "formats/mesh_format.h"
@@ -97,10 +98,8 @@ std::vector<volumes::WellPath> paths_of(const Dataset& dataset, std::span<const 
     std::set<std::string> names;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         const Object& object = dataset.objects[chosen[i]];
-        std::string name = info_of(object).name;
-        if (name.empty()) name = "well " + std::to_string(i + 1);
-        const std::string stated = name;
-        for (int n = 2; !names.insert(name).second; ++n) name = stated + "_" + std::to_string(n);
+        const std::string stated = info_of(object).name.empty() ? "well " + std::to_string(i + 1) : info_of(object).name;
+        const std::string name = own_name(stated, names);
         if (name != stated)
             add_loss(losses,
                      {LossClass::identity, stated, "name", "another well has it: its edges are called " + geomend::quoted(name), 1});

@@ -25,7 +25,7 @@ class FrontCells {
 public:
     explicit FrontCells(double step) : step_(step) {}
 
-    void add(const Vec3& place, std::uint32_t number) { cells_[key(cell_of(place))].push_back({place, number}); }
+    void add(const Vec3& place, std::uint32_t number) { cells_[cell_of(place)].push_back({place, number}); }
 
     /// Calls visit(number, place) for each point that is no farther than that; until it returns false. \return whether none did
     template <class Visit>
@@ -34,7 +34,7 @@ public:
         for (std::int64_t i = low[0]; i <= high[0]; ++i) {
             for (std::int64_t j = low[1]; j <= high[1]; ++j) {
                 for (std::int64_t k = low[2]; k <= high[2]; ++k) {
-                    const auto found = cells_.find(key({i, j, k}));
+                    const auto found = cells_.find({i, j, k});
                     if (found == cells_.end()) continue;
                     for (const auto& [at, number] : found->second) {
                         const Vec3 away = minus(at, place);
@@ -54,7 +54,6 @@ private:
                    static_cast<std::size_t>(c[2]) * 0x94d049bb133111ebu;
         }
     };
-    static const Cell& key(const Cell& cell) { return cell; }
     Cell cell_of(const Vec3& p) const { return {cell_number(p[0] / step_), cell_number(p[1] / step_), cell_number(p[2] / step_)}; }
     double step_;
     std::unordered_map<Cell, std::vector<std::pair<Vec3, std::uint32_t>>, Hash> cells_;

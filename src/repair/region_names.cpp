@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "base/own_name.h"
 #include "base/vectors.h"
 #include "repair/soup_measures.h"
 
@@ -96,12 +97,6 @@ std::vector<std::uint32_t> heirs_of(const std::vector<Share>& shares, const std:
     return heir;
 }
 
-std::string free_name(const std::string& wish, std::set<std::string>& used) {
-    std::string name = wish;
-    for (unsigned n = 2; !used.insert(name).second; ++n) name = wish + "_" + std::to_string(n);
-    return name;
-}
-
 void carry_lists(const std::vector<topology::SurfaceComplex::RegionList>& lists, const std::vector<std::uint32_t>& before,
                  std::vector<BrepData::RegionList>& to) {
     to.clear();
@@ -131,11 +126,11 @@ std::vector<NameChange> carry_region_names(const SurfaceModel& model, const std:
         auto& region = data.regions[now];
         if (before[now] != no_index && heir[before[now]] == now) continue;
         if (before[now] == no_index) {
-            region.name = free_name(region.name, used);
+            region.name = own_name(region.name, used);
             changes.push_back({NameChange::made, region.name, {}});
         } else {
             const std::string& from = model.regions[before[now]].name;
-            region.name = free_name(from, used);
+            region.name = own_name(from, used);
             changes.push_back({NameChange::parted, region.name, from});
         }
     }

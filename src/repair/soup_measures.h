@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "base/length.h"
 #include "base/vectors.h"
 #include "geometry/box_tree.h"
 #include "model/triangle_soup.h"
@@ -18,10 +18,7 @@ inline Vec3 triangle_normal(const TriangleSoup& soup, std::uint32_t t) {
     return cross(minus(soup.vertices[b], soup.vertices[a]), minus(soup.vertices[c], soup.vertices[a]));
 }
 
-inline double triangle_area(const TriangleSoup& soup, std::uint32_t t) {
-    const Vec3 n = triangle_normal(soup, t);
-    return 0.5 * std::sqrt(dot(n, n));
-}
+inline double triangle_area(const TriangleSoup& soup, std::uint32_t t) { return 0.5 * length(triangle_normal(soup, t)); }
 
 /// The box along the axes around each triangle.
 inline std::vector<BoxTree::Corners> triangle_boxes(const TriangleSoup& soup) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "base/own_name.h"
 #include "model/attribute_operations.h"
 #include "topology/assemble.h"
 #include "topology/brep_from_dataset.h"
@@ -26,9 +27,7 @@ public:
         const auto known = given_.find(face.surface.source_object);
         if (known != given_.end()) return known->second;
         const std::string wish = face.interface_name.empty() ? "surface" : face.interface_name;
-        std::string name = wish;
-        for (unsigned n = 2; !used_.insert(name).second; ++n) name = wish + "_" + std::to_string(n);
-        return given_.emplace(face.surface.source_object, name).first->second;
+        return given_.emplace(face.surface.source_object, own_name(wish, used_)).first->second;
     }
 
 private:

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/bounds.h"
 #include "base/length.h"
 #include "base/vectors.h"
 #include "base/wording.h"
@@ -178,9 +179,8 @@ private:
             std::vector<PointsAlong> along(chain.empty() ? 0 : chain.size() - 1);
             for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
                 const Segment s{network_.pool.places()[chain[i]], network_.pool.places()[chain[i + 1]]};
-                Vec3 low = s[0], high = s[0];
-                for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], s[1][k]), high[k] = std::max(high[k], s[1][k]);
-                tree.visit_triangles(tree.box(low, high, 2 * tolerance_), [&](std::size_t n) {
+                const Bounds around = bounds_around(s);
+                tree.visit_triangles(tree.box(around.low, around.high, 2 * tolerance_), [&](std::size_t n) {
                     const std::uint32_t t = tree.number(n);
                     const std::array<Vec3, 3> corners{cut_.brep.vertices[triangles[t][0]], cut_.brep.vertices[triangles[t][1]],
                                                       cut_.brep.vertices[triangles[t][2]]};

@@ -12,6 +12,7 @@
 #include "base/vectors.h"
 #include "made_surfaces.h"
 #include "remesh/triangle_quality.h"
+#include "topology_stays.h"
 
 namespace geomend::remeshing {
 namespace {
@@ -20,18 +21,7 @@ using test::quality_of;
 using test::with_fixed_borders;
 
 RC_GTEST_PROP(Frontal, TopologyStaysAndVerticesLieOnTheSurface, ()) {
-    const double wave = *rc::gen::inRange(0, 300) / 100.0, length = *rc::gen::inRange(2, 12), size = *rc::gen::inRange(40, 600) / 100.0;
-    const EdgeMesh reference = test::sheet(14, 11, [&](double x, double y) { return wave * std::sin(x / length) * std::cos(y / length); });
-    const std::vector<double> sizes(reference.places.size(), size);
-    WorkSurface work = with_fixed_borders(reference, sizes);
-    remesh_frontal(work, {});
-    RC_ASSERT(is_consistent(work.mesh));
-    RC_ASSERT(test::numbers_of(work.mesh).euler == test::numbers_of(reference).euler);
-    RC_ASSERT(test::numbers_of(work.mesh).border_edges == test::numbers_of(reference).border_edges);
-    for (std::uint32_t v = 0; v < work.mesh.places.size(); ++v) {
-        if (work.mesh.has_vertex(v) && work.kinds[v] == VertexKind::inner)
-            RC_ASSERT(closest_point(reference, work.mesh.places[v], work.triangles[v]).distance < 0.3 * size);
-    }
+    test::check_topology_stays([](WorkSurface& work) { remesh_frontal(work, {}); });
 }
 
 TEST(Frontal, PointsKeepApartFromEachOtherAndFromBorders) {
