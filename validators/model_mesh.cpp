@@ -81,8 +81,9 @@ void check_flat_triangles(const ModelScope& scope, std::vector<Finding>& finding
         const auto& surface = scope.brep().surfaces[s];
         const auto polygon = surface.polygons[p];
         if (polygon.size() != 3 || uses_vertex_twice(surface, p)) return false;
-        return smallest_height(scope.vertex_of_node(surface, polygon[0]), scope.vertex_of_node(surface, polygon[1]),
-                               scope.vertex_of_node(surface, polygon[2])) <= scope.lengths(s).tolerance;
+        const auto& lengths = scope.lengths(s);
+        const auto corner = [&](std::size_t i) { return lengths.drawn_out(scope.vertex_of_node(surface, polygon[i])); };
+        return smallest_height(corner(0), corner(1), corner(2)) <= lengths.tolerance;
     });
 }
 

@@ -12,6 +12,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "repair/soup_edges.h"
+#include "topology/lengths.h"
 #include "validators/closing_tolerance.h"
 
 namespace geomend::repair {
@@ -108,6 +109,19 @@ Result<void> add_errors_as_asked(validators::CheckOptions checks, SurfaceRepair&
 
 std::string reason(double tolerance) {
     return "borders agree within " + rounded(tolerance) + ": that is the tolerance by which it is mended";
+}
+
+/// The plan by the finest of the tolerances along the axes, where heights are stored much finer than northings: by the largest what
+/// is thin would be welded together. None where the user named a tolerance, or there is no such difference.
+std::optional<SurfacePlan> by_finest(const Dataset& dataset, const SurfacePlan& plan, const SurfaceDriverOptions& options) {
+    if (options.checks.tolerance >= 0 || plan.tolerance >= 0) return std::nullopt;
+    const auto lengths = topology::local_lengths(dataset, {});
+    double finest = lengths.largest.tolerance;
+    for (const auto& of_cluster : lengths.clusters) {
+        if (of_cluster.finest() < 0.5 * of_cluster.tolerance) finest = std::min(finest, of_cluster.finest());
+    }
+    if (finest == lengths.largest.tolerance) return std::nullopt;
+    return SurfacePlan{plan.steps, finest, "by the tolerance of the coordinates that are stored most precisely"};
 }
 
 /// Lengths at which points of free borders come together, beyond those that checks try.
@@ -260,6 +274,13 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         auto repaired = attempt(*longer);
         if (!repaired) return std::move(repaired).why();
         if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}, {}};
+    }
+    if (left_by(best->repair).errors > 0) {
+        if (const auto finer = by_finest(dataset, best->plan, options)) {
+            auto repaired = attempt(*finer);
+            if (!repaired) return std::move(repaired).why();
+            if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *finer, {}, {}};
+        }
     }
     if (!search || (left_by(best->repair).errors == 0 && best->repair.closed)) return std::move(*best);
     // What is left of a closed model where nearly all is mended is no matter of a larger tolerance, and a try takes as long as the repair.

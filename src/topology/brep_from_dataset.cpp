@@ -28,7 +28,7 @@ bool states_model(const CellMesh& mesh) {
 SurfaceComplex complex_of(const Dataset& dataset, const ModelSource& source) {
     if (source.kind == ModelSource::stated_model) return complex_of_stated_model(dataset, dataset.models[source.model], source.groups);
     if (source.kind == ModelSource::loose_surfaces) return complex_of_loose_surfaces(dataset, source.groups);
-    return complex_of_tagged_mesh(dataset, source.groups[0].objects[0], source.groups[0].tolerance);
+    return complex_of_tagged_mesh(dataset, source.groups[0]);
 }
 
 /// How meshes of faces without volumes are taken: as models of their entities, or as loose surfaces.

@@ -26,12 +26,12 @@ bool counts(const UsedPoints& used, std::uint32_t t, std::span<const std::uint8_
 
 /// Adds what one object has of a part. The largest coordinates, as they are stored, are at the bounds, since rounding keeps order.
 void widen(PartExtent& part, const ObjectInfo& info, const Bounds& bounds) {
-    double& largest = info.precision == CoordinatePrecision::single_precision ? part.largest_single : part.largest_double;
+    Vec3& largest = info.precision == CoordinatePrecision::single_precision ? part.largest_single : part.largest_double;
     for (std::size_t k = 0; k < 3; ++k) {
         if (bounds.low[k] > bounds.high[k]) continue;
         part.low[k] = std::min(part.low[k], bounds.low[k]);
         part.high[k] = std::max(part.high[k], bounds.high[k]);
-        for (const double x : {bounds.low[k], bounds.high[k]}) largest = std::max(largest, std::abs(x - info.stored_around[k]));
+        for (const double x : {bounds.low[k], bounds.high[k]}) largest[k] = std::max(largest[k], std::abs(x - info.stored_around[k]));
     }
 }
 
@@ -226,14 +226,18 @@ std::vector<PartExtent> part_extents(const Dataset& dataset, const UsedPoints& u
     return extents;
 }
 
-double stored_steps(const PartExtent& part) {
-    double step = 0;
-    if (part.largest_double >= 0) step = std::nextafter(part.largest_double, HUGE_VAL) - part.largest_double;
-    if (part.largest_single >= 0) {
-        const auto v = static_cast<float>(part.largest_single);
-        step = std::max(step, static_cast<double>(std::nextafter(v, HUGE_VALF)) - static_cast<double>(v));
+Vec3 stored_steps(const PartExtent& part) {
+    Vec3 steps{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double large = part.largest_double[k];
+        double step = large >= 0 ? std::nextafter(large, HUGE_VAL) - large : 0;
+        if (part.largest_single[k] >= 0) {
+            const auto v = static_cast<float>(part.largest_single[k]);
+            step = std::max(step, static_cast<double>(std::nextafter(v, HUGE_VALF)) - static_cast<double>(v));
+        }
+        steps[k] = 4 * step;
     }
-    return 4 * step;
+    return steps;
 }
 
 std::vector<std::uint32_t> cluster_parts(const UsedPoints& used, const HangingParts& parts, std::span<const PartExtent> extents,

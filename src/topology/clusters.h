@@ -15,8 +15,8 @@ struct PartExtent {
     Vec3 centroid{};    ///< weighted; of parts without weight the mean of the vertices
     double radius = 0;  ///< largest distance of a vertex from the centroid
     Vec3 low{}, high{};
-    /// Largest coordinate as it is stored, of objects in double and in single precision; negative: none.
-    double largest_double = -1, largest_single = -1;
+    /// Along each axis the largest coordinate as it is stored, of objects in double and in single precision; negative: none.
+    Vec3 largest_double{-1, -1, -1}, largest_single{-1, -1, -1};
     bool empty = true;  ///< nothing of it counts
 };
 
@@ -25,8 +25,8 @@ struct PartExtent {
 std::vector<PartExtent> part_extents(const Dataset& dataset, const UsedPoints& used, const HangingParts& parts,
                                      std::span<const std::uint8_t> left_out);
 
-/// Four steps of the precision in which the coordinates of a part are stored.
-double stored_steps(const PartExtent& part);
+/// Along each axis four steps of the precision in which the coordinates of a part are stored.
+Vec3 stored_steps(const PartExtent& part);
 
 /// The cluster of each part, numbered from 0 in the order of their first parts: parts that come closer to each other than a
 /// hundredth of the larger one's diameter (twice the radius) are in one, as are a part and what lies inside of it, and so is what a

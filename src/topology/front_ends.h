@@ -21,8 +21,8 @@ SurfaceComplex complex_of_stated_model(const Dataset& dataset, const StatedModel
 /// The objects that a stated model is about, ascending: those of its faces, and meshes whose cells fill a region of their name.
 std::vector<std::uint32_t> objects_of(const Dataset& dataset, const StatedModel& model);
 
-/// A cell mesh whose entities say all. \pre the object is a CellMesh. Cost: linear.
-SurfaceComplex complex_of_tagged_mesh(const Dataset& dataset, std::uint32_t object, double tolerance);
+/// A cell mesh whose entities say all. \pre the group is one CellMesh. Cost: linear.
+SurfaceComplex complex_of_tagged_mesh(const Dataset& dataset, const WeldGroup& group);
 
 /// Surfaces that belong to no model: one face for each part. Surfaces whose triangles have points of their own, as STL files
 /// have it, are joined where points are equal (M08). \pre all are surfaces. Cost: linear.

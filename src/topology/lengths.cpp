@@ -17,13 +17,14 @@ namespace geomend::topology {
 
 namespace {
 
-constexpr double far_off = 10;  // diameters
+constexpr double far_off = 10;         // diameters
+constexpr double least_share = 1e-12;  // of the tolerance, along any axis
 
 /// What is known of one cluster.
 struct Cluster {
     std::vector<std::uint32_t> parts;
-    Vec3 centroid{};
-    double radius = 0, edge = 0, steps = 0, flatness = 1;
+    Vec3 centroid{}, steps{};
+    double radius = 0, edge = 0, flatness = 1;
 };
 
 /// The middle one of the three edges.
@@ -34,6 +35,14 @@ double middle_edge(const std::array<Vec3, 3>& t) {
     };
     const double a = square(0, 1), b = square(1, 2), c = square(2, 0);
     return std::sqrt(std::max(std::min(a, b), std::min(std::max(a, b), c)));
+}
+
+/// The tolerance as given, or by rule (negative). \pre lengths.diameter is set
+void set_tolerance(Lengths& lengths, double given, const Vec3& steps) {
+    const double least = 1e-7 * lengths.diameter;
+    lengths.tolerance = given >= 0 ? given : std::max(least, std::ranges::max(steps));
+    if (given >= 0 || lengths.tolerance <= 0) return;
+    for (std::size_t k = 0; k < 3; ++k) lengths.shares[k] = std::max(least_share, std::max(least, steps[k]) / lengths.tolerance);
 }
 
 /// Everything that lengths are worked out from.
@@ -118,7 +127,8 @@ void Survey::measure_cluster(Cluster& cluster) const {
         count += 1;
         weighted = plus(weighted, times(part.weight, d));
         plain = plus(plain, d);
-        cluster.steps = std::max(cluster.steps, stored_steps(part));
+        const Vec3 steps = stored_steps(part);
+        for (std::size_t k = 0; k < 3; ++k) cluster.steps[k] = std::max(cluster.steps[k], steps[k]);
     }
     if (count == 0) return;
     cluster.centroid = plus(origin, weight > 0 ? times(1 / weight, weighted) : times(1 / count, plain));
@@ -197,7 +207,7 @@ LocalLengths Survey::lengths(const LengthRules& rules) const {
             const Cluster& c = clusters_[cluster];
             Lengths lengths;
             lengths.diameter = 2 * c.radius;
-            lengths.tolerance = rules.tolerance >= 0 ? rules.tolerance : std::max(1e-7 * lengths.diameter, c.steps);
+            set_tolerance(lengths, rules.tolerance, c.steps);
             lengths.flatness = c.flatness;
             double near = 1e-3 * c.flatness * lengths.diameter;
             if (c.edge > 0) near = std::min(near, c.edge / 4);
@@ -221,12 +231,15 @@ std::vector<ModelSource> model_sources(const Dataset& dataset, const LocalLength
     auto sources = sources_to_judge(dataset);
     for (ModelSource& source : sources) {
         std::map<std::pair<double, std::uint32_t>, WeldGroup> groups;
-        const bool same = std::ranges::all_of(lengths.clusters, [&](const Lengths& l) { return l.tolerance == lengths.largest.tolerance; });
+        const bool same = std::ranges::all_of(lengths.clusters, [&](const Lengths& l) {
+            return l.tolerance == lengths.largest.tolerance && l.shares == lengths.clusters[0].shares;
+        });
         for (const WeldGroup& group : source.groups) {
             for (const std::uint32_t o : group.objects) {
-                const bool apart = !same && o < lengths.cluster_of.size() && lengths.cluster_of[o] != no_index;
+                const bool clustered = o < lengths.cluster_of.size() && lengths.cluster_of[o] != no_index, apart = clustered && !same;
                 WeldGroup& to = groups[{lengths.of(o).tolerance, apart ? lengths.cluster_of[o] : no_index}];
                 to.tolerance = lengths.of(o).tolerance;
+                if (clustered) to.shares = lengths.of(o).shares;
                 to.objects.push_back(o);
             }
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -13,8 +14,14 @@ namespace geomend::topology {
 struct Lengths {
     double diameter = 0;   ///< D, twice the largest distance of a point from the area-weighted centroid
     double tolerance = 0;  ///< up to which points count as one: max(1e-7 D, 4 steps of the stored coordinates), or as given
+    Vec3 shares{1, 1, 1};  ///< along each axis the part of the tolerance that holds there: steps of small coordinates are small
     double near = 0;       ///< search length for near misses, or as given
     double flatness = 1;   ///< 1/100 to 1, as flatness() has it: how much the cluster is thinner than D/5
+
+    /// A position in a space in which the tolerance is the same along all axes.
+    Vec3 drawn_out(const Vec3& p) const { return {p[0] / shares[0], p[1] / shares[1], p[2] / shares[2]}; }
+    /// The least of the tolerances along the axes.
+    double finest() const { return tolerance * std::min({shares[0], shares[1], shares[2]}); }
 };
 
 /// What the user says of lengths; negative: by rule.
@@ -50,7 +57,8 @@ struct LocalLengths {
 /// area is. Of each cluster, with all lengths from points that its elements use:
 /// - D is twice the largest distance of a point from the area-weighted centroid, so that it does not depend on how finely
 ///   something is triangulated (of meshes that have cells of three dimensions only the volume takes the place of the area);
-/// - tolerance = max(1e-7 D, 4 steps of the largest coordinate as it is stored);
+/// - tolerance = max(1e-7 D, 4 steps of the largest coordinate as it is stored), along each axis of the largest one there: heights
+///   of a few thousand metres tell layers apart that northings of millions in single precision could not;
 /// - near = max(10 tolerances, min(1e-3 D flatness, a quarter of the median edge)): so it is a two hundredth of the thickness of bodies
 ///   that are thinner than D/5, as basins are (see thickness.h). The median is weighted by area.
 /// Outlying points take no part: see find_outlying_points().

@@ -5,9 +5,9 @@
 
 namespace geomend::topology {
 
-SurfaceComplex complex_of_tagged_mesh(const Dataset& dataset, std::uint32_t object, double tolerance) {
+SurfaceComplex complex_of_tagged_mesh(const Dataset& dataset, const WeldGroup& group) {
+    const std::uint32_t object = group.objects[0];
     const CellMesh& mesh = std::get<CellMesh>(dataset.objects[object]);
-    const WeldGroup group{{object}, tolerance};
     WeldedPoints points = weld_points(dataset, {&group, 1});
     const MeshParts parts = parts_of_mesh(mesh, object);
     SurfaceComplex complex;

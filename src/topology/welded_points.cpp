@@ -31,18 +31,29 @@ std::vector<std::uint32_t> vertices_of(const WeldedPoints& welded, std::span<con
     return vertices;
 }
 
+/// The clusters of positions within the tolerance of a group: of positions that are drawn out along each axis where only a part
+/// of it holds.
+std::vector<std::uint32_t> clusters_of_group(const WeldGroup& group, std::span<const Vec3> positions) {
+    if (group.shares == Vec3{1, 1, 1}) return clusters_within(positions, group.tolerance);
+    std::vector<Vec3> drawn_out(positions.begin(), positions.end());
+    for (Vec3& p : drawn_out) {
+        for (std::size_t k = 0; k < 3; ++k) p[k] /= group.shares[k];
+    }
+    return clusters_within(drawn_out, group.tolerance);
+}
+
 /// Gives vertices of a group that are nearer than its tolerance to others the number of the first of them.
 void weld_near(const WeldGroup& group, bool alone, WeldedPoints& welded) {
     const auto& positions = welded.welder.positions();
     std::vector<std::uint32_t> vertices, first;
     if (alone) {
-        first = clusters_within(positions, group.tolerance);
+        first = clusters_of_group(group, positions);
     } else {
         vertices = vertices_of(welded, group.objects);
         std::vector<Vec3> own;
         own.reserve(vertices.size());
         for (const std::uint32_t v : vertices) own.push_back(positions[v]);
-        first = clusters_within(own, group.tolerance);
+        first = clusters_of_group(group, own);
     }
     for (std::uint32_t i = 0; i < first.size(); ++i) {
         if (first[i] == i) continue;

@@ -16,6 +16,7 @@ namespace geomend::topology {
 struct WeldGroup {
     std::vector<std::uint32_t> objects;  ///< surfaces and cell meshes of a Dataset, ascending
     double tolerance = 0;                ///< in the unit of the coordinates; 0: only equal positions
+    Vec3 shares{1, 1, 1};                ///< along each axis the part of the tolerance that holds there, above 0
 };
 
 /// The points of some objects as vertices.

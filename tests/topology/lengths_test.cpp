@@ -206,6 +206,20 @@ TEST(Lengths, of_single_precision_have_its_steps_apart_from_the_offset) {
     EXPECT_DOUBLE_EQ(lengths_of(with({surface})).largest.tolerance, 4 * std::ldexp(1.0, -14));
 }
 
+// Steps of a northing of millions are half a metre, those of a depth of two thousand are 0.1 mm.
+TEST(Lengths, of_single_precision_tell_heights_apart_that_northings_could_not) {
+    Surface surface = flat_sheet("a", 4, 250, {5e5, 6e6, -2000});
+    surface.info.precision = CoordinatePrecision::single_precision;
+    const auto lengths = lengths_of(with({surface}));
+    EXPECT_DOUBLE_EQ(lengths.largest.tolerance, 2);
+    ASSERT_EQ(lengths.clusters.size(), 1u);
+    const Vec3 shares = lengths.clusters[0].shares;
+    EXPECT_DOUBLE_EQ(shares[0], 1.0 / 16);
+    EXPECT_DOUBLE_EQ(shares[1], 1);
+    EXPECT_DOUBLE_EQ(2 * shares[2], 4 * std::ldexp(1.0, -13));
+    EXPECT_EQ(topology::local_lengths(with({surface}), {0.5, 7}).clusters[0].shares, (Vec3{1, 1, 1}));
+}
+
 TEST(Lengths, that_are_given_are_those_of_all) {
     const auto given = topology::local_lengths(with({flat_sheet("a", 4, 250, {0, 0, 0}), flat_sheet("b", 4, 1, {1e5, 0, 0})}), {0.5, 7});
     ASSERT_EQ(given.clusters.size(), 2u);
