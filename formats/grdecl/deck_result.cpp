@@ -60,7 +60,8 @@ Result<Dataset> DeckReader::finish() {
         const bool follows = std::ranges::any_of(g.info.annotations, [](const Annotation& a) {
             return a.key == "grdecl.record" && (a.value.starts_with("GDFILE") || a.value.starts_with("IMPORT"));
         });
-        if (g.faults.empty() && !follows)
+        const bool placed = std::ranges::any_of(g.faults, [](const auto& fault) { return !fault.boxes.empty(); });
+        if (!placed && !follows)
             return unreadable(
                 "F024", {input_->name()},
                 "neither SPECGRID nor DIMENS stands in the text: give the numbers of cells with --option dims=NX,NY,NZ, or read "

@@ -2,6 +2,7 @@
 #include "formats/meshes/mesh_writing.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <type_traits>
 
@@ -13,6 +14,12 @@ std::vector<Loss> common_losses(const VolumeMesh& mesh, std::string_view title) 
     if (mesh->crs != CoordinateSystem{}) add_loss(losses, {LossClass::identity, mesh->name, "coordinate system", why, 1});
     if (!mesh->split_pairs.empty())
         add_loss(losses, {LossClass::identity, mesh->name, "pairs of doubled faces", why, mesh->split_pairs.size()});
+    const auto roles = std::ranges::count_if(mesh->face_sets, [](const auto& set) {
+        return set.surface != no_index && set.role != FeatureRole::unknown;  // not of faces between or around regions, which nobody stated
+    });
+    if (roles > 0)
+        add_loss(losses, {LossClass::identity, mesh->name, "roles of surfaces", std::string(title) + " has no place for them",
+                          static_cast<std::uint64_t>(roles)});
     return losses;
 }
 

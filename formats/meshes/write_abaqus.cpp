@@ -137,8 +137,6 @@ Result<std::vector<Loss>> write_abaqus(const VolumeMesh& mesh, OutputSet& out, c
     write_node_sets(mesh, file, losses);
     if (rounded > 0)
         add_loss(losses, {LossClass::identity, "", "last digits of coordinates", "Abaqus reads 20 characters of a number", rounded});
-    if (std::ranges::any_of(mesh->face_sets, [](const auto& set) { return set.role != FeatureRole::unknown; }))
-        add_loss(losses, {LossClass::identity, "", "roles of surfaces", "Abaqus has no place for them", 1});
     return losses;
 }
 

@@ -21,6 +21,7 @@ Finding told(const CornerPointGrid& grid, const grid::LocalFrame& frame, bool ha
     f.message = "coordinates count from the origin " + number_text(frame.origin[0]) + " " + number_text(frame.origin[1]) +
                 " of the map now" + (had_axes ? ", along the same axes" : "") +
                 "; MAPAXES says so, and --option map=apply gives back the map's";
+    if (grid.map_unit.empty()) f.message += "; MAPUNITS is not written, since the file does not state the unit of its coordinates";
     if (rounding > 0) f.message += " (rounding MAPAXES to single precision moves the grid by up to " + number_text(rounding) + ")";
     return f;
 }

@@ -122,6 +122,7 @@ TEST(FileNames, WhereNumbersBelongPointToInclude) {
 
 TEST(DecksWithoutDims, AreNoGrid) {
     EXPECT_EQ(bad("FACIES\n 12*1 12*2 /\n").substr(0, 4), "F024");
+    EXPECT_EQ(bad("MULTFLT\n 'F1' 0.1 /\n/\n").substr(0, 4), "F024");
     EXPECT_EQ(bad("RUNSPEC\nOIL\nGRID\nMULTREGT\n 1 2 0.5 /\n/\n").substr(0, 4), "F024");
 }
 

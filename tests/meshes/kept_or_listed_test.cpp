@@ -206,6 +206,20 @@ TEST(Sets, TheOtherSideOfASurfaceIsNoLossOfFaces) {
         std::ranges::any_of(losses, [](const Loss& loss) { return loss.what == "side of faces" && loss.entity.starts_with("S_"); }));
 }
 
+TEST(Sets, RolesOfSurfacesAreListed) {
+    TwoTetrahedra two("west", "east");
+    two.add(CellType::triangle, {1, 2, 3}, "S", FeatureRole::fault);
+    const TwoTetrahedra plain("west", "east");
+    const auto lists_roles = [](const CellMesh& mesh, std::string_view format) {
+        const TemporaryFolder folder;
+        return std::ranges::any_of(write_all(mesh, format, folder), [](const Loss& loss) { return loss.what == "roles of surfaces"; });
+    };
+    for (const MeshFormat& format : meshes::mesh_formats()) {
+        EXPECT_EQ(lists_roles(two.mesh, format.name), find_mesh_needs(format.target)->face_sets) << format.name;
+        EXPECT_FALSE(lists_roles(plain.mesh, format.name)) << format.name;
+    }
+}
+
 TEST(Modflow, SaysTheUnitOfTheModel) {
     for (const auto& [unit, line] : std::vector<std::pair<std::string, std::vector<std::string>>>{
              {"m", {"METERS"}}, {"ft", {"FEET"}}, {"cm", {"CENTIMETERS"}}, {"", {}}, {"km", {}}, {"m m ft", {}}}) {
