@@ -2,7 +2,10 @@
 #include "gridding/build_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "base/parallel.h"
 #include "base/wording.h"
@@ -16,34 +19,43 @@ namespace geomend::gridding {
 
 namespace {
 
-double mean_depth(const Horizon& horizon) {
-    double sum = 0, count = 0;
-    const auto add = [&](double depth) {
-        if (!std::isfinite(depth)) return;
-        sum += depth;
-        count += 1;
-    };
-    if (const auto* map = std::get_if<HorizonMap>(&horizon.shape)) std::ranges::for_each(map->depths, add);
-    else
-        for (const Vec3& v : std::get<Sheet>(horizon.shape).vertices) add(v[2]);
-    return count > 0 ? sum / count : 0;
+/// What depths a horizon has, in one pass over them, several side by side: maps have millions.
+struct DepthSpan {
+    double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity(), sum = 0, count = 0;
+
+    void add(double depth) {
+        const bool is_known = depth - depth == 0;
+        least = std::min(least, is_known ? depth : least);
+        most = std::max(most, is_known ? depth : most);
+        sum += is_known ? depth : 0;
+        count += is_known ? 1 : 0;
+    }
+    void add(const DepthSpan& other) {
+        least = std::min(least, other.least);
+        most = std::max(most, other.most);
+        sum += other.sum;
+        count += other.count;
+    }
+    double mean() const { return count > 0 ? sum / count : 0; }
+};
+
+DepthSpan depths_of(const Horizon& horizon) {
+    constexpr std::size_t lanes = 8;
+    std::array<DepthSpan, lanes> side_by_side;
+    if (const auto* map = std::get_if<HorizonMap>(&horizon.shape)) {
+        const std::size_t whole = map->depths.size() / lanes * lanes;
+        for (std::size_t i = 0; i < whole; i += lanes) {
+            for (std::size_t l = 0; l < lanes; ++l) side_by_side[l].add(map->depths[i + l]);
+        }
+        for (std::size_t i = whole; i < map->depths.size(); ++i) side_by_side[i - whole].add(map->depths[i]);
+    } else {
+        for (const Vec3& v : std::get<Sheet>(horizon.shape).vertices) side_by_side[0].add(v[2]);
+    }
+    for (std::size_t l = 1; l < lanes; ++l) side_by_side[0].add(side_by_side[l]);
+    return side_by_side[0];
 }
 
-/// The least and the largest depth of all horizons.
-std::array<double, 2> depth_range(const Structure& structure) {
-    std::array<double, 2> range{1e300, -1e300};
-    const auto add = [&](double depth) {
-        if (!std::isfinite(depth)) return;
-        range[0] = std::min(range[0], depth);
-        range[1] = std::max(range[1], depth);
-    };
-    for (const Horizon& horizon : structure.horizons) {
-        if (const auto* map = std::get_if<HorizonMap>(&horizon.shape)) std::ranges::for_each(map->depths, add);
-        else
-            for (const Vec3& v : std::get<Sheet>(horizon.shape).vertices) add(v[2]);
-    }
-    return range;
-}
+double middle_of(const std::vector<DepthSpan>& depths) { return (depths.front().mean() + depths.back().mean()) / 2; }
 
 /// The horizons at all nodes, in order at each; what had to be moved is counted.
 std::vector<NodeDepths> all_depths(const Structure& structure, const NodeSetting& setting) {
@@ -130,10 +142,10 @@ void set_pillars(const Net& net, const std::array<double, 2>& range, CornerPoint
 }
 
 /// Lets pillars lean, checked at the mean depths of all horizons, too.
-LeanResult follow_faults(const Structure& structure, const Chains& chains, const std::array<double, 2>& range, Net& net,
-                         GridReport& report) {
+LeanResult follow_faults(const Structure& structure, const Chains& chains, const std::array<double, 2>& range,
+                         std::span<const DepthSpan> horizons, Net& net, GridReport& report) {
     std::vector<double> levels;
-    for (const Horizon& horizon : structure.horizons) levels.push_back(mean_depth(horizon));
+    for (const DepthSpan& depths : horizons) levels.push_back(depths.mean());
     LeanResult lean = lean_pillars(structure, chains, range[0], range[1], levels, net);
     report.mean_angles_before = lean.angles_before;
     report.mean_angles_after = lean.angles_after;
@@ -155,14 +167,18 @@ Failure stopped() { return failure(FailureKind::cancelled, "F022", {}, "stopped;
 }  // namespace
 
 double mid_level(const Structure& structure) {
-    return (mean_depth(structure.horizons.front()) + mean_depth(structure.horizons.back())) / 2;
+    return middle_of({depths_of(structure.horizons.front()), depths_of(structure.horizons.back())});
 }
 
 Result<MadeGrid> build_grid(const Structure& structure, const Net& upright, const GridOptions& options) {
     MadeGrid made;
     Net net = upright;
-    const double level = mid_level(structure);
-    const auto range = depth_range(structure);
+    std::vector<DepthSpan> spans;
+    for (const Horizon& horizon : structure.horizons) spans.push_back(depths_of(horizon));
+    const double level = middle_of(spans);
+    DepthSpan all;
+    for (const DepthSpan& span : spans) all.add(span);
+    const std::array<double, 2> range{all.least, all.most};
     made.report.cell = spacing_of(net, level);
 
     std::vector<Path> traces;
@@ -185,7 +201,7 @@ Result<MadeGrid> build_grid(const Structure& structure, const Net& upright, cons
     }
     LeanResult lean;
     const bool has_surfaces = std::ranges::any_of(structure.faults, [](const Fault& f) { return !f.sheet.triangles.empty(); });
-    if (options.follow_faults && has_surfaces) lean = follow_faults(structure, chains, range, net, made.report);
+    if (options.follow_faults && has_surfaces) lean = follow_faults(structure, chains, range, spans, net, made.report);
     const SplitPillars split = split_pillars(net, chains.edges);
     const Blocks blocks = fault_blocks(net, chains.edges);
     made.report.blocks = blocks.count;

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "base/parallel.h"
 #include "gridding/horizon_reader.h"
@@ -18,6 +19,41 @@ namespace {
 
 constexpr std::size_t enough_pieces = 12;
 constexpr int most_rounds = 50;  // of the search for where a leaning pillar meets a horizon
+
+/// A small number for each of some keys: open addresses in one array, which costs a fraction of a list for each. Keys are not 0.
+class SmallNumbers {
+public:
+    /// The number of a key, and whether it is new (then 0).
+    std::pair<std::int8_t*, bool> at(std::uint64_t key) {
+        if (2 * (count_ + 1) > keys_.size()) grow();
+        const std::size_t slot = slot_of(key);
+        if (keys_[slot] == key) return {&numbers_[slot], false};
+        keys_[slot] = key;
+        ++count_;
+        return {&numbers_[slot], true};
+    }
+
+private:
+    std::vector<std::uint64_t> keys_;  // 0: free
+    std::vector<std::int8_t> numbers_;
+    std::size_t count_ = 0;
+
+    std::size_t slot_of(std::uint64_t key) const {
+        std::size_t slot = (key * 0x9e3779b97f4a7c15u >> 20) & (keys_.size() - 1);
+        while (keys_[slot] != 0 && keys_[slot] != key) slot = (slot + 1) & (keys_.size() - 1);
+        return slot;
+    }
+    void grow() {
+        const auto keys = std::exchange(keys_, std::vector<std::uint64_t>(std::max<std::size_t>(1024, 2 * keys_.size()), 0));
+        const auto numbers = std::exchange(numbers_, std::vector<std::int8_t>(keys_.size(), 0));
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            if (keys[i] == 0) continue;
+            const std::size_t slot = slot_of(keys[i]);
+            keys_[slot] = keys[i];
+            numbers_[slot] = numbers[i];
+        }
+    }
+};
 
 /// A horizon seen from nodes. One for each horizon: it remembers on which sides of faults its pieces lie.
 template <class Reader>
@@ -71,7 +107,7 @@ private:
     const Reader& reader_;
     std::size_t horizon_;
     const NodeSetting& setting_;
-    std::unordered_map<std::uint64_t, std::int8_t> known_;
+    SmallNumbers known_;
     std::vector<Piece> pieces_;
     static constexpr std::int8_t unfit = 2;
 
@@ -83,9 +119,9 @@ private:
     }
 
     std::int8_t state_of(std::uint32_t fault, std::uint32_t piece) {
-        const auto [at, is_new] = known_.try_emplace((std::uint64_t{fault} << 32) | piece, std::int8_t{0});
-        if (is_new) at->second = new_state(setting_.sides[fault], piece);
-        return at->second;
+        const auto [state, is_new] = known_.at((std::uint64_t{fault} + 1) << 32 | piece);
+        if (is_new) *state = new_state(setting_.sides[fault], piece);
+        return *state;
     }
 
     std::int8_t new_state(const FaultSides& fault, std::uint32_t piece) const {
