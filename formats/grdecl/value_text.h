@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "base/number_text.h"
@@ -33,25 +37,32 @@ struct Element {
 /// Items in lines of at most 128 characters, the classic limit of simulators.
 class Lines {
 public:
-    void clear() {
-        text_.clear();
-        column_ = 0;
-    }
+    void clear() { end_ = column_ = 0; }
     void put(std::string_view item) {
-        constexpr std::size_t widest = 128;
+        char* to = room(item.size() + 2);
         if (column_ + 1 + item.size() > widest) {
-            text_ += '\n';
+            *to++ = '\n';
+            ++end_;
             column_ = 0;
         }
-        text_ += ' ';
-        text_ += item;
-        column_ += 1 + item.size();
+        *to = ' ';
+        std::memcpy(to + 1, item.data(), item.size());
+        take(1 + item.size());
+    }
+    /// Puts a finite number where it will stand, which saves copying it. False, and nothing is put, where the line may be full.
+    template <class Number>
+    bool put_number(Number value) {
+        if (column_ + 1 + longest_number > widest) return false;
+        char* to = room(1 + longest_number);
+        *to = ' ';
+        take(static_cast<std::size_t>(std::to_chars(to + 1, to + 1 + longest_number, value).ptr - to));
+        return true;
     }
     void end() {
-        if (column_ > 0) text_ += '\n';
+        if (column_ > 0) *room(1) = '\n', ++end_;
         column_ = 0;
     }
-    std::string_view view() const { return text_; }
+    std::string_view view() const { return std::string_view(text_).substr(0, end_); }
     /// An empty text to make an item in, without an allocation for each.
     std::string& scratch() {
         scratch_.clear();
@@ -59,15 +70,28 @@ public:
     }
 
 private:
+    static constexpr std::size_t widest = 128, longest_number = 24;
     std::string scratch_;
-    std::string text_;
-    std::size_t column_ = 0;
+    std::string text_;  // what was put ends at end_
+    std::size_t end_ = 0, column_ = 0;
+
+    char* room(std::size_t count) {
+        if (text_.size() - end_ < count) text_.resize(2 * text_.size() + count + 4096);
+        return text_.data() + end_;
+    }
+    void take(std::size_t count) {
+        end_ += count;
+        column_ += count;
+    }
 };
 
 /// Puts count times the same element: "v", "N*v" or "N*". Numbers are the shortest digits that read back; `with_point`
 /// tells reals from whole numbers where the keyword does not.
 template <class T>
 void put_run(Lines& lines, std::size_t count, const Element<T>& element, bool with_point) {
+    if constexpr (std::is_floating_point_v<T>) {
+        if (count == 1 && element.given && !with_point && std::isfinite(element.value) && lines.put_number(element.value)) return;
+    }
     std::string& text = lines.scratch();
     if (count > 1 || !element.given) {
         append_number(text, std::uint64_t{count});
