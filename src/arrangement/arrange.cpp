@@ -138,7 +138,9 @@ constexpr double reach_of_welds = 0.4;  // or more
 double thickest_sheet(const ArrangeOptions& options) { return options.reach < reach_of_welds ? sheet_widths.back() : 1.0; }
 
 /// Cuts until nothing is found any more, or it is given up.
-void cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigned most_rounds, Snapped& s, Arrangement& result) {
+/// \param usual how many triangles an earlier try had after its first rounds; 0: it is the first  \return the same of this one
+std::size_t cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigned most_rounds, std::size_t usual, Snapped& s,
+                Arrangement& result) {
     result.clean = false;
     constexpr unsigned most_unfoldings = 4;
     unsigned unfoldings = 0;
@@ -147,21 +149,22 @@ void cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigne
     // others again and again, and grow in number without end: then it is given up.
     constexpr unsigned first_rounds = 2;
     constexpr std::size_t most_growth = 4;
-    std::size_t after_first = 0;
+    std::size_t after_first = usual;
     unsigned rounds = 0;
-    const auto grows = [&] { return rounds > first_rounds && s.state.triangles.size() > most_growth * after_first + 1000; };
+    const auto grows = [&] { return (usual > 0 || rounds > first_rounds) && s.state.triangles.size() > most_growth * after_first + 1000; };
     while (!result.clean && rounds < most_rounds && !stopped() && !grows()) {
         s.state.reach = reach_of_round(s.grid, share, rounds);
         result.clean = cut_round(s.state, monitor);
         ++rounds;
         ++result.rounds;
-        if (rounds <= first_rounds) after_first = s.state.triangles.size();
+        if (usual == 0 && rounds <= first_rounds) after_first = s.state.triangles.size();
         if (result.clean && unfoldings < most_unfoldings && unfold(s.state, soup, s.grid.tolerance_steps)) {
             ++unfoldings;
             result.clean = false;
         }
     }
     if (stopped()) result.clean = false;
+    return after_first;
 }
 
 /// Notes which triangles of the soup have pieces that were found near others in the last round.
@@ -232,9 +235,10 @@ bool has_lost_area(const TriangleSoup& soup, const Snapped& s, double tolerance,
 
 /// What does not end is begun anew, and taken for one sheet where it lies upon each other: ever thicker ones; then with features that are
 /// one from farther away; at last whether it settled before or not. Where nothing of it ends, it stays as it was.
+/// \param usual how many triangles the first try had after its first rounds
 /// \param may_lie per triangle of the soup: what lost area
-void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, std::vector<std::uint8_t> may_lie, Snapped& s,
-                   Arrangement& result) {
+void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, std::vector<std::uint8_t> may_lie, std::size_t usual,
+                   Snapped& s, Arrangement& result) {
     add_unsettled(s, may_lie);
     for (const double coarser : {1.0, 4.0, 8.0, 16.0, 1.0}) {
         const double share = std::max(options.reach, std::min(0.5, coarser * options.reach));
@@ -247,7 +251,7 @@ void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, std:
             lay_sheets(anew.state, width * s.grid.tolerance_steps, may_lie, options.monitor);
             // Without sheets it is as before, but for the reach.
             if (anew.state.stacks.empty() && (share == options.reach || width != sheet_widths.front())) continue;
-            cut(soup, share, options.monitor, later_patience, anew, result);
+            cut(soup, share, options.monitor, later_patience, usual, anew, result);
             if (result.clean && has_lost_area(soup, anew, options.tolerance, may_lie)) result.clean = false;
             if (result.clean) {
                 s = std::move(anew);
@@ -266,10 +270,10 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     if (!(options.tolerance > 0)) return failure(FailureKind::usage, "F018", {}, "a cut needs a tolerance above 0");
     Snapped s = snapped(soup, options.tolerance);
     Arrangement result;
-    cut(soup, options.reach, options.monitor, options.most_rounds, s, result);
+    const std::size_t usual = cut(soup, options.reach, options.monitor, options.most_rounds, 0, s, result);
     std::vector<std::uint8_t> may_lie(soup.triangles.size(), 0);
     if (result.clean && options.sheets && has_lost_area(soup, s, options.tolerance, may_lie)) result.clean = false;
-    if (!result.clean && options.sheets) cut_in_sheets(soup, options, std::move(may_lie), s, result);
+    if (!result.clean && options.sheets) cut_in_sheets(soup, options, std::move(may_lie), usual, s, result);
     take_stacks_apart(s.state);
     write_vertices(soup, s, result);
     write_origins(soup, s, result);

@@ -87,7 +87,8 @@ Result<StepOutcome> weld_borders(SurfaceModel& model, const SurfaceStepOptions& 
         if (round > 0 && changed == 0) break;
         auto cut = arranged(laid.soup, model, options, arrangement::ArrangeOptions().reach, true);
         if (!cut) return std::move(cut).why();
-        if (round > 0 && !cut->clean) break;
+        const bool is_clean = cut->clean;
+        if (round > 0 && !is_clean) break;
         const auto became = std::span(cut->becomes).first(model.model.soup.vertices.size());
         const Displacement d = displacement(model.model.soup, cut->soup, became);
         take_soup(model, std::move(laid.soup), laid.origin);
@@ -100,6 +101,7 @@ Result<StepOutcome> weld_borders(SurfaceModel& model, const SurfaceStepOptions& 
             all = std::move(outcome);
             all.max_displacement = d.largest;
             all.mean_displacement = d.mean;
+            if (!is_clean) break;  // what does not settle only grows when it is cut again
             continue;
         }
         all.changed += outcome.changed;

@@ -264,5 +264,29 @@ TEST(Close, AGapLargerThanTheModelMovesNothingOutOfIt) {
     expect_volumes(folder / "out.ml", {500, 500});
 }
 
+/// Two surfaces of triangles that lie within some 1e-7 of the size of each other, corners and edges in part within 1e-4.
+std::string tangled_text() {
+    const auto surface = [](const std::string& name, const std::string& vertices, const std::string& triangles) {
+        return "GOCAD TSurf 1\nHEADER {\nname:" + name + "\n}\nTFACE\n" + vertices + triangles + "END\n";
+    };
+    return surface("s0",
+                   "VRTX 1 1.000000001 0 1e-7\nVRTX 2 0 0 1.0000001\nVRTX 3 1.0001 1.000000001 1\nVRTX 4 1 0 1\n"
+                   "VRTX 5 1.0001 1.0001 1.000000001\n",
+                   "TRGL 4 2 5\nTRGL 2 1 3\n") +
+           surface("s1",
+                   "VRTX 1 1.0001 1e-7 1.000000001\nVRTX 2 0 1 1.0000001\nVRTX 3 1 1.0000001 1\nVRTX 4 1.0000001 0 1.000000001\n"
+                   "VRTX 5 1.0001 1.0000001 1.0001\nVRTX 6 1 0.0001 0\nVRTX 7 1.0001 1 1\nVRTX 8 1 1 1\nVRTX 9 1 1e-7 0\n"
+                   "VRTX 10 0.0001 1 1\nVRTX 11 1e-9 0 1.0001\n",
+                   "TRGL 1 7 3\nTRGL 11 8 9\nTRGL 5 9 6\nTRGL 4 2 10\nTRGL 5 2 4\nTRGL 1 11 9\n");
+}
+
+// What a weld leaves unsettled has many more triangles, and would have many more again if it were cut again.
+TEST(Weld, EndsWhereNothingSettles) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", tangled_text());
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml"});
+    EXPECT_TRUE(run.status == 0 || run.status == 6) << run.status << run.out << run.err;
+}
+
 }  // namespace
 }  // namespace geomend
