@@ -5,6 +5,7 @@
 
 #include "base/vectors.h"
 #include "base/wording.h"
+#include "repair/joined_nodes.h"
 #include "repair/soup_edit.h"
 #include "repair/soup_measures.h"
 #include "repair/surface_steps.h"
@@ -109,6 +110,13 @@ Result<StepOutcome> rebuild_surfaces(SurfaceModel& model, const SurfaceStepOptio
     outcome.changed = 1;
     outcome.what.message =
         "surfaces, lines, corners and regions were made anew from " + counted(model.model.soup.triangles.size(), "triangle", "triangles");
+    const LoneTwins twins = join_lone_twins(model);
+    if (twins.nodes == 0) return outcome;
+    outcome.what.message += "; " + counted(twins.nodes, "doubled point was", "doubled points were") + " joined in " +
+                            counted(twins.faces.size(), "surface that doubles", "surfaces that double") +
+                            " points also where nothing cuts it, so that doubling states no cut in it";
+    for (const std::uint32_t p : twins.faces) outcome.what.entities.push_back({"surface", model.model.patches[p].name, -1});
+    outcome.what.points.push_back(twins.where);
     return outcome;
 }
 

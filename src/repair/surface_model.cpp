@@ -72,11 +72,16 @@ private:
         return v;
     }
 
+    static SurfaceModel::SourcePatch::Cuts cuts_of(const SurfaceComplex& complex, const SurfaceComplex::Face& face) {
+        if (!complex.stated) return SurfaceModel::SourcePatch::if_most;
+        return face.shared_nodes ? SurfaceModel::SourcePatch::unstated : SurfaceModel::SourcePatch::stated;
+    }
+
     void add_face(const SurfaceComplex& complex, SurfaceComplex::Face& face) {
         const auto patch = static_cast<std::uint32_t>(m_.model.patches.size());
         const auto first = static_cast<std::uint32_t>(m_.source.vertices.size());
         m_.source_patches.push_back({first, static_cast<std::uint32_t>(m_.source.triangles.size()), std::move(face.surface.attributes),
-                                     face.surface.source_object, face.number});
+                                     face.surface.source_object, face.number, cuts_of(complex, face)});
         std::vector<std::uint32_t> vertex_of;
         for (const VertexId v : face.surface.nodes) {
             vertex_of.push_back(vertex_at(complex.vertices[v.value], static_cast<std::uint32_t>(m_.source.vertices.size())));

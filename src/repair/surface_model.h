@@ -30,8 +30,11 @@ struct SurfaceModel {
         std::vector<Attribute> attributes;                   ///< over its vertices (point) or triangles (polygon), or for the whole
         std::uint32_t object = no_index;                     ///< of the Dataset
         std::int64_t number = 0;                             ///< of the face in its file; 0: none
+        enum Cuts : std::uint8_t { unstated, if_most, stated } cuts = unstated;  ///< whether doubled nodes state where it is cut
     };
     std::vector<SourcePatch> source_patches;
+    /// Per vertex of the source the node of its patch that it counts as; empty: each counts as itself. See join_lone_twins().
+    std::vector<std::uint32_t> counts_as;
 
     /// Regions as they were read, over patches as they are wound there.
     std::vector<topology::StatedRegion> regions;

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "exchange/model_from_brep.h"
+#include "repair/joined_nodes.h"
 #include "repair/region_names.h"
 #include "repair/scars.h"
 #include "repair/self_joints.h"
@@ -104,6 +106,31 @@ void part_at(const std::vector<std::array<std::uint32_t, 2>>& edges, topology::S
     model.soup.edge_ids.resize(model.soup.edges.size(), id);
 }
 
+/// The complex of a model that was taken apart, with nodes that state what is cut: its surfaces as faces of their own.
+topology::SurfaceComplex with_nodes_of(const BrepData& brep, const topology::JudgedModel& judged, topology::SurfaceComplex complex) {
+    std::map<std::uint32_t, std::size_t> face_of;  // by patch
+    for (std::size_t f = 0; f < complex.faces.size(); ++f) face_of.emplace(complex.faces[f].surface.source_part, f);
+    std::vector<topology::SurfaceComplex::Face> faces;
+    for (std::size_t s = 0; s < brep.surfaces.size(); ++s) {
+        const auto& own = complex.faces[face_of.at(brep.surfaces[s].source_part)];
+        auto& face = faces.emplace_back();
+        face.interface_name = own.interface_name;
+        face.tolerance = own.tolerance;
+        face.surface.name = own.surface.name;
+        face.surface.role = own.surface.role;
+        face.surface.role_text = own.surface.role_text;
+        face.surface.source_object = own.surface.source_object;
+        face.surface.source_part = own.surface.source_part;
+        face.surface.nodes = brep.surfaces[s].nodes;
+        face.surface.polygons = brep.surfaces[s].polygons;
+        if (s < judged.source_polygons.size()) face.source_polygons = judged.source_polygons[s];
+    }
+    complex.faces = std::move(faces);
+    complex.take_apart = false;
+    complex.lines.shared_nodes = false;
+    return complex;
+}
+
 Result<topology::JudgedModel> assembled(const SurfaceModel& model) {
     auto left = without_empty_patches(model);
     part_at(self_joints(model), left);
@@ -112,7 +139,13 @@ Result<topology::JudgedModel> assembled(const SurfaceModel& model) {
     complex->take_apart = true;
     complex->lines.shared_nodes = true;
     for (auto& face : complex->faces) face.shared_nodes = true;
-    return topology::assemble(std::move(*complex), topology::RegionSearch::where_none_are_stated);
+    auto judged = topology::assemble(*complex, topology::RegionSearch::where_none_are_stated);
+    if (!judged) return judged;
+    BrepData brep = *judged->brep;
+    if (!join_nodes_as_read(model, soup_triangles(model, *judged), brep)) return judged;
+    auto joined = topology::assemble(with_nodes_of(brep, *judged, std::move(*complex)), topology::RegionSearch::where_none_are_stated);
+    if (joined) joined->turned_polygons = std::move(judged->turned_polygons);
+    return joined;
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
+#include <sstream>
 
 #include "support/program.h"
+#include "support/real_data.h"
 
 // Repair of models of surfaces from the command line, as a user runs it.
 
@@ -224,6 +227,83 @@ TEST(SurfaceRepair, PointsMovedWithinTheToleranceAreWeldedToTheSameModel) {
         const auto before = brep_of(sample), after = brep_of(folder / "out.ml");
         EXPECT_EQ(counts(after), counts(before)) << "seed " << seed;
         EXPECT_NEAR(total_volume(after), total_volume(before), 1e-5 * total_volume(before));
+    }
+}
+
+// RINGMesh's repair of the same file: horizons that touch themselves at points with doubled nodes have all of their nodes joined, also
+// along faults that end in them, and each node of such a line is a corner of the horizon.
+TEST(SurfaceRepair, SurfacesThatDoubleNodesWhereNothingCutsThemHaveTheCountsOfTheirPublishedRepair) {
+    const auto broken = test::real_data("gocad/CloudSpin.ml"), published = test::real_data("gocad/CloudSpin_fixed.ml");
+    if (!broken || !published) GTEST_SKIP() << "no real data";
+    const std::string in = broken->string(), fixed = published->string();
+    const TemporaryFolder folder;
+    const auto volumes = [](const nlohmann::json& brep) {
+        std::map<std::string, double> all;
+        for (const auto& region : brep["region_volumes"]) all[region["name"]] = region["volume"];
+        return all;
+    };
+    const auto known = volumes(brep_of(fixed));
+    for (const auto& file : {in, fixed}) {
+        for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--steps", "clean,weld,cut,tails,rebuild"}}) {
+            std::vector<std::string> words{"repair", file, "-o", folder / "out.ml"};
+            words.insert(words.end(), options.begin(), options.end());
+            const auto run = run_geomend(words);
+            EXPECT_EQ(run.status, 0) << run.out << run.err;
+            EXPECT_EQ(run.out.find("20 doubled points were joined") != std::string::npos, file == in) << run.out.substr(0, 2000);
+            const auto brep = brep_of(folder / "out.ml");
+            EXPECT_EQ(counts(brep), (std::vector<int>{148, 249, 115, 7})) << file;
+            const auto now = volumes(brep);
+            ASSERT_EQ(now.size(), known.size());
+            for (const auto& [name, volume] : known) EXPECT_NEAR(now.at(name), volume, 1e-6 * volume) << name;
+        }
+    }
+}
+
+/// A box with a sheet in its middle and a fault that stands on its floor, goes through the sheet and dies out inside.
+std::string box_with_dying_fault() {
+    return cube_of_squares(0) + tsurf("sheet", {{0, 0, 5}, {10, 0, 5}, {10, 10, 5}, {0, 10, 5}}, halves) +
+           tsurf("fault", {{5, 0, 0}, {5, 4, 0}, {5, 4, 8}, {5, 0, 8}}, halves);
+}
+
+/// The text of a model in which all nodes of a part of a surface that are at one place are one.
+std::string with_joined_nodes(const std::string& text) {
+    std::istringstream lines(text);
+    std::map<std::string, std::string> first, now;  // node by place in this part; what a node has become
+    std::string joined;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string key, id, x, y, z;
+        words >> key;
+        if (key == "TFACE" || key == "GOCAD") first.clear();
+        if (key == "GOCAD") now.clear();
+        if (key == "VRTX" || key == "PVRTX") {
+            words >> id >> x >> y >> z;
+            now[id] = first.emplace(x + ' ' + y + ' ' + z, id).first->second;
+        }
+        if (key == "ATOM") {
+            words >> id >> x;
+            now[id] = first.emplace("of " + now[x], now[x]).first->second;
+        }
+        if (key == "TRGL") {
+            words >> x >> y >> z;
+            line = "TRGL " + now[x] + ' ' + now[y] + ' ' + now[z];
+        }
+        joined += line + '\n';
+    }
+    return joined;
+}
+
+TEST(SurfaceRepair, ALineThatDoesNotCutASurfaceByItsNodesStillDoesNot) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ts", box_with_dying_fault());
+    ASSERT_EQ(run_geomend({"repair", folder / "in.ts", "-o", folder / "cut.ml"}).status, 0);
+    write_file(folder / "joined.ml", with_joined_nodes(read_file(folder / "cut.ml")));
+    const auto cut = brep_of(folder / "cut.ml"), joined = brep_of(folder / "joined.ml");
+    ASSERT_GE(counts(joined)[0], counts(cut)[0]);
+    for (const char* name : {"cut.ml", "joined.ml"}) {
+        ASSERT_EQ(run_geomend({"repair", folder / name, "-o", folder / "out.ml", "--steps", "weld,cut,rebuild"}).status, 0);
+        EXPECT_EQ(brep_of(folder / "out.ml")["internal_lines"], brep_of(folder / name)["internal_lines"]) << name;
+        EXPECT_EQ(counts(brep_of(folder / "out.ml")), counts(brep_of(folder / name))) << name;
     }
 }
 
