@@ -48,12 +48,13 @@ double reach_between(const GapSearch& search, const Vec3& from, const Vec3& to, 
 
 /// Per edge the line that its border goes to; edges of closed pieces that have nothing ahead go as far as the nearest one of their piece.
 std::vector<Offset> offsets_of(const TriangleSoup& soup, const FreeBorders& borders, const std::vector<Contact>& contacts,
-                               const GapSearch& search, std::vector<GapHit>& hits, double beyond) {
+                               const GapSearch& search, std::vector<GapHit>& hits, double tolerance) {
     std::vector<Offset> offsets;
     for (const BorderEdge& e : borders.edges) offsets.push_back({soup.vertices[e.from], soup.vertices[e.to], false});
     for (const Contact& contact : contacts) {
         if (contact.decision != GapDecision::closed) continue;
         const auto& piece = borders.pieces[contact.piece];
+        const double beyond = std::max(8 * tolerance, 0.02 * search.limit(contact.patch));
         for (std::size_t i = 0; i < piece.size(); ++i) {
             if (contact.in_part && hits[piece[i]].patch != contact.on) continue;
             const BorderEdge& e = borders.edges[piece[i]];
@@ -100,8 +101,8 @@ struct Strip {
 /// Goes along the borders and puts triangles between them and the lines that they go to.
 class StripMaker {
 public:
-    StripMaker(const TriangleSoup& soup, const FreeBorders& borders, const std::vector<Offset>& offsets, double farthest)
-        : soup_(soup), borders_(borders), offsets_(offsets), farthest_(farthest), at_from_(borders.edges.size(), no_index) {
+    StripMaker(const TriangleSoup& soup, const FreeBorders& borders, const std::vector<Offset>& offsets, const GapSearch& search)
+        : soup_(soup), borders_(borders), offsets_(offsets), search_(search), at_from_(borders.edges.size(), no_index) {
         strip_.soup = soup;
         strip_.origin = identity_origin(soup);
     }
@@ -120,7 +121,9 @@ private:
         const Offset still{soup_.vertices[edge.from], soup_.vertices[edge.from], false};
         const bool moves = offsets_[e].moved || (before != no_index && offsets_[before].moved);
         if (!moves) return at_from_[e] = edge.from;
-        const Vec3 place = before == no_index ? offsets_[e].from : joined(offsets_[before], offsets_[e], still.from, farthest_);
+        const Vec3 place = before == no_index
+                               ? offsets_[e].from
+                               : joined(offsets_[before], offsets_[e], still.from, 6 * search_.limit(soup_.patches[edge.triangle]));
         return at_from_[e] = add_vertex(place, edge, edge.from);
     }
 
@@ -166,7 +169,7 @@ private:
     const TriangleSoup& soup_;
     const FreeBorders& borders_;
     const std::vector<Offset>& offsets_;
-    double farthest_;
+    const GapSearch& search_;
     std::vector<std::uint32_t> at_from_;
     Strip strip_;
 };
@@ -189,7 +192,7 @@ Result<StepOutcome> close_borders(SurfaceModel& model, const SurfaceStepOptions&
     const TriangleSoup& soup = model.model.soup;
     const double limit = gap_limit(model, options);
     const FreeBorders borders = free_borders(soup, edges_of(soup));
-    const GapSearch search(soup, limit);
+    const GapSearch search(soup, gap_limits(model, options));
     std::vector<GapHit> hits;
     const auto wishes = patch_wishes(model, options.contacts);
     if (!wishes) return wishes.why();
@@ -201,9 +204,8 @@ Result<StepOutcome> close_borders(SurfaceModel& model, const SurfaceStepOptions&
         outcome.what.message = "no border stops short of a surface by less than " + rounded(limit);
         return outcome;
     }
-    const double beyond = std::max(8 * model.lengths.tolerance, 0.02 * limit);
-    const auto offsets = offsets_of(soup, borders, contacts, search, hits, beyond);
-    Strip strip = StripMaker(soup, borders, offsets, 6 * limit).make();
+    const auto offsets = offsets_of(soup, borders, contacts, search, hits, model.lengths.tolerance);
+    Strip strip = StripMaker(soup, borders, offsets, search).make();
     outcome.changed = strip.made;
     outcome.max_displacement = strip.largest;
     outcome.mean_displacement = strip.sum / static_cast<double>(std::max<std::uint64_t>(strip.moved, 1));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/vectors.h"
@@ -27,13 +28,14 @@ BoxTree::Corners box_around(const Vec3& a, const Vec3& b, double margin) {
 
 }  // namespace
 
-GapSearch::GapSearch(const TriangleSoup& soup, double limit) : soup_(soup), limit_(limit), tree_(triangle_boxes(soup)) {}
+GapSearch::GapSearch(const TriangleSoup& soup, std::vector<double> limits)
+    : soup_(soup), limits_(std::move(limits)), tree_(triangle_boxes(soup)) {}
 
 GapHit GapSearch::ahead(const Vec3& from, const Vec3& direction, std::uint32_t own_patch, std::uint32_t only) const {
     GapHit best;
-    const double farthest = 2 * limit_;
+    const double limit = limits_[own_patch], farthest = 2 * limit;
     const Vec3 to = plus(from, times(farthest, direction));
-    tree_.visit(box_around(from, to, limit_), -1e-9 * limit_, [&](std::uint32_t i) {
+    tree_.visit(box_around(from, to, limit), -1e-9 * limit, [&](std::uint32_t i) {
         if (soup_.patches[i] == own_patch || (only != no_index && soup_.patches[i] != only)) return;
         const Triangle& t = soup_.triangles[i];
         const std::array<Vec3, 3> corners{soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]};
@@ -44,10 +46,10 @@ GapHit GapSearch::ahead(const Vec3& from, const Vec3& direction, std::uint32_t o
         const double slope = dot(direction, normal);
         if (std::abs(slope) < sine_of_grazing) return;
         const double along = dot(minus(corners[0], from), normal) / slope;
-        if (along < 0 || along > farthest || along * std::abs(slope) > limit_) return;
+        if (along < 0 || along > farthest || along * std::abs(slope) > limit) return;
         const double off = closest_points(plus(from, times(along, direction)), corners).distance;
-        if (off > limit_) return;
-        const bool within = off <= 1e-6 * limit_;
+        if (off > limit) return;
+        const bool within = off <= 1e-6 * limit;
         const bool better = !best.found() || (within && !best.within) || (within == best.within && along < best.along);
         if (better) best = {soup_.patches[i], along, within};
     });
@@ -56,8 +58,9 @@ GapHit GapSearch::ahead(const Vec3& from, const Vec3& direction, std::uint32_t o
 
 NearestHit GapSearch::nearest(const std::array<Vec3, 2>& edge, const Vec3& direction, std::uint32_t own_patch) const {
     NearestHit best;
-    best.distance = limit_;
-    tree_.visit(box_around(edge[0], edge[1], limit_), -1e-9 * limit_, [&](std::uint32_t i) {
+    const double limit = limits_[own_patch];
+    best.distance = limit;
+    tree_.visit(box_around(edge[0], edge[1], limit), -1e-9 * limit, [&](std::uint32_t i) {
         if (soup_.patches[i] == own_patch) return;
         const Triangle& t = soup_.triangles[i];
         const std::array<Vec3, 3> corners{soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]};

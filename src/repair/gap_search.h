@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "geometry/box_tree.h"
 #include "model/objects.h"
@@ -32,9 +33,11 @@ struct NearestHit {
 /// Looks for what lies ahead of free borders.
 class GapSearch {
 public:
-    /// \param limit largest gap, measured square to the surface that is met
+    /// \param limits per patch the largest gap at its borders, measured square to the surface that is met
     /// Cost: n log n. \pre the soup outlives this
-    GapSearch(const TriangleSoup& soup, double limit);
+    GapSearch(const TriangleSoup& soup, std::vector<double> limits);
+
+    double limit(std::uint32_t patch) const { return limits_[patch]; }
 
     /// The nearest triangle of another patch ahead of a point that is met at more than 10 degrees; triangles that are met within
     /// themselves go before those whose planes are.
@@ -47,7 +50,7 @@ public:
 
 private:
     const TriangleSoup& soup_;
-    double limit_;
+    std::vector<double> limits_;
     BoxTree tree_;
 };
 

@@ -103,7 +103,7 @@ std::string filled_text(std::uint64_t holes, const std::vector<Notch>& notches, 
 
 Result<StepOutcome> fill_holes(SurfaceModel& model, const SurfaceStepOptions& options) {
     const TriangleSoup& soup = model.model.soup;
-    const double limit = gap_limit(model, options);
+    const auto limits = gap_limits(model, options);
     const SoupEdges edges = edges_of(soup);
     const FreeBorders borders = free_borders(soup, edges);
     TriangleSoup made = soup;
@@ -120,7 +120,7 @@ Result<StepOutcome> fill_holes(SurfaceModel& model, const SurfaceStepOptions& op
     };
     for (const Loop& loop : holes_of(soup, edges, borders, model.model.patches.size())) {
         // Half the way around a hole is as wide as it can be.
-        if (loop.edges.size() > 3 && loop.length > 2 * limit) {
+        if (loop.edges.size() > 3 && loop.length > 2 * limits[loop.patch]) {
             ++left;
             outcome.what.points.push_back(soup.vertices[borders.edges[loop.edges[0]].from]);
             continue;
@@ -131,10 +131,12 @@ Result<StepOutcome> fill_holes(SurfaceModel& model, const SurfaceStepOptions& op
         add(filled_loop(soup, vertices), loop.patch, borders.edges[loop.edges[0]].triangle);
         ++holes;
     }
-    const auto notches = notches_of(soup, edges, borders, limit);
+    const auto notches = notches_of(soup, edges, borders, limits);
     for (const Notch& notch : notches) add(notch.triangles, notch.patch, notch.source);
     outcome.what.message = filled_text(holes, notches, model, outcome.changed);
-    if (left > 0) outcome.what.message += "; " + counted(left, "hole is", "holes are") + " wider than " + rounded(limit) + " and left";
+    if (left > 0)
+        outcome.what.message +=
+            "; " + counted(left, "hole is", "holes are") + " wider than " + rounded(gap_limit(model, options)) + " and left";
     if (outcome.changed > 0) {
         const auto first = static_cast<std::uint32_t>(soup.triangles.size());
         take_soup(model, std::move(made), origin);

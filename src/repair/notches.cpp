@@ -66,11 +66,12 @@ struct Chain {
     double length = 0;
 };
 
-std::vector<Chain> open_chains(const TriangleSoup& soup, const FreeBorders& borders, double limit) {
+std::vector<Chain> open_chains(const TriangleSoup& soup, const FreeBorders& borders, const std::vector<double>& limits) {
     std::vector<Chain> chains;
     for (std::uint32_t start = 0; start < borders.edges.size(); ++start) {
         if (borders.edges[start].previous != no_index) continue;
         Chain chain;
+        const double limit = limits[soup.patches[borders.edges[start].triangle]];
         for (std::uint32_t e = start; e != no_index && chain.edges.size() <= most_edges; e = borders.edges[e].next) {
             chain.edges.push_back(e);
             chain.length += distance(soup, borders.edges[e].from, borders.edges[e].to);
@@ -82,8 +83,8 @@ std::vector<Chain> open_chains(const TriangleSoup& soup, const FreeBorders& bord
 
 class NotchFinder {
 public:
-    NotchFinder(const TriangleSoup& soup, const SoupEdges& edges, const FreeBorders& borders, double limit)
-        : soup_(soup), borders_(borders), limit_(limit), around_(soup, edges) {}
+    NotchFinder(const TriangleSoup& soup, const SoupEdges& edges, const FreeBorders& borders, const std::vector<double>& limits)
+        : soup_(soup), borders_(borders), limits_(limits), around_(soup, edges) {}
 
     std::optional<Notch> at(const Chain& chain) const {
         Notch notch;
@@ -109,7 +110,7 @@ public:
             for (const std::uint32_t corner : common_neighbours(from, to, notch.patch)) offer({corner});
         }
         if (notch.triangles.empty()) {
-            if (const auto way = shortest_way(from, to, notch.patch, 2 * limit_ - chain.length)) offer(*way);
+            if (const auto way = shortest_way(from, to, notch.patch, 2 * limits_[notch.patch] - chain.length)) offer(*way);
         }
         if (notch.triangles.empty()) return std::nullopt;
         return notch;
@@ -118,7 +119,7 @@ public:
 private:
     const TriangleSoup& soup_;
     const FreeBorders& borders_;
-    double limit_;
+    const std::vector<double>& limits_;
     EdgesAround around_;
 
     bool are_joined(std::uint32_t a, std::uint32_t b, std::uint32_t patch) const {
@@ -207,11 +208,12 @@ std::vector<Triangle> filled_loop(const TriangleSoup& soup, std::vector<std::uin
     return triangles;
 }
 
-std::vector<Notch> notches_of(const TriangleSoup& soup, const SoupEdges& edges, const FreeBorders& borders, double limit) {
+std::vector<Notch> notches_of(const TriangleSoup& soup, const SoupEdges& edges, const FreeBorders& borders,
+                              const std::vector<double>& limits) {
     std::vector<Notch> notches;
-    const auto chains = open_chains(soup, borders, limit);
+    const auto chains = open_chains(soup, borders, limits);
     if (chains.empty()) return notches;
-    const NotchFinder finder(soup, edges, borders, limit);
+    const NotchFinder finder(soup, edges, borders, limits);
     std::set<Triangle> there;
     for (Triangle t : soup.triangles) {
         std::ranges::sort(t);

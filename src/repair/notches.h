@@ -18,9 +18,10 @@ struct Notch {
 };
 
 /// Notches that edges of other patches close, found by their vertices alone: single missing triangles whatever their size, others
-/// where half the way around them is no longer than the limit. What fills one goes on in the direction of the triangles beside
-/// it, within 60 degrees. Cost: n log n in edges, and in the edges around small notches.
-std::vector<Notch> notches_of(const TriangleSoup& soup, const SoupEdges& edges, const FreeBorders& borders, double limit);
+/// where half the way around them is no longer than the limit of their patch. What fills one goes on in the direction of the triangles
+/// beside it, within 60 degrees. Cost: n log n in edges, and in the edges around small notches.
+std::vector<Notch> notches_of(const TriangleSoup& soup, const SoupEdges& edges, const FreeBorders& borders,
+                              const std::vector<double>& limits);
 
 /// Triangles over a closed loop of vertices, wound as it runs: ears are cut off where the loop turns the right way, the sharpest first.
 std::vector<Triangle> filled_loop(const TriangleSoup& soup, std::vector<std::uint32_t> loop);

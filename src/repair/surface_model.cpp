@@ -45,7 +45,7 @@ void fan_attributes(std::vector<Attribute>& attributes, const std::vector<std::u
 
 class Gatherer {
 public:
-    explicit Gatherer(SurfaceModel& model) : m_(model) {}
+    Gatherer(SurfaceModel& model, const topology::LocalLengths& lengths) : m_(model), lengths_(lengths) {}
 
     void add(SurfaceComplex& complex) {
         const auto first_patch = static_cast<std::uint32_t>(m_.model.patches.size());
@@ -81,7 +81,8 @@ private:
         const auto patch = static_cast<std::uint32_t>(m_.model.patches.size());
         const auto first = static_cast<std::uint32_t>(m_.source.vertices.size());
         m_.source_patches.push_back({first, static_cast<std::uint32_t>(m_.source.triangles.size()), std::move(face.surface.attributes),
-                                     face.surface.source_object, face.number, cuts_of(complex, face)});
+                                     face.surface.source_object, face.number, cuts_of(complex, face),
+                                     lengths_.of(face.surface.source_object).diameter});
         std::vector<std::uint32_t> vertex_of;
         for (const VertexId v : face.surface.nodes) {
             vertex_of.push_back(vertex_at(complex.vertices[v.value], static_cast<std::uint32_t>(m_.source.vertices.size())));
@@ -131,6 +132,7 @@ private:
     }
 
     SurfaceModel& m_;
+    const topology::LocalLengths& lengths_;
     topology::Welder welder_{0};
     Names names_;
 };
@@ -163,10 +165,12 @@ void take_regions(const BrepData& brep, std::uint32_t first_patch, SurfaceModel&
 Result<SurfaceModel> surface_model_of(const Dataset& dataset, const topology::LengthRules& rules) {
     SurfaceModel model;
     model.rules = rules;
-    model.lengths = topology::local_lengths(dataset, rules).largest;
+    const auto lengths = topology::local_lengths(dataset, rules);
+    model.lengths = lengths.largest;
+    model.diameter = lengths.largest.diameter;
     const auto sources = topology::model_sources(dataset);
     auto complexes = topology::complexes_of(dataset, sources);
-    Gatherer gatherer(model);
+    Gatherer gatherer(model, lengths);
     for (std::size_t i = 0; i < complexes.size(); ++i) {
         const auto first_patch = static_cast<std::uint32_t>(model.model.patches.size());
         gatherer.add(complexes[i]);

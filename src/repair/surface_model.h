@@ -31,6 +31,7 @@ struct SurfaceModel {
         std::uint32_t object = no_index;                     ///< of the Dataset
         std::int64_t number = 0;                             ///< of the face in its file; 0: none
         enum Cuts : std::uint8_t { unstated, if_most, stated } cuts = unstated;  ///< whether doubled nodes state where it is cut
+        double diameter = 0;  ///< D of the cluster that it was read in; 0: it was not read
     };
     std::vector<SourcePatch> source_patches;
     /// Per vertex of the source the node of its patch that it counts as; empty: each counts as itself. See join_lone_twins().
@@ -61,6 +62,7 @@ struct SurfaceModel {
 
     topology::LengthRules rules;         ///< what was given of lengths
     topology::Lengths lengths;           ///< by which it is mended, from the input or as given
+    double diameter = 0;                 ///< the largest D of what was read: what is added around it later is not in it
     std::vector<std::uint32_t> objects;  ///< of the Dataset that are in it, ascending
     std::vector<Loss> losses;            ///< what was read but cannot be mended here: cells of regions
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/vectors.h"
 #include "repair/borders_step.h"
@@ -58,6 +59,14 @@ std::span<const SurfaceStepRow> surface_steps() { return steps; }
 const SurfaceStepRow* surface_step(std::string_view name) {
     const auto found = std::ranges::find(steps, name, &SurfaceStepRow::name);
     return found == steps.end() ? nullptr : &*found;
+}
+
+std::vector<double> gap_limits(const SurfaceModel& model, const SurfaceStepOptions& options) {
+    std::vector<double> limits(model.model.patches.size(), gap_limit(model, options));
+    for (std::size_t p = 0; p < std::min(limits.size(), model.source_patches.size()) && options.max_gap < 0; ++p) {
+        if (const double own = model.source_patches[p].diameter; own > 0) limits[p] = 1e-3 * own;
+    }
+    return limits;
 }
 
 Displacement displacement(const TriangleSoup& before, const TriangleSoup& after, std::span<const std::uint32_t> becomes) {

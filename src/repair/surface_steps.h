@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/finding.h"
 #include "base/monitor.h"
@@ -35,10 +36,12 @@ struct SurfaceStepOptions {
 };
 
 /// The largest gap that is closed, hole that is filled and overshoot that is trimmed: as given, but a tenth of D at most; else a
-/// thousandth of D.
+/// thousandth of D. D is that of what was read: neither a box nor a point that lies far off makes it larger.
 inline double gap_limit(const SurfaceModel& model, const SurfaceStepOptions& options) {
-    return options.max_gap >= 0 ? std::min(options.max_gap, 0.1 * model.lengths.diameter) : 1e-3 * model.lengths.diameter;
+    return options.max_gap >= 0 ? std::min(options.max_gap, 0.1 * model.diameter) : 1e-3 * model.diameter;
 }
+/// The same for each patch, by the D of the cluster that it was read in where none is given.
+std::vector<double> gap_limits(const SurfaceModel& model, const SurfaceStepOptions& options);
 
 /// What was decided about a piece of a border that nearly meets another surface.
 struct ContactDecision {

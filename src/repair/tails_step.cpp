@@ -111,9 +111,9 @@ std::vector<double> main_areas(const std::vector<Piece>& all, const PatchPieces&
     return main;
 }
 
-/// Takes pieces away that end freely and lie within the limit of where their patch ended before it was cut; then those behind
-/// them, until there are none. The main piece of a patch stays, and of what parts regions all that is no mere corner of it.
-Result<Removed> drop_narrow(const SurfaceModel& model, double limit, std::vector<std::uint8_t>& keep) {
+/// Takes pieces away that end freely and lie within the limit of their patch of where their patch ended before it was cut; then those
+/// behind them, until there are none. The main piece of a patch stays, and of what parts regions all that is no mere corner of it.
+Result<Removed> drop_narrow(const SurfaceModel& model, const std::vector<double>& limits, std::vector<std::uint8_t>& keep) {
     constexpr double share_of_corner = 0.02;
     const TriangleSoup& soup = model.model.soup;
     const SoupEdges edges = edges_of(soup);
@@ -136,7 +136,7 @@ Result<Removed> drop_narrow(const SurfaceModel& model, double limit, std::vector
             const bool parts = !piece.is_open && (*parting)[piece.triangles[0]] != 0;
             if (!piece.has_line || !(piece.is_open || piece.follows) || piece.area == whole) continue;
             if (parts && piece.area > share_of_corner * whole) continue;
-            if (near[p] == 2) near[p] = is_near_border(soup, piece, pieces.patch[p], borders, limit) ? 1 : 0;
+            if (near[p] == 2) near[p] = is_near_border(soup, piece, pieces.patch[p], borders, limits[pieces.patch[p]]) ? 1 : 0;
             if (near[p] == 0) continue;
             for (const std::uint32_t t : piece.triangles) removed[t] = 1;
             ++sum.pieces;
@@ -153,7 +153,7 @@ Result<Removed> drop_narrow(const SurfaceModel& model, double limit, std::vector
 Result<StepOutcome> remove_tails(SurfaceModel& model, const SurfaceStepOptions& options) {
     const double limit = gap_limit(model, options);
     std::vector<std::uint8_t> keep(model.model.soup.triangles.size(), 1);
-    const auto narrow = drop_narrow(model, limit, keep);
+    const auto narrow = drop_narrow(model, gap_limits(model, options), keep);
     if (!narrow) return narrow.why();
     auto outside = outside_of_boundary(model, keep);
     if (!outside) return std::move(outside).why();

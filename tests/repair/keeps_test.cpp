@@ -228,6 +228,36 @@ TEST(Tails, WhatPartsRegionsStaysHoweverLargeTheGapGivenIs) {
     }
 }
 
+// A fault that ends 6 above a horizon of 100 by 100: less than a thousandth of a model with a point, or a surface, far off.
+TEST(Tails, AreMeasuredByWhatLiesTogetherWhateverLiesFarOff) {
+    const TemporaryFolder folder;
+    const Sheet high{"F", {52.5, 10, 20}, {0, 80, 0}, {0, 0, 36}, 12, "fault", {}};
+    Sheet horizon = level("H", 50, 20, 100), spiked = horizon, far = level("far", 0, 4, 100), wide = level("wide", 0, 20, 1e6);
+    spiked.move = [](const Vec3& p) { return p == Vec3{20, 20, 50} ? Vec3{20, 20, 1e5} : p; };
+    far.corner[0] = 1e5;
+    wide.corner[0] = 1e7;
+    const auto area_of_fault = [&](const std::string& others, const std::vector<std::string>& more) {
+        std::vector<std::string> options{"--keep-invalid", "--steps", more.empty() ? "cut,tails" : "box,cut,tails"};
+        options.insert(options.end(), more.begin(), more.end());
+        write_file(folder / "in.ts", tsurf_text(high) + others);
+        std::vector<std::string> words{"repair", folder / "in.ts", "-o", folder / "out.ml"};
+        words.insert(words.end(), options.begin(), options.end());
+        const auto run = run_geomend(words);
+        const nlohmann::json made = info(folder / "out.ml");
+        double area = -1;
+        for (const auto& object : made["objects"]) {
+            if (object["name"] == "F") area = object["area"];
+        }
+        EXPECT_NE(area, -1) << run.out << run.err;
+        return area;
+    };
+    EXPECT_NEAR(area_of_fault(tsurf_text(horizon), {"--box", "auto"}), 80 * 36, 1e-6);
+    EXPECT_NEAR(area_of_fault(tsurf_text(spiked), {"--box", "auto"}), 80 * 36, 1e-6) << "a stray point";
+    EXPECT_NEAR(area_of_fault(tsurf_text(horizon) + tsurf_text(far), {"--box", "auto"}), 80 * 36, 1e-6) << "a surface far off";
+    EXPECT_NEAR(area_of_fault(tsurf_text(horizon), {"--box", "-1e5,1e5,-1e5,1e5,-1e5,1e5"}), 80 * 36, 1e-6) << "a large box";
+    EXPECT_NEAR(area_of_fault(tsurf_text(horizon) + tsurf_text(wide), {}), 80 * 36, 1e-6) << "another model in the same file";
+}
+
 TEST(Regions, ThatCellsPartAreStillPartedWithoutThem) {
     const TemporaryFolder folder;
     // Two tetrahedra, one above the other, in two volumes with no face between them.
