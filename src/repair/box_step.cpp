@@ -108,6 +108,15 @@ Result<void> meets_surfaces(const SurfaceModel& model, const Bounds& box) {
     return {};
 }
 
+/// A box around all there is would be one around points that are no part of it.
+Failure stray_points(const std::vector<SurfaceModel::StrayPoint>& stray) {
+    const Vec3& at = stray[0].at;
+    return failure(FailureKind::usage, "F018", {},
+                   "no box fits these surfaces: " + counted(stray.size(), "point lies", "points lie") + " far off, of " +
+                       quoted(stray[0].surface) + " at (" + rounded(at[0]) + ", " + rounded(at[1]) + ", " + rounded(at[2]) +
+                       "); give such points their heights or remove them, or give the sides of the box");
+}
+
 constexpr std::array<std::string_view, 6> names = {"box_west", "box_east", "box_south", "box_north", "box_base", "box_top"};
 /// Corners of each side, counter-clockwise from outside; bit k of a corner: high of axis k.
 constexpr std::array<std::array<unsigned, 4>, 6> corners = {
@@ -148,6 +157,7 @@ Result<StepOutcome> add_box(SurfaceModel& model, const SurfaceStepOptions& optio
         outcome.what.message = "no box was asked for";
         return outcome;
     }
+    if (!options.box && !model.stray.empty()) return stray_points(model.stray);
     const Bounds box = options.box ? *options.box : automatic(model);
     for (std::size_t k = 0; k < 3; ++k) {
         if (box[0][k] < box[1][k]) continue;

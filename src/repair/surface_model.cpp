@@ -160,6 +160,16 @@ void take_regions(const BrepData& brep, std::uint32_t first_patch, SurfaceModel&
     take(brep.fault_blocks, model.fault_blocks);
 }
 
+void take_stray_points(const Dataset& dataset, const topology::LocalLengths& lengths, SurfaceModel& model) {
+    for (const auto& [object, point, times, usual] : lengths.outlying) {
+        if (const auto* surface = std::get_if<Surface>(&dataset.objects[object])) {
+            model.stray.push_back({surface->info.name, surface->points[point]});
+        } else if (const auto* mesh = std::get_if<CellMesh>(&dataset.objects[object])) {
+            model.stray.push_back({mesh->info.name, mesh->points[point]});
+        }
+    }
+}
+
 }  // namespace
 
 Result<SurfaceModel> surface_model_of(const Dataset& dataset, const topology::LengthRules& rules) {
@@ -168,6 +178,7 @@ Result<SurfaceModel> surface_model_of(const Dataset& dataset, const topology::Le
     const auto lengths = topology::local_lengths(dataset, rules);
     model.lengths = lengths.largest;
     model.diameter = lengths.largest.diameter;
+    take_stray_points(dataset, lengths, model);
     const auto sources = topology::model_sources(dataset);
     auto complexes = topology::complexes_of(dataset, sources);
     Gatherer gatherer(model, lengths);

@@ -64,7 +64,12 @@ struct SurfaceModel {
     topology::Lengths lengths;           ///< by which it is mended, from the input or as given
     double diameter = 0;                 ///< the largest D of what was read: what is added around it later is not in it
     std::vector<std::uint32_t> objects;  ///< of the Dataset that are in it, ascending
-    std::vector<Loss> losses;            ///< what was read but cannot be mended here: cells of regions
+    struct StrayPoint {
+        std::string surface;
+        Vec3 at;
+    };
+    std::vector<StrayPoint> stray;  ///< points that lie far off: no part of the shape
+    std::vector<Loss> losses;       ///< what was read but cannot be mended here: cells of regions
 };
 
 /// All surfaces of a Dataset as one model: those of stated models, of tagged meshes, and loose ones. Equal positions become one
