@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <ranges>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -263,6 +264,45 @@ void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, std:
     }
 }
 
+/// A soup whose vertices at marked triangles are moved by up to a distance along each axis: at random, but the same each time.
+TriangleSoup shaken(const TriangleSoup& soup, std::span<const std::uint8_t> marked, double distance, std::uint32_t seed) {
+    std::vector<std::uint8_t> moves(soup.vertices.size(), 0);
+    for (std::size_t t = 0; t < marked.size(); ++t) {
+        if (marked[t] == 0) continue;
+        for (const std::uint32_t v : soup.triangles[t]) moves[v] = 1;
+    }
+    TriangleSoup other = soup;
+    std::uint32_t random = 12345 + 7919 * seed;
+    for (std::size_t v = 0; v < moves.size(); ++v) {
+        if (moves[v] == 0) continue;
+        for (double& x : other.vertices[v]) {
+            random = random * 1664525u + 1013904223u;
+            x += distance * (static_cast<double>(random >> 8U) * 0x1p-23 - 1);
+        }
+    }
+    return other;
+}
+
+/// What does not end even as sheets is a matter of chance: where many points lie a few tolerances apart, each cut brings others near, in
+/// ever more pieces. Shaken by no more than a tolerance most of it ends; so it is tried a few times.
+void cut_shaken(const TriangleSoup& soup, const ArrangeOptions& options, std::size_t usual, Snapped& s, Arrangement& result) {
+    constexpr std::array shares{0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  // of the tolerance
+    std::vector<std::uint8_t> unsettled(soup.triangles.size(), 0), not_used(soup.triangles.size(), 0);
+    add_unsettled(s, unsettled);
+    for (std::uint32_t i = 0; i < shares.size(); ++i) {
+        if (options.monitor != nullptr && options.monitor->stopped()) return;
+        const TriangleSoup other = shaken(soup, unsettled, shares[i] * options.tolerance, i);
+        Snapped anew = snapped(other, options.tolerance);
+        cut(other, options.reach, options.monitor, options.most_rounds, usual, anew, result);
+        if (result.clean && has_lost_area(soup, anew, options.tolerance, not_used)) result.clean = false;
+        if (result.clean) {
+            s = std::move(anew);
+            return;
+        }
+        add_unsettled(anew, unsettled);
+    }
+}
+
 }  // namespace
 
 Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& options) {
@@ -274,6 +314,7 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     std::vector<std::uint8_t> may_lie(soup.triangles.size(), 0);
     if (result.clean && options.sheets && has_lost_area(soup, s, options.tolerance, may_lie)) result.clean = false;
     if (!result.clean && options.sheets) cut_in_sheets(soup, options, std::move(may_lie), usual, s, result);
+    if (!result.clean && options.sheets) cut_shaken(soup, options, usual, s, result);
     take_stacks_apart(s.state);
     write_vertices(soup, s, result);
     write_origins(soup, s, result);

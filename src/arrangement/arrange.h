@@ -14,7 +14,7 @@ namespace geomend::arrangement {
 struct ArrangeOptions {
     double tolerance = 0;       ///< above 0: what is nearer to each other than this becomes one point; in the unit of the coordinates
     double reach = 1.0 / 32;    ///< share of the tolerance within which a vertex becomes a part of an edge or a face; below 1
-    unsigned most_rounds = 12;  ///< before what has not settled is cut anew, as sheets
+    unsigned most_rounds = 12;  ///< before what has not settled is cut anew, as sheets or shaken
     bool sheets = true;         ///< false: what has not settled then stays as it is
     const Monitor* monitor = nullptr;
 };
@@ -43,10 +43,11 @@ struct Arrangement {
 /// again changes nothing. What is still found after some rounds is looked at ever more coarsely: there, and only there, new points keep
 /// up to 32 tolerances from others. Where that does not end, planes next to parallel above all, the soup is cut anew, and triangles that
 /// had not settled and lie upon each other within a width are put into one plane and cut there as one sheet: the width grows from half a
-/// tolerance to 32 until the cut is clean, and `largest_move` says how far vertices went. Where even that does not suffice
-/// `clean` says so. Triangles of several patches that lie on each other stay, one for each patch, over the same vertices. Same input, same
-/// bytes, whatever the number of threads. After N. Euler's "découpage franc" (thesis, 3.1), by features within a tolerance instead of exact
-/// points. Fails (unusable) where positions are not finite or the tolerance is not above 0. Cost: near-linear in triangles and cuts.
+/// tolerance to 32 until the cut is clean, and `largest_move` says how far vertices went. What does not end then either is shaken, by up to
+/// a tolerance along each axis, a few times. Where even that does not suffice `clean` says so. Triangles of several patches that lie on
+/// each other stay, one for each patch, over the same vertices. Same input, same bytes, whatever the number of threads. After N. Euler's
+/// "découpage franc" (thesis, 3.1), by features within a tolerance instead of exact points. Fails (unusable) where positions are not finite
+/// or the tolerance is not above 0. Cost: near-linear in triangles and cuts.
 Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& options);
 
 }  // namespace geomend::arrangement

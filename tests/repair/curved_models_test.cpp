@@ -78,7 +78,7 @@ private:
 
 TEST(CurvedModels, BecomeAsManyRegionsAsTheirSurfacesBoundAndFillTheirBox) {
     const test::TemporaryFolder folder;
-    for (unsigned seed = 1; seed <= test::seeds(15); ++seed) {
+    for (unsigned seed = test::first_seed(1), end = seed + test::seeds(15); seed < end; ++seed) {
         const CurvedModel model = Maker(seed).make();
         test::write_file(folder / "in.ts", model.text);
         const auto run = test::run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--max-gap", "0.5", "--quiet"});

@@ -188,8 +188,7 @@ void repair_damaged(const fs::path& file, unsigned seed, const test::TemporaryFo
 TEST(DamagedFiles, AreMendedWithoutAnErrorOrNotWritten) {
     const auto files = healthy_files();
     const test::TemporaryFolder folder;
-    const char* from = std::getenv("GEOMEND_FIRST_SEED");
-    const unsigned first = from != nullptr ? static_cast<unsigned>(std::strtoul(from, nullptr, 10)) : 0;
+    const unsigned first = test::first_seed(0);
     Tally tally;
     for (unsigned seed = first; seed < first + test::seeds(30); ++seed) repair_damaged(files[seed % files.size()], seed, folder, tally);
     std::printf("written %u, left %u, not read %u\n", tally.written, tally.left, tally.unreadable);

@@ -44,6 +44,8 @@ Mended mend(const Dataset& dataset, double max_gap) {
     return mended;
 }
 
+const std::uint32_t first_of_seeds = test::first_seed(1);
+
 void expect_mended(std::uint32_t seed, Ending ending, double share, bool shuffled) {
     auto made = test::fault_blocks(seed, ending);
     if (shuffled) test::shuffle(made.dataset, seed);
@@ -66,19 +68,23 @@ TEST(FaultBlocks, TheGeneratorsVolumesSumToTheBox) {
 }
 
 TEST(FaultBlocks, PatchesThatEndExactlyAreCutToTheirRegions) {
-    for (std::uint32_t seed = 1; seed <= test::seeds(25); ++seed) expect_mended(seed, Ending::exact, 1e-6, seed % 2 == 0);
+    for (std::uint32_t seed = first_of_seeds, end = seed + test::seeds(25); seed < end; ++seed)
+        expect_mended(seed, Ending::exact, 1e-6, seed % 2 == 0);
 }
 
 TEST(FaultBlocks, WhatSticksOutOfTheBoxIsTakenAway) {
-    for (std::uint32_t seed = 1; seed <= test::seeds(25); ++seed) expect_mended(seed, Ending::out_of_box, 1e-6, seed % 2 == 0);
+    for (std::uint32_t seed = first_of_seeds, end = seed + test::seeds(25); seed < end; ++seed)
+        expect_mended(seed, Ending::out_of_box, 1e-6, seed % 2 == 0);
 }
 
 TEST(FaultBlocks, PatchesThatRunThroughFaultsAreTrimmed) {
-    for (std::uint32_t seed = 1; seed <= test::seeds(25); ++seed) expect_mended(seed, Ending::through_faults, 1e-6, seed % 2 == 0);
+    for (std::uint32_t seed = first_of_seeds, end = seed + test::seeds(25); seed < end; ++seed)
+        expect_mended(seed, Ending::through_faults, 1e-6, seed % 2 == 0);
 }
 
 TEST(FaultBlocks, PatchesThatStopShortAreClosed) {
-    for (std::uint32_t seed = 1; seed <= test::seeds(25); ++seed) expect_mended(seed, Ending::short_of, 0.03, seed % 2 == 0);
+    for (std::uint32_t seed = first_of_seeds, end = seed + test::seeds(25); seed < end; ++seed)
+        expect_mended(seed, Ending::short_of, 0.03, seed % 2 == 0);
 }
 
 }  // namespace

@@ -11,4 +11,10 @@ inline unsigned seeds(unsigned few) {
     return wanted != nullptr && *wanted != '\0' ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10)) : few;
 }
 
+/// The first of them: the usual one, or what the variable GEOMEND_FIRST_SEED says.
+inline unsigned first_seed(unsigned usual) {
+    const char* wanted = std::getenv("GEOMEND_FIRST_SEED");
+    return wanted != nullptr && *wanted != '\0' ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10)) : usual;
+}
+
 }  // namespace geomend::test
