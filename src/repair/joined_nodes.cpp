@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <span>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/disjoint_sets.h"
 #include "base/vectors.h"

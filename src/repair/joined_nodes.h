@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/vec3.h"
+#include "model/brep.h"
 #include "repair/surface_model.h"
 
 // A surface states by its nodes whether a line inside it cuts it: the two sides of a cut have nodes of their own. A repair keeps what is
