@@ -157,7 +157,7 @@ void let_smallest_third_give_way(const Candidates& candidates, std::vector<std::
 /// Selects and closes. What cannot be closed without a loss, or leaves flat cells beside it, is not selected again, and the search goes on
 /// from what is left; in the last rounds nothing new is taken.
 MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<const double> order, std::vector<double> weights,
-                 const RecombineOptions& options, RecombineReport& report) {
+                 const RecombineOptions& options, std::vector<std::uint32_t>& selected, RecombineReport& report) {
     // In a small mesh a round costs little: what failed may be taken again then, where its neighbours have changed.
     const bool is_small = conflicts.size() < 300'000;
     const int rounds = is_small ? 40 : 24, searching_rounds = is_small ? 24 : 8, forgiving_rounds = is_small ? 6 : 0;
@@ -167,9 +167,8 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
     search.steps = options.steps != 0 ? options.steps : std::min<std::uint64_t>(1000 * conflicts.size(), 200'000'000);
     search.monitor = options.monitor;
     const bool searches = options.select == Heuristic::search || options.thin_only;
-    std::vector<std::uint32_t> selected = searches
-                                              ? select_greedily(conflicts, order, Greedy::weight)
-                                              : select_by(options.select, tets, conflicts, weights_by_angles(tets, conflicts.candidates()));
+    selected = searches ? select_greedily(conflicts, order, Greedy::weight)
+                        : select_by(options.select, tets, conflicts, weights_by_angles(tets, conflicts.candidates()));
     // Where all is hexahedra there is nothing to gain.
     const double whole = volume_of(tets);
     const auto is_whole = [&] { return volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * whole; };
@@ -203,6 +202,36 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
         for (const std::uint32_t i : failed) weights[i] *= round <= forgiving_rounds ? 0.5 : 0;
         selected = without(selected, failed);
         if (searches && round < searching_rounds) selected = search_selection(conflicts, weights, selected, search);
+    }
+}
+
+/// Which candidates a check takes.
+std::vector<std::uint8_t> pass_check(const TetMesh& tets, const Candidates& candidates, const CellCheck& check) {
+    std::vector<std::uint8_t> kept(candidates.size(), 0);
+    std::vector<Vec3> corners;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        corners.clear();
+        for (const std::uint32_t v : candidates.corners_of(i)) corners.push_back(tets.positions[v]);
+        kept[i] = is_taken(check, candidates.types[i], corners) ? 1 : 0;
+    }
+    return kept;
+}
+
+/// Selects, closes and smooths. Where the check does not take a cell, the ones beside it are not selected again.
+MixedMesh checked(const TetMesh& tets, const Conflicts& conflicts, std::vector<double> order, std::vector<double> weights,
+                  const RecombineOptions& options, RecombineReport& report) {
+    constexpr int most_rounds = 20;
+    const std::vector<std::uint8_t> fixed = fixed_vertices(tets);
+    for (int round = 1;; ++round) {
+        std::vector<std::uint32_t> selected;
+        MixedMesh mixed = closed(tets, conflicts, order, weights, options, selected, report);
+        if (options.passes > 0) report.moves = smooth(mixed, fixed, options.least_quality, options.passes);
+        if (!options.check) return mixed;
+        const std::vector<std::uint32_t> not_taken = number_corners(mixed, options.check);
+        const std::vector<std::uint32_t> beside = beside_cells(mixed, not_taken, selected.size());
+        report.not_taken = not_taken.size();
+        if (beside.empty() || round == most_rounds) return mixed;
+        for (const std::uint32_t cell : beside) order[selected[cell]] = weights[selected[cell]] = 0;
     }
 }
 
@@ -269,15 +298,16 @@ Result<VolumeMesh> recombine(const VolumeMesh& mesh, const RecombineOptions& opt
     report.there = others_in(mesh);
     const QuadTable quads(tets, options.least_quality);
     const SearchOptions search{options.least_quality, {}, options.monitor};
-    const Candidates hexahedra = options.thin_only ? thin_cells(tets, quads, search, report.thin) : find_hexahedra(tets, quads, search);
+    Candidates hexahedra = options.thin_only ? thin_cells(tets, quads, search) : find_hexahedra(tets, quads, search);
+    if (options.check) hexahedra.keep(pass_check(tets, hexahedra, options.check));
     report.candidates = hexahedra.size();
     const Conflicts conflicts(hexahedra, tets.tets.size());
     // In thin parts prisms come first, in the order of their shapes; else a long search is worth its time.
     std::vector<double> order = hexahedra.quality, weights = options.thin_only ? std::vector<double>() : weights_of(tets, hexahedra);
     for (std::size_t i = 0; i < order.size(); ++i) order[i] += hexahedra.types[i] == CellType::wedge ? 1 : 0;
     if (options.thin_only) weights = order;
-    MixedMesh mixed = closed(tets, conflicts, order, std::move(weights), options, report);
-    if (options.passes > 0) report.moves = smooth(mixed, fixed_vertices(tets), options.least_quality, options.passes);
+    MixedMesh mixed = checked(tets, conflicts, std::move(order), std::move(weights), options, report);
+    if (options.thin_only) report.thin = count_thin(tets, mixed);
     auto made = assemble(mesh, tets, std::move(mixed));
     if (made) measure(*made, report);
     return made;

@@ -11,6 +11,7 @@
 #include "hexes/closing.h"
 #include "hexes/heuristics.h"
 #include "hexes/leftovers.h"
+#include "hexes/numbering.h"
 #include "hexes/selection.h"
 #include "hexes/thin_cells.h"
 #include "model/volume_mesh.h"
@@ -23,7 +24,8 @@ struct RecombineOptions {
     std::uint64_t steps = 0;     ///< of the local search; 0: 1000 for each candidate, 200 million at most
     Closing closing = Closing::open;
     Heuristic select = Heuristic::search;
-    int passes = 8;  ///< of smoothing
+    int passes = 8;   ///< of smoothing
+    CellCheck check;  ///< that prisms and pyramids of thin parts have to pass; empty: none. Others stand where one does not.
     const Monitor* monitor = nullptr;
 };
 
@@ -48,6 +50,7 @@ struct RecombineReport {
     std::vector<TypeShare> there;                        ///< of them, those of the mesh given that stay: all but tetrahedra
     double least_jacobian = 1;                           ///< scaled, of hexahedra
     std::array<std::uint64_t, 10> jacobian_by_tenths{};  ///< how many hexahedra
+    std::uint64_t not_taken = 0;                         ///< prisms and pyramids that do not pass the check
     std::uint64_t folded = 0;                            ///< cells whose Jacobian is not positive throughout
     /// How many cells of a type the mesh has, and their part of its volume.
     std::uint64_t count_of(CellType type) const;

@@ -44,10 +44,6 @@ public:
     bool is_facet(const Corners3& corners, std::uint32_t region) const {
         return std::ranges::binary_search(facets_, WallFacet{ascending(corners), region});
     }
-    std::size_t index(const Corners3& corners, std::uint32_t region) const {
-        return static_cast<std::size_t>(std::ranges::lower_bound(facets_, WallFacet{ascending(corners), region}) - facets_.begin());
-    }
-    std::size_t facet_count() const { return facets_.size(); }
 
     /// The vertex of another surface that is closest to one along an edge through a region; itself where lines pass through it and there
     /// is none; no_index where there is none at all.
@@ -79,22 +75,9 @@ bool joins_surfaces(const ThinParts& parts, std::span<const std::uint32_t> c, Ce
            (parts.is_facet({c[1], c[2], c[4]}, region) && parts.is_facet({c[3], c[0], c[4]}, region));
 }
 
-void mark_facets(const ThinParts& parts, std::span<const std::uint32_t> c, CellType type, std::uint32_t region,
-                 std::vector<std::uint8_t>& has_cell) {
-    const auto mark = [&](const Corners3& t) {
-        if (parts.is_facet(t, region)) has_cell[parts.index(t, region)] = type == CellType::wedge ? 1 : 2;
-    };
-    if (type == CellType::wedge) {
-        mark({c[0], c[1], c[2]});
-        mark({c[3], c[4], c[5]});
-    } else {
-        for (std::size_t k = 0; k < 4; ++k) mark({c[k], c[(k + 1) % 4], c[4]});
-    }
-}
-
 }  // namespace
 
-Candidates thin_cells(const TetMesh& mesh, const QuadTable& quads, const SearchOptions& options, ThinCounts& counts) {
+Candidates thin_cells(const TetMesh& mesh, const QuadTable& quads, const SearchOptions& options) {
     const ThinParts parts(mesh);
     SearchOptions thin = options;
     std::vector<std::uint8_t> taken = parts.thick();
@@ -102,24 +85,27 @@ Candidates thin_cells(const TetMesh& mesh, const QuadTable& quads, const SearchO
     thin.taken = taken;
     Candidates all = find_prisms(mesh, quads, thin);
     all.append(find_pyramids(mesh, quads, thin));
-    std::vector<std::uint8_t> kept(all.size(), 0), has_cell(parts.facet_count(), 0);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const std::uint32_t region = mesh.region[all.tets_of(i)[0]];
-        if (!joins_surfaces(parts, all.corners_of(i), all.types[i], region)) continue;
-        kept[i] = 1;
-        mark_facets(parts, all.corners_of(i), all.types[i], region, has_cell);
-    }
+    std::vector<std::uint8_t> kept(all.size(), 0);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        kept[i] = joins_surfaces(parts, all.corners_of(i), all.types[i], mesh.region[all.tets_of(i)[0]]) ? 1 : 0;
     all.keep(kept);
+    return all;
+}
+
+ThinCounts count_thin(const TetMesh& mesh, const MixedMesh& made) {
+    ThinCounts counts;
+    const ThinParts parts(mesh);
     for (std::uint32_t f = 0; f < 4 * mesh.tets.size(); ++f) {
         if (mesh.wall[f / 4][f % 4] == TetMesh::no_wall || parts.thick()[f / 4] != 0) continue;
         ++counts.triangles;
-        const std::uint32_t region = mesh.region[f / 4];
-        const Corners3 corners = mesh.facet(f);
-        const std::uint8_t cell = has_cell[parts.index(corners, region)];
-        if (cell != 0) {
-            ++(cell == 1 ? counts.prisms : counts.pyramids);
+        const CellFaceRef place = made.facet_places[f];
+        const CellType type = place.cell == no_index ? CellType::tetrahedron : made.cells[place.cell].type;
+        if (type == CellType::wedge || type == CellType::pyramid) {
+            ++(type == CellType::wedge ? counts.prisms : counts.pyramids);
             continue;
         }
+        const std::uint32_t region = mesh.region[f / 4];
+        const Corners3 corners = mesh.facet(f);
         Corners3 others{};
         unsigned common = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -132,7 +118,7 @@ Candidates thin_cells(const TetMesh& mesh, const QuadTable& quads, const SearchO
         else if (!parts.is_facet(others, region)) ++counts.unmatched;
         else ++counts.invalid;
     }
-    return all;
+    return counts;
 }
 
 }  // namespace geomend::hexes

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hexes/candidates.h"
+#include "hexes/closing.h"
 
 namespace geomend::hexes {
 
@@ -18,13 +19,16 @@ struct ThinCounts {
     // Those that are no cells; tetrahedra fill them.
     std::uint64_t undefined = 0;  ///< a corner has no counterpart on another surface
     std::uint64_t unmatched = 0;  ///< the counterparts are no triangle of a surface
-    std::uint64_t invalid = 0;    ///< folded or of a bad shape, or an edge inside is in the way
+    std::uint64_t invalid = 0;    ///< folded or of a bad shape, or an edge inside or another cell is in the way
 };
 
 /// Prisms and pyramids between the surfaces of parts that are thin for their size: both ends of a prism are triangles of surfaces, and
 /// two triangles of a pyramid that share its apex. Source: J. Pellerin (2014), 5.3.2: the segments of Voronoi edges between two surfaces
 /// have these duals; 5.4 for those that are no cells.
 /// Cost: as of find_prisms() for the tetrahedra of thin parts.
-Candidates thin_cells(const TetMesh& mesh, const QuadTable& quads, const SearchOptions& options, ThinCounts& counts);
+Candidates thin_cells(const TetMesh& mesh, const QuadTable& quads, const SearchOptions& options);
+
+/// What became of the triangles in a mesh made of these tetrahedra. Cost: n log n in triangles.
+ThinCounts count_thin(const TetMesh& mesh, const MixedMesh& made);
 
 }  // namespace geomend::hexes

@@ -10,6 +10,7 @@
 #include "exchange/cell_mesh_of.h"
 #include "exchange/kept_cells.h"
 #include "exchange/split_mesh.h"
+#include "formats/vtk/cell_check.h"
 #include "model/attribute_operations.h"
 #include "pipeline/mesh_output.h"
 
@@ -119,7 +120,9 @@ Result<VolumeMesh> recombine_cells(Dataset& dataset, const hexes::RecombineOptio
         mesh = exchange::joined(*mesh, losses);
         if (!mesh) return std::move(mesh).why();
     }
-    auto made = hexes::recombine(*mesh, options, report);
+    hexes::RecombineOptions checked = options;
+    if (options.thin_only) checked.check = vtk_finds_valid;
+    auto made = hexes::recombine(*mesh, checked, report);
     if (!made) return std::move(made).why();
     dataset.objects.clear();
     dataset.models.clear();
@@ -147,6 +150,7 @@ Json recombined_json(const hexes::RecombineReport& report) {
         {"split", report.closing.split},
         {"moves", report.moves},
         {"folded", report.folded},
+        {"not_taken", report.not_taken},
         {"leftovers", {{"flips", report.leftovers.flips}, {"new_vertices", report.leftovers.placed}, {"flat", report.leftovers.flat}}}};
     if (t.triangles > 0) all["thin"] = std::move(thin);
     Json made = Json::object(), there = Json::object();
