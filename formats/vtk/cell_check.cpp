@@ -22,7 +22,7 @@ namespace geomend {
 
 namespace {
 
-vtkSmartPointer<vtkCell> empty_cell(CellType type) {
+vtkSmartPointer<vtkCell> cell_without_corners(CellType type) {
     switch (type) {
         case CellType::tetrahedron:
             return vtkSmartPointer<vtkTetra>::New();
@@ -52,7 +52,7 @@ unsigned wrongs_of(vtkCell& cell, std::span<const Vec3> corners, const Vec3& ori
 }  // namespace
 
 bool vtk_finds_valid(CellType type, std::span<const Vec3> corners) {
-    const auto cell = empty_cell(type);
+    const auto cell = cell_without_corners(type);
     if (wrongs_of(*cell, corners, corners[0]) != 0) return false;
     constexpr double far = 1e4;  // in extents of the cell: farther away it calls all kinds of cells wrong
     double away = 0, extent = 0;

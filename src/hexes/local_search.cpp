@@ -23,12 +23,15 @@ public:
         double sum = 0;
         for (const double w : weights) sum += w;
         for (std::size_t i = 0; i < weights.size(); ++i) weight_[i] = sum > 0 ? std::llround(weights[i] / sum * 0x1p40) : 0;
+        most_ = std::accumulate(weight_.begin(), weight_.end(), std::int64_t{0});
     }
 
     std::int64_t weight(std::uint32_t i) const { return weight_[i]; }
     bool has(std::uint32_t i) const { return is_in_[i] != 0; }
     std::int64_t gain(std::uint32_t i) const { return weight_[i] - in_way_[i]; }
     std::int64_t total() const { return total_; }
+    /// Whether all that weighs something is taken: nothing is in the way of anything, and there is no better selection.
+    bool has_all() const { return total_ == most_; }
 
     /// Takes a candidate, and leaves out those in its way. \param freed gets those that now have less in their way
     void take(std::uint32_t i, std::vector<std::uint32_t>* freed) {
@@ -72,7 +75,7 @@ private:
     std::vector<std::uint8_t> is_in_;
     std::vector<std::uint32_t> seen_, out_;
     std::uint32_t mark_ = no_index - 1;
-    std::int64_t total_ = 0;
+    std::int64_t total_ = 0, most_ = 0;
 };
 
 /// Takes candidates as long as one is heavier than those in its way.
@@ -97,7 +100,7 @@ std::vector<std::uint32_t> search_selection(const Conflicts& conflicts, std::spa
     std::iota(all.begin(), all.end(), 0u);
     Random random(how.seed);
     constexpr std::uint64_t stretch = 1 << 16;
-    for (std::uint64_t step = 0; step < how.steps && count > 0; step += stretch) {
+    for (std::uint64_t step = 0; step < how.steps && count > 0 && !s.has_all(); step += stretch) {
         if (how.monitor != nullptr && how.monitor->stopped()) break;
         const double done = static_cast<double>(step) / static_cast<double>(how.steps);
         if (how.monitor != nullptr) how.monitor->progress("selection", done);

@@ -131,11 +131,10 @@ std::vector<std::uint32_t> around_gaps(const Conflicts& conflicts, std::span<con
     return near;
 }
 
-/// Looks for a selection that leaves no gap, all over and then around the gaps that are left. \return whether there is one
-bool fill_whole(const TetMesh& tets, const Conflicts& conflicts, LocalSearch search, std::vector<std::uint32_t>& selected) {
+/// Looks for a selection that leaves no gap around the gaps that are left. \return whether there is one
+bool fill_gaps(const TetMesh& tets, const Conflicts& conflicts, LocalSearch search, std::vector<std::uint32_t>& selected) {
     const std::vector<double> weights = plain_weights(conflicts.candidates());
     const double whole = volume_of(tets);
-    selected = search_selection(conflicts, weights, selected, search);
     for (search.seed = 2; search.seed < 12; ++search.seed) {
         if (volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * whole) return true;
         const std::vector<std::uint32_t> near = around_gaps(conflicts, selected, tets.tets.size());
@@ -176,10 +175,16 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
     // Where nearly all is, the rest may be found by itself: then there is nothing to close.
     constexpr double nearly_all = 0.95;
     bool is_done = false;
-    if (searches && search.steps > 0 && volume_of(conflicts.candidates(), selected) > nearly_all * whole) {
-        is_done = fill_whole(tets, conflicts, search, selected);
+    const auto is_nearly_whole = [&] { return search.steps > 0 && volume_of(conflicts.candidates(), selected) > nearly_all * whole; };
+    if (searches && is_nearly_whole()) {
+        selected = search_selection(conflicts, plain_weights(conflicts.candidates()), selected, search);
+        is_done = fill_gaps(tets, conflicts, search, selected);
     }
-    if (searches && !is_done) selected = search_selection(conflicts, weights, selected, search);
+    if (searches && !is_done) {
+        selected = search_selection(conflicts, weights, selected, search);
+        std::vector<std::uint32_t> filled = selected;
+        if (is_nearly_whole() && fill_gaps(tets, conflicts, search, filled)) selected = std::move(filled);
+    }
     report.first_share = whole > 0 ? volume_of(conflicts.candidates(), selected) / whole : 0;
     search.heat = 0.02;
     search.steps /= 20;
