@@ -101,6 +101,18 @@ double volume_of(const TetMesh& m) {
     return sum;
 }
 
+/// Of the tetrahedra that some candidate holds: between quadrangles that are not even there may be others.
+double volume_held(const TetMesh& m, const Candidates& candidates) {
+    std::vector<std::uint8_t> is_held(m.tets.size(), 0);
+    for (const std::uint32_t t : candidates.tets) is_held[t] = 1;
+    double sum = 0;
+    for (std::size_t t = 0; t < m.tets.size(); ++t) {
+        const auto& c = m.tets[t];
+        if (is_held[t] != 0) sum += tetrahedron_volume(m.positions[c[0]], m.positions[c[1]], m.positions[c[2]], m.positions[c[3]]);
+    }
+    return sum;
+}
+
 std::vector<std::uint32_t> without(const std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some) {
     std::vector<std::uint32_t> left;
     std::ranges::set_difference(all, some, std::back_inserter(left));
@@ -134,7 +146,7 @@ std::vector<std::uint32_t> around_gaps(const Conflicts& conflicts, std::span<con
 /// Looks for a selection that leaves no gap around the gaps that are left. \return whether there is one
 bool fill_gaps(const TetMesh& tets, const Conflicts& conflicts, LocalSearch search, std::vector<std::uint32_t>& selected) {
     const std::vector<double> weights = plain_weights(conflicts.candidates());
-    const double whole = volume_of(tets);
+    const double whole = volume_held(tets, conflicts.candidates());
     for (search.seed = 2; search.seed < 12; ++search.seed) {
         if (volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * whole) return true;
         const std::vector<std::uint32_t> near = around_gaps(conflicts, selected, tets.tets.size());
