@@ -2,6 +2,7 @@
 #include "pipeline/mesh.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <set>
@@ -24,6 +25,7 @@ struct MeshOptions : CommonOptions {
     std::string output, split = "none", wells = "all", method, cells, select = "search";
     std::vector<std::string> stated;  ///< options for filling that were given
     double size = 0, ratio = 1.4, seconds = 120, megabytes = 0, max_distance = 0;
+    std::uint64_t most_cells = 20'000'000;
     SizeArguments sizes;
     ResizeRequest resize;
     bool lossy = false, recombine = false;
@@ -168,6 +170,7 @@ ExitStatus run(const MeshOptions& o) {
         request.remesh->max_distance = o.max_distance;
         request.remesh->monitor = &monitor;
     }
+    request.most_cells = o.most_cells;
     request.fills = !o.recombine;
     if (hexes) {
         request.recombine.emplace();
@@ -257,6 +260,9 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
         ->add_option("--wells", o->wells,
                      "Wells that become chains of edges of cells: all (default), none, or names of wells and lines between commas")
         ->type_name("WHICH");
+    command->add_option("--max-cells", o->most_cells, "Most cells that sizes may make, by an estimate (default 20000000)")
+        ->type_name("N")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{4'000'000'000}));
     command->add_option("--time-limit", o->seconds, "Most time for one try to fill a region; 0 is no limit (default 120)")
         ->type_name("SECONDS")
         ->check(is_length());
@@ -264,7 +270,7 @@ void add_mesh(CLI::App& program, ExitStatus& status) {
     command->add_flag("--lossy", o->lossy, "Write even where the target cannot hold all of the model");
     add_common_options(*command, *o, true);
     command->callback([o, command, &status] {
-        for (const char* name : {"--ratio", "--time-limit", "--memory-limit", "--wells"}) {
+        for (const char* name : {"--ratio", "--max-cells", "--time-limit", "--memory-limit", "--wells"}) {
             if (command->count(name) > 0) o->stated.emplace_back(name);
         }
         status = run(*o);

@@ -13,6 +13,7 @@
 #include "geometry/site_grid.h"
 #include "hexes/lattice.h"
 #include "hexes/sampling.h"
+#include "pipeline/cell_number.h"
 #include "pipeline/command_options.h"
 #include "pipeline/inner_sizes.h"
 #include "pipeline/json_parts.h"
@@ -185,6 +186,13 @@ Result<void> part_sizes(const Dataset& dataset, MeshRequest& request) {
     return {};
 }
 
+/// Whether the sizes that are asked for make no more cells than are allowed, which is known before anything is made.
+Result<void> check_sizes(const BrepData& brep, const MeshRequest& request, const MeshReport& report) {
+    const double by_stress = report.resized ? report.resized->wanted_cells : 0;
+    return check_cell_number(brep, {request.resize ? 0 : request.fill.size, request.fill.size_of, request.size_by, by_stress},
+                             request.most_cells);
+}
+
 /// The nearest of points with sizes: a rule for surfaces.
 remeshing::SizeRule nearest_size(const std::vector<volumes::SizedPoint>& sizes) {
     struct Field {
@@ -259,9 +267,16 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& ask
     if (request.on_lattice) {
         auto model = model_to_fill(dataset, request);
         if (!model) return std::move(model).why();
+        const hexes::Lattice lattice = hexes::lattice_of(*model->brep, request.fill.size);
+        if (auto fits = check_lattice(*model->brep, lattice.steps, request.most_cells); !fits) return fits;
         auto facets = volumes::facets_of_regions(*model);
         if (!facets) return std::move(facets).why();
-        lattices = hexes::region_lattices(*model->brep, *facets, hexes::lattice_of(*model->brep, request.fill.size));
+        lattices = hexes::region_lattices(*model->brep, *facets, lattice);
+    }
+    if (request.remesh && !request.on_lattice) {
+        auto model = model_to_fill(dataset, request);
+        if (!model) return std::move(model).why();
+        if (auto fits = check_sizes(*model->brep, request, report); !fits) return fits;
     }
     if (request.remesh) {
         auto remeshed = remesh_before(dataset, target, request, lattices ? &*lattices : nullptr, report);
@@ -270,6 +285,9 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& ask
     }
     auto model = model_to_fill(dataset, request);
     if (!model) return std::move(model).why();
+    if (!request.remesh && !request.on_lattice) {
+        if (auto fits = check_sizes(*model->brep, request, report); !fits) return fits;
+    }
     volumes::FillOptions how = request.fill;
     if (lattices) {
         how.points = [&](const volumes::RegionFacets& facets) { return hexes::points_inside(facets, lattices->at(facets.region)); };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,6 +32,7 @@ struct MeshRequest {
     /// Vertices inside of regions, and those of new triangles if there are any, are points of a lattice with the size of cells.
     bool on_lattice = false, remesh_on_lattice = false;
     std::optional<hexes::RecombineOptions> recombine;  ///< hexahedra of the tetrahedra
+    std::uint64_t most_cells = 20'000'000;             ///< that sizes may make, by an estimate
     bool fills = true;                                 ///< false: the tetrahedra that are recombined are those of the inputs
 };
 

@@ -92,6 +92,10 @@ Result<Resized> sizes_by_stress(const ResizeRequest& request, const LoadOptions&
     report.cells = all->cells.size();
     report.above = error.above;
     report.without_energy = error.without_energy;
+    for (std::size_t c = 0; c < error.wanted.size(); ++c) {
+        const double finer = error.wanted[c] > 0 ? error.edges[c] / error.wanted[c] : 1;
+        report.wanted_cells += finer * finer * finer;
+    }
     report.allowed = request.allowed;
     report.whole = error.whole;
     report.largest = error.largest;

@@ -25,6 +25,7 @@ struct ResizeReport {
     std::string place;                                       ///< where the result and the model do not lie in one place; else empty
     std::uint64_t cells = 0, above = 0, without_energy = 0;  /// as of volumes::StressError
     double allowed = 0, whole = 0, largest = 0;
+    double wanted_cells = 0;                  ///< about how many cells have the sizes that they should
     double least_size = 0, largest_size = 0;  ///< that cells should have
 };
 

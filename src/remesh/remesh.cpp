@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
+#include "base/larger_size.h"
 #include "base/parallel.h"
 #include "base/vectors.h"
 #include "base/wording.h"
@@ -43,6 +46,8 @@ double allowed_distance(const BrepData& brep, const RemeshOptions& options) {
     return std::min(options.size / 10, diagonal_of(brep) / 200);
 }
 
+bool has_one_size(const RemeshOptions& options) { return options.size_of.empty() && options.size_by.empty(); }
+
 /// The rounds in which a model is remeshed.
 class Rounds {
 public:
@@ -69,6 +74,10 @@ public:
         for (std::uint32_t s = 0; options.method == Method::keep && s < cut.surfaces.size(); ++s) keep(s, "that was asked for");
     }
 
+    /// Whether the sizes make no more triangles than are allowed, once lines are planned. Failure as of remesh_model() where they do not.
+    Result<void> plan();
+    double count() const { return count_; }  ///< of triangles and edges of lines, about
+    /// \pre plan() had success
     Result<Remeshed> run();
 
 private:
@@ -99,6 +108,7 @@ private:
     std::vector<double> sizes_, most_;  // at vertices, and as large as they become between distant ones
     std::vector<NewSurface> surfaces_;
     std::vector<double> expected_;  // triangles of each
+    double count_ = 0;              // of all
     std::vector<unsigned> tries_;
     std::vector<std::string> why_;
     std::vector<std::vector<std::array<std::uint32_t, 2>>> bridges_;  // per surface edges between named vertices that must be split
@@ -127,7 +137,8 @@ double Rounds::triangles_for(const BrepData::Surface& surface, std::span<const d
 }
 
 Result<void> Rounds::check_number() {
-    double count = 0;
+    double& count = count_;
+    count = 0;
     for (std::uint32_t s = 0; s < brep_.surfaces.size(); ++s) count += expected_[s] = triangles_for(brep_.surfaces[s], sizes_);
     for (const auto& line : brep_.lines) {
         for (std::size_t i = 1; i < line.vertices.size(); ++i) {
@@ -137,8 +148,8 @@ Result<void> Rounds::check_number() {
     }
     if (count <= static_cast<double>(options_.most_triangles)) return {};
     Failure why = failure(FailureKind::limit, "F023", {},
-                          "edges of this size make about " + rounded(count) + " triangles, and no more than " +
-                              std::to_string(options_.most_triangles) + " are allowed");
+                          "edges of " + (has_one_size(options_) ? rounded(options_.size) : "these sizes") + " make about " +
+                              rounded(count) + " triangles, and no more than " + std::to_string(options_.most_triangles) + " are allowed");
     why.error.measures = {{"most_triangles", static_cast<double>(options_.most_triangles)}};
     return why;
 }
@@ -398,11 +409,14 @@ Remeshed Rounds::result() const {
     return made;
 }
 
+Result<void> Rounds::plan() {
+    if (auto fits = check_number(); !fits) return fits;  // before anything is made
+    plan_lines();
+    return check_number();
+}
+
 Result<Remeshed> Rounds::run() {
     const auto cancelled = [] { return failure(FailureKind::cancelled, "F022", {}, "stopped; nothing was written"); };
-    if (auto fits = check_number(); !fits) return std::move(fits).why();  // before anything is made
-    plan_lines();
-    if (auto fits = check_number(); !fits) return std::move(fits).why();
     for (;;) {
         if (stopped()) return cancelled();
         ++rounds_;
@@ -415,6 +429,41 @@ Result<Remeshed> Rounds::run() {
     return result();
 }
 
+RemeshOptions with_larger_sizes(RemeshOptions options, double factor) {
+    options.size *= factor;
+    for (auto& of : options.size_of) of.second *= factor;
+    for (SizeRule& rule : options.size_by) {
+        rule.size *= factor;
+        rule.largest *= factor;
+    }
+    return options;
+}
+
+/// A model with its surfaces cut at their creases.
+BrepData creased(const BrepData& brep, const RemeshOptions& options) {
+    CreaseRules creases;
+    creases.height = allowed_distance(brep, options) / 2;
+    creases.length = options.size / 2;
+    return cut_at_creases(brep, creases);
+}
+
+/// Sizes that make few enough triangles, in words; where close lines keep triangles small it takes more than their number says.
+/// \param count of triangles as sizes are
+std::string sizes_that_do(const BrepData& brep, const RemeshOptions& options, double count) {
+    constexpr int most_tries = 20;
+    const double whole = diagonal_of(brep), number = std::sqrt(count / static_cast<double>(options.most_triangles));
+    double factor = std::isfinite(number) ? std::max(1.0, number) : 1e-3 * whole / options.size;
+    for (int i = 0; i < most_tries && (!has_one_size(options) || factor * options.size < whole); ++i, factor *= 1.25) {
+        const std::string offered = two_digits_above(has_one_size(options) ? options.size * factor : factor);
+        const double exactly = std::strtod(offered.c_str(), nullptr) / (has_one_size(options) ? options.size : 1);
+        const RemeshOptions larger = with_larger_sizes(options, exactly);
+        const BrepData cut = creased(brep, larger);
+        if (!Rounds(brep, cut, larger).plan()) continue;
+        return has_one_size(options) ? ": edges of " + offered + " make fewer" : ": sizes " + offered + " times as large make fewer";
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<Remeshed> remesh_model(const BrepData& brep, const RemeshOptions& options) {
@@ -423,11 +472,14 @@ Result<Remeshed> remesh_model(const BrepData& brep, const RemeshOptions& options
         any.size = diagonal_of(brep);
         return remesh_model(brep, any);
     }
-    CreaseRules creases;
-    creases.height = allowed_distance(brep, options) / 2;
-    creases.length = options.size / 2;
-    const BrepData cut = cut_at_creases(brep, creases);
-    return Rounds(brep, cut, options).run();
+    const BrepData cut = creased(brep, options);
+    Rounds rounds(brep, cut, options);
+    if (auto fits = rounds.plan(); !fits) {
+        Failure why = std::move(fits).why();
+        why.error.message += sizes_that_do(brep, options, rounds.count());
+        return why;
+    }
+    return rounds.run();
 }
 
 }  // namespace geomend::remeshing

@@ -81,8 +81,8 @@ TEST(Remesh, ASizeThatMakesTooManyTrianglesIsRefusedAtOnce) {
         const auto run =
             run_geomend({command, sample("layered_box.ml"), "-o", folder / "out.ml", "--size", "1e-6", "--method", "isotropic", "--lossy"});
         EXPECT_EQ(run.status, 5);
-        EXPECT_NE(run.err.find("triangles"), std::string::npos) << run.err;
-        EXPECT_NE(run.err.find("choose a larger --size"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find(*command == 'r' ? "triangles" : "cells"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("choose larger sizes"), std::string::npos) << run.err;
     }
 }
 
@@ -184,6 +184,24 @@ TEST(Remesh, WrongOptionsAreRefused) {
         arguments.insert(arguments.end(), wrong.begin(), wrong.end());
         EXPECT_EQ(run_geomend(arguments).status, 2);
     }
+}
+
+TEST(Remesh, ASizeOfTooManyTrianglesIsRefusedWithOneThatDoes) {
+    const TemporaryFolder folder;
+    const auto run = [&](const std::string& size) {
+        return run_geomend({"remesh", sample("layered_box.ml"), "-o", folder / "out.ml", "--size", size, "--max-triangles", "3000"});
+    };
+    const auto refused = run("1e-9");
+    EXPECT_EQ(refused.status, 5) << refused.err;
+    const std::string before = "3000 are allowed: edges of ";
+    const auto at = refused.err.find(before);
+    ASSERT_NE(at, std::string::npos) << refused.err;
+    const std::string offered = refused.err.substr(at + before.size(), refused.err.find(' ', at + before.size()) - at - before.size());
+    EXPECT_EQ(run(offered).status, 0) << offered;
+    const auto by_rule =
+        run_geomend({"remesh", sample("layered_box.ml"), "-o", folder / "out.ml", "--size", "50", "--size-by", "distance=fault:1e-6"});
+    EXPECT_EQ(by_rule.status, 5) << by_rule.err;
+    EXPECT_NE(by_rule.err.find(" times as large make fewer"), std::string::npos) << by_rule.err;
 }
 
 TEST(Remesh, ModelA1KeepsItsEntitiesAndItsTrianglesBecomeEquilateral) {

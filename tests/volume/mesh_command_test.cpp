@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "support/program.h"
 #include "support/real_data.h"
@@ -69,6 +73,50 @@ TEST(Mesh, GivesTheSameBytesForAnyNumberOfThreads) {
             0);
     }
     EXPECT_EQ(test::read_file(folder / "1.msh"), test::read_file(folder / "2.msh"));
+}
+
+/// The number behind a word of a message, or 0.
+double number_behind(const std::string& text, const std::string& word) {
+    const auto at = text.find(word);
+    return at == std::string::npos ? 0 : std::strtod(text.c_str() + at + word.size(), nullptr);
+}
+
+TEST(Mesh, SizesThatMakeTooManyCellsAreRefusedAtOnceWithTheirNumberAndSizesThatDo) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.vtu";
+    const std::vector<std::vector<std::string>> hopeless = {{"--size", "1e-9"},
+                                                            {"--size", "1e-300"},
+                                                            {"--size", "1e-9", "--method", "isotropic"},
+                                                            {"--size", "0.01", "--method", "lattice"},
+                                                            {"--size", "0.01", "--cells", "hex-dominant", "--lossy"},
+                                                            {"--size", "0.01", "--cells", "hybrid", "--lossy"},
+                                                            {"--size", "50", "--size-of", "west_1=1e-6"},
+                                                            {"--size", "50", "--size-by", "distance=fault:1e-6"},
+                                                            {"--size", "50", "--size-by", "distance=fault:0.01:0.1"}};
+    const auto begin = std::chrono::steady_clock::now();
+    for (auto arguments : hopeless) {
+        arguments.insert(arguments.begin(), {"mesh", sample("layered_box.ml"), "-o", out});
+        const auto run = run_geomend(arguments);
+        EXPECT_EQ(run.status, 5) << run.err;
+        EXPECT_GT(number_behind(run.err, " make about "), 2e7) << run.err;
+        EXPECT_NE(run.err.find("--max-cells"), std::string::npos) << run.err;
+    }
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+    const auto refused =
+        run_geomend({"mesh", sample("layered_box.ml"), "-o", out, "--size", "60", "--method", "isotropic", "--max-cells", "9000"});
+    const double number = number_behind(refused.err, " make about "), larger = number_behind(refused.err, "are allowed: edges of ");
+    ASSERT_GT(larger, 60) << refused.err;
+    const auto cells = [](const json& report) {
+        std::uint64_t all = 0;
+        for (const json& region : report["regions"]) all += region["cells"]["tetrahedron"].get<std::uint64_t>();
+        return static_cast<double>(all);
+    };
+    const json as_asked = mesh(sample("layered_box.ml"), out, {"--size", "60", "--method", "isotropic"});
+    EXPECT_NEAR(cells(as_asked), number, 0.2 * number);
+    const json coarser =
+        mesh(sample("layered_box.ml"), out, {"--size", std::to_string(larger), "--method", "isotropic", "--max-cells", "9000"});
+    ASSERT_TRUE(coarser.is_object()) << "the size that was offered was refused";
+    EXPECT_EQ(coarser["written"], true);
 }
 
 TEST(Mesh, AModelWithErrorsIsNotFilledAndAnOlderOutputStays) {
