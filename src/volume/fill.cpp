@@ -160,8 +160,8 @@ void make_smaller(const RegionFacets& facets, double edge, const FillOptions& op
 /// Improves the cells of a region, and keeps that where they still fill it as they did.
 Improvement improve_proven(const RegionFacets& facets, RegionCells& region, const FillOptions& options) {
     RegionCells better = region;
-    const Improvement done = options.improve ? improve(facets, better, options.monitor) : remove_flat_cells(facets, better);
-    if (done.flips + done.moves == 0) return done;
+    const Improvement done = options.improve ? improve(facets, better, options.monitor, {}, true) : remove_flat_cells(facets, better);
+    if (done.flips + done.moves + done.vertices == 0) return done;
     measure(facets, better);
     if ((options.improve && better.least_dihedral < region.least_dihedral) ||
         !(std::abs(better.volume - facets.volume) <= 1e-9 * std::abs(facets.volume)))
@@ -199,6 +199,9 @@ bool fill_by(const Rung& rung, const RegionFacets& facets, const Inside& wanted,
     return false;
 }
 
+/// Where TetGen fails for wells that are close to each other, it does so in any order of vertices.
+constexpr std::uint32_t most_shuffles_with_wells = 1;
+
 OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, FilledRegion& report) {
     OneRegion result;
     const auto begin = std::chrono::steady_clock::now();
@@ -210,6 +213,7 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
     std::string too_slow;
     for (const Rung& rung : rungs_for(edge, options, with_points)) {
         if (rung.switches == too_slow) continue;
+        if (!facets.edges.empty() && rung.order.shuffle > most_shuffles_with_wells) continue;
         if (rung.has_sizes && sizes.empty()) continue;
         if (fill_by(rung, facets, wanted, options, too_slow, result, report)) break;
         if (result.stopped) return result;
@@ -219,6 +223,7 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
     report.new_vertices = result.cells.new_vertices.size();
     report.volume = result.cells.volume;
     report.surface_volume = facets.volume;
+    report.well_edges = facets.edges.size();
     report.least_dihedral = report.filled() ? result.cells.least_dihedral : 0;
     report.shapes = result.cells.shapes;
     report.narrow = narrow_cells(facets, result.cells, edge);
@@ -268,20 +273,21 @@ void drop_unused_vertices(BrepData& brep, std::vector<WellChain>& chains) {
     }
 }
 
-/// The model and its facets, with wells as edges of both.
-Result<std::vector<RegionFacets>> facets_with_wells(CutByWells& cut, const topology::FoundRegions& found, const FillOptions& options) {
-    if (!options.wells.empty()) {
-        auto made = cut_by_wells(cut.brep, found, options.wells, options.well_tolerance);
-        if (!made) return std::move(made).why();
-        cut = std::move(*made);
-    }
+struct FacetsOfAll {
+    std::vector<RegionFacets> facets;
+    std::vector<std::optional<NearWells>> near;  ///< for each, or empty
+};
+
+/// The facets of regions, with edges of wells in them.
+Result<FacetsOfAll> facets_with_wells(CutByWells& cut, const topology::FoundRegions& found, const FillOptions& options) {
     auto facets = facets_of_regions(cut.brep, found, cut.inner);
-    if (!facets || cut.inner.empty()) return facets;
+    if (!facets) return std::move(facets).why();
+    if (cut.inner.empty()) return FacetsOfAll{std::move(*facets), {}};
     std::vector<std::vector<SizedPoint>> sizes(cut.brep.regions.size());
     if (options.sizes) {
         for (const RegionFacets& region : *facets) sizes[region.region] = options.sizes(region);
     }
-    part_edges(cut, *facets, [&](const RegionFacets& region, const Vec3& place) {
+    auto near = part_edges(cut, *facets, [&](const RegionFacets& region, const Vec3& place) {
         const auto away = [&](const SizedPoint& s) {
             const Vec3 d = minus(s.place, place);
             return dot(d, d);
@@ -289,15 +295,23 @@ Result<std::vector<RegionFacets>> facets_with_wells(CutByWells& cut, const topol
         const auto& own = sizes[region.region];
         return own.empty() ? size_in(region, options, cut.brep.regions[region.region].name) : std::ranges::min_element(own, {}, away)->size;
     });
-    return facets;
+    if (!near) return std::move(near).why();
+    return FacetsOfAll{std::move(*facets), std::move(*near)};
 }
 
 }  // namespace
 
 Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options) {
-    CutByWells cut{brep, {}, {}};
-    auto facets = facets_with_wells(cut, found, options);
-    if (!facets) return std::move(facets).why();
+    if (options.wells.empty()) return fill_regions(CutByWells{brep, {}, {}}, found, options);
+    auto cut = cut_by_wells(brep, found, options.wells, options.well_tolerance);
+    if (!cut) return std::move(cut).why();
+    return fill_regions(std::move(*cut), found, options);
+}
+
+Result<Filled> fill_regions(CutByWells cut, const topology::FoundRegions& found, const FillOptions& options) {
+    auto all = facets_with_wells(cut, found, options);
+    if (!all) return std::move(all).why();
+    const auto* facets = &all->facets;
     Filled filled{std::move(cut.brep), {}, {}, std::move(cut.chains), 0};
     for (const auto& region : filled.brep.regions) {
         filled.regions.emplace_back().name = region.name;
@@ -308,7 +322,9 @@ Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& 
     std::vector<OneRegion> results(facets->size());
     parallel_for_each_index(order.size(), [&](std::size_t i) {
         const RegionFacets& region = (*facets)[order[i]];
-        results[order[i]] = fill_one(region, options, filled.regions[region.region]);
+        FilledRegion& report = filled.regions[region.region];
+        results[order[i]] = fill_one(region, options, report);
+        if (!report.filled() && !all->near.empty() && all->near[order[i]]) report.why_not.push_back(near_wells_text(*all->near[order[i]]));
     });
     exchange::empty_regions(filled.brep, LossClass::identity, "new cells take their place", filled.losses);
     for (std::size_t i = 0; i < results.size(); ++i) {

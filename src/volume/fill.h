@@ -49,6 +49,7 @@ struct FilledRegion {
     std::vector<std::string> why_not;  ///< why those before it did not
     bool hit_limit = false;            ///< of time: one of those did
     double seconds = 0;                ///< on the wall
+    std::uint64_t well_edges = 0;      ///< that lie inside, on no surface
     bool filled() const { return !rung.empty(); }
 };
 
@@ -65,6 +66,9 @@ struct Filled {
 /// tried with good shapes first, then with any. Failure as of facets_of_regions() and cut_by_wells(), or (cancelled). Regions that nothing
 /// fills are told in `regions`. Results do not depend on the number of threads. Cost: that of TetGen; regions side by side.
 Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options);
+
+/// The same of a model that wells have cut; those of the options are not cut again.
+Result<Filled> fill_regions(CutByWells cut, const topology::FoundRegions& found, const FillOptions& options);
 
 inline Result<Filled> fill_regions(const topology::JudgedModel& model, const FillOptions& options) {
     return fill_regions(*model.brep, model.found, options);

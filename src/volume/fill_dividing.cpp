@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "volume/cut_by_wells.h"
@@ -13,14 +14,15 @@ namespace geomend::volumes {
 namespace {
 
 /// Where tetrahedra of a region want vertices on its facets: the first try that ends, those first that keep facets whole where they can.
-Result<SurfacePoints> wanted_points(const RegionFacets& facets, const FillOptions& options) {
+/// \param fewest tries: those that keep facets whole where they can, for a region that wells may be the trouble of
+Result<SurfacePoints> wanted_points(const RegionFacets& facets, const FillOptions& options, bool fewest) {
     struct Try {
         const char* switches;
         std::uint32_t shuffle;
     };
     constexpr std::array tries = {Try{"QpYMT1e-14", 0}, Try{"QpYMT1e-14", 1}, Try{"QpYMT1e-14", 2},
                                   Try{"QpMT1e-14", 0},  Try{"QpMT1e-14", 1},  Try{"QpMT1e-14", 2}};
-    for (const Try& one : tries) {
+    for (const Try& one : std::span(tries).first(fewest ? 1 : tries.size())) {
         auto all = tetrahedra_of(facets, {}, one.switches, {one.shuffle}, options.limits, options.monitor);
         if (!all && all.why().kind == FailureKind::cancelled) return std::move(all).why();
         if (!all) continue;
@@ -38,7 +40,7 @@ Result<SurfacePoints> wanted_points(const BrepData& brep, const topology::FoundR
     SurfacePoints all;
     for (const RegionFacets& region : *facets) {
         if (filled.regions[region.region].filled()) continue;
-        auto points = wanted_points(region, options);
+        auto points = wanted_points(region, options, filled.regions[region.region].well_edges > 0);
         if (!points) return points;
         all.on_edges.insert(all.on_edges.end(), points->on_edges.begin(), points->on_edges.end());
         all.inside.insert(all.inside.end(), points->inside.begin(), points->inside.end());
@@ -50,13 +52,14 @@ Result<SurfacePoints> wanted_points(const BrepData& brep, const topology::FoundR
 
 Result<Filled> fill_dividing_surfaces(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options) {
     constexpr int most_rounds = 3;
-    BrepData divided = brep;
+    CutByWells cut{brep, {}, {}};
     if (!options.wells.empty()) {
-        auto cut = cut_by_wells(brep, found, options.wells, options.well_tolerance);
-        if (!cut) return std::move(cut).why();
-        divided = std::move(cut->brep);
+        auto made = cut_by_wells(brep, found, options.wells, options.well_tolerance);
+        if (!made) return std::move(made).why();
+        cut = std::move(*made);
     }
-    auto filled = fill_regions(divided, found, options);
+    BrepData divided = cut.brep;
+    auto filled = fill_regions(std::move(cut), found, options);
     std::uint64_t added = 0;
     for (int round = 0; filled && round < most_rounds; ++round) {
         if (std::ranges::all_of(filled->regions, &FilledRegion::filled)) break;

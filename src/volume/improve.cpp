@@ -113,6 +113,13 @@ public:
         return true;
     }
 
+    /// A new vertex, which no cell has yet.
+    std::uint32_t add_vertex(const Vec3& place) {
+        positions_.push_back(place);
+        around_.emplace_back();
+        return static_cast<std::uint32_t>(positions_.size() - 1);
+    }
+
     /// The worst cell at a vertex. \pre it has one
     std::uint32_t worst_around(std::uint32_t v) const {
         return *std::ranges::min_element(around_[v], {}, [&](std::uint32_t c) { return sine_[c]; });
@@ -130,6 +137,7 @@ public:
         }
         cells_.resize(next);
         region.cells = std::move(cells_);
+        region.new_vertices.resize(positions_.size() - facets.positions.size());
         std::copy(positions_.begin() + static_cast<std::ptrdiff_t>(facets.positions.size()), positions_.end(), region.new_vertices.begin());
     }
 
@@ -249,8 +257,15 @@ public:
     Improver(const RegionFacets& facets, RegionCells& region, std::span<const std::array<std::uint32_t, 2>> kept = {})
         : first_free_(static_cast<std::uint32_t>(facets.positions.size())), fixed_(facets, kept), mesh_(facets, region) {}
 
-    void run(const Monitor* monitor) {
+    /// \param inserts whether bad cells of which nothing else helps may get vertices beside them
+    void run(const Monitor* monitor, bool inserts) {
         done.bad_before = count_bad();
+        run_rounds(monitor);
+        if (inserts && insert_vertices(monitor)) run_rounds(monitor);
+        done.bad_after = count_bad();
+    }
+
+    void run_rounds(const Monitor* monitor) {
         constexpr int most_rounds = 8;
         for (int round = 0; round < most_rounds; ++round) {
             const std::uint64_t before = done.flips + done.moves;
@@ -262,7 +277,6 @@ public:
             }
             if (done.flips + done.moves == before) break;
         }
-        done.bad_after = count_bad();
     }
 
     /// Cells that lie flat on two facets go, with the edge that they have beside these.
@@ -290,6 +304,73 @@ private:
         std::uint64_t count = 0;
         for (std::uint32_t c = 0; c < mesh_.size(); ++c) count += mesh_.is_there(c) && mesh_.sine_of(c) < bad_sine ? 1 : 0;
         return count;
+    }
+
+    /// \return whether any cell got a vertex
+    bool insert_vertices(const Monitor* monitor) {
+        const auto before = done.vertices;
+        const auto size = static_cast<std::uint32_t>(mesh_.size());  // those that are made are better
+        for (std::uint32_t c = 0; c < size; ++c) {
+            if (monitor != nullptr && monitor->stopped()) break;
+            if (mesh_.is_there(c) && mesh_.sine_of(c) < bad_sine && insert_beside(mesh_.at(c))) ++done.vertices;
+        }
+        return done.vertices > before;
+    }
+
+    /// Parts an inner edge of a bad cell, and with it all cells around that edge, at the place by which the worst of them becomes the best:
+    /// what lies flat on two facets has the edge opposite to the one between them on the inside, and its middle may move away from them.
+    bool insert_beside(const Cell cell) {
+        constexpr std::size_t longest = 24;
+        constexpr double least_factor = 1.5;  // a vertex is worth that
+        std::optional<Ring> best_ring;
+        std::array<std::uint32_t, 2> best_edge{};
+        Vec3 best_place{};
+        double best_factor = least_factor;
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = i + 1; j < 4; ++j) {
+                if (fixed_.has_edge(cell[i], cell[j])) continue;
+                auto ring = ring_around(mesh_, cell[i], cell[j], longest);
+                if (!ring) continue;
+                const double worst = std::max(worst_of(mesh_, ring->cells), gain);
+                const Vec3 middle = times(0.5, plus(mesh_.position(cell[i]), mesh_.position(cell[j])));
+                Vec3 mean{};
+                for (const std::uint32_t v : ring->vertices)
+                    mean = plus(mean, times(1.0 / static_cast<double>(ring->vertices.size()), minus(mesh_.position(v), middle)));
+                for (const double share : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+                    const Vec3 place = plus(middle, times(share, mean));
+                    const double factor = worst_when_parted(*ring, cell[i], cell[j], place) / worst;
+                    if (factor <= best_factor) continue;
+                    best_factor = factor;
+                    best_place = place;
+                    best_edge = {cell[i], cell[j]};
+                    best_ring = *ring;
+                }
+            }
+        }
+        if (!best_ring) return false;
+        const std::uint32_t v = mesh_.add_vertex(best_place);
+        std::vector<Cell> made;
+        for (const std::uint32_t c : best_ring->cells) {
+            for (const std::uint32_t end : best_edge) {
+                made.push_back(mesh_.at(c));
+                *std::ranges::find(made.back(), end) = v;
+            }
+        }
+        mesh_.replace(best_ring->cells, made);
+        return true;
+    }
+
+    double worst_when_parted(const Ring& ring, std::uint32_t a, std::uint32_t b, const Vec3& place) const {
+        double worst = 2;
+        for (const std::uint32_t c : ring.cells) {
+            for (const std::uint32_t end : {a, b}) {
+                std::array<Vec3, 4> p = mesh_.corners(mesh_.at(c));
+                p[static_cast<std::size_t>(std::ranges::find(mesh_.at(c), end) - mesh_.at(c).begin())] = place;
+                if (orientation(p[0], p[1], p[2], p[3]) <= 0) return -1;
+                worst = std::min(worst, least_sine(p));
+            }
+        }
+        return worst;
     }
 
     void remove_inner_edge(const Cell cell) {
@@ -422,9 +503,9 @@ Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region) {
 }
 
 Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor,
-                    std::span<const std::array<std::uint32_t, 2>> kept) {
+                    std::span<const std::array<std::uint32_t, 2>> kept, bool inserts) {
     Improver improver(facets, region, kept);
-    improver.run(monitor);
+    improver.run(monitor, inserts);
     improver.cells().put_back(facets, region);
     return improver.done;
 }

@@ -15,6 +15,7 @@ namespace geomend::volumes {
 struct Improvement {
     std::uint64_t bad_before = 0, bad_after = 0;  ///< cells with an angle between faces below 10 or above 170 degrees
     std::uint64_t flips = 0, moves = 0;
+    std::uint64_t vertices = 0;  ///< that were inserted
 };
 
 /// Makes the worst cells better, facets and their vertices fixed: edges inside are removed, faces inside are flipped, and new vertices
@@ -23,8 +24,10 @@ struct Improvement {
 /// Source: L. Freitag, C. Ollivier-Gooch, Tetrahedral mesh improvement using swapping and smoothing (1997); the ring around an edge is
 /// filled as by G. Klincsek (1980); A. Botella (2016), 2.6.4, for moves that make no cell around worse.
 /// \param kept more edges that stay, over the same vertices
+/// \param inserts whether edges inside of bad cells that nothing else helps are parted by new vertices, where the worst cell around becomes
+/// half as good again by it
 Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor,
-                    std::span<const std::array<std::uint32_t, 2>> kept = {});
+                    std::span<const std::array<std::uint32_t, 2>> kept = {}, bool inserts = false);
 
 /// Removes cells that are flat on two facets, by the one edge inside that they have: where a surface is even all four vertices of a cell
 /// may lie in it. Others stay as they are. Cost: linear, and as the cells around these.

@@ -164,6 +164,27 @@ TEST(FillWells, PiecesAreNoLongerThanCellsAreToBe) {
         EXPECT_LE(length(minus(filled->brep.vertices[e[0]], filled->brep.vertices[e[1]])), 0.8 + 1e-9);
 }
 
+TEST(FillWells, WellsThatPassCloseByHaveShortEdgesThereAndNowhereElse) {
+    const std::vector<std::vector<Vec3>> paths{{{3.1, 4.3, 9.5}, {3.1, 4.3, 0.5}}, {{1.2, 4.32, 3.1}, {8.9, 4.32, 2.7}}};
+    const auto filled = fill(paths, 3);
+    ASSERT_TRUE(filled) << filled.why().error.message;
+    expect_wells_are_edges(*filled, paths);
+    double shortest = 100;
+    for (const WellChain& chain : filled->wells) {
+        for (const Ends& e : chain.edges)
+            shortest = std::min(shortest, length(minus(filled->brep.vertices[e[0]], filled->brep.vertices[e[1]])));
+        EXPECT_LT(chain.edges.size(), 60u) << "pieces become longer away from the place";
+    }
+    EXPECT_LE(shortest, 0.04);
+}
+
+TEST(FillWells, WellsTooCloseBesideEachOtherAreRefusedByTheirNamesAndPlace) {
+    const auto filled = fill({{{3.1, 4.3, 9.5}, {3.1, 4.3, 0.5}}, {{3.10001, 4.3, 9.5}, {3.10001, 4.3, 0.5}}}, 3);
+    ASSERT_FALSE(filled);
+    EXPECT_NE(filled.why().error.message.find("wells 'well 0' and 'well 1' come within 1e-05 of each other at (3.1"), std::string::npos)
+        << filled.why().error.message;
+}
+
 TEST(FillWells, WellsMayRunAlongSurfacesAndTheirEdgesAndThroughTheirVertices) {
     const std::vector<std::vector<Vec3>> paths{
         {{1.3, 1.1, 6}, {8.2, 6.4, 6}, {8.9, 7.3, 6}},   // in the plane between

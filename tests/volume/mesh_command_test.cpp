@@ -65,6 +65,18 @@ TEST(Mesh, FillsASampleInEveryFormatThatHoldsCells) {
     }
 }
 
+TEST(Mesh, NoCellLiesFlatOnTwoTrianglesOfAFold) {
+    const TemporaryFolder folder;
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--size", "100"}, {"--size", "150"}}) {
+        const json report = mesh(sample("layered_box.ml"), folder / "out.vtu", more);
+        ASSERT_TRUE(report.is_object());
+        for (const json& region : report["regions"]) {
+            EXPECT_EQ(region["below_5_degrees"]["cells"], 0) << region["name"];
+            EXPECT_GT(region["min_dihedral"].get<double>(), 5) << region["name"];
+        }
+    }
+}
+
 TEST(Mesh, GivesTheSameBytesForAnyNumberOfThreads) {
     const TemporaryFolder folder;
     for (const char* threads : {"1", "2"}) {
