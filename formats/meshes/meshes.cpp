@@ -7,6 +7,7 @@
 #include "formats/meshes/read_medit.h"
 #include "formats/meshes/read_tetgen.h"
 #include "formats/meshes/write_abaqus.h"
+#include "formats/meshes/write_cgns.h"
 #include "formats/meshes/write_code_aster.h"
 #include "formats/meshes/write_csmp.h"
 #include "formats/meshes/write_exodus.h"
@@ -30,7 +31,7 @@ constexpr std::string_view medit_extensions[] = {".mesh", ".meshb"}, tetgen_exte
                            pflotran_extensions[] = {".uge"}, modflow_extensions[] = {".disu"}, ucd_extensions[] = {".ucd", ".avs"},
                            mfem_extensions[] = {".mfem"}, exodus_extensions[] = {".exo", ".e", ".ex2", ".g"},
                            feflow_extensions[] = {".fem"}, csmp_extensions[] = {".asc"}, gprs_extensions[] = {".gprs"},
-                           tough2_extensions[] = {".tough2"};
+                           tough2_extensions[] = {".tough2"}, cgns_extensions[] = {".cgns"};
 constexpr std::string_view tried = "fixtures and clients: no real file was found",
                            tried_by_readers_of_tests = "fixtures only: no client was at hand";
 
@@ -152,6 +153,18 @@ constexpr Format exodus_row() {
     return format;
 }
 
+constexpr Format cgns_row() {
+    Format format =
+        row("cgns", "CGNS in HDF5: sections of elements, families of regions and sets, boundary conditions, values", cgns_extensions,
+            "substance: polyhedra, edge sets, nodes in the middle of faces and cells, texts, points, grids, wells; identity: the "
+            "end of names beyond 32 characters, units other than m, ft and cm, coordinate system");
+    format.keeps.fault_faces = Keeping::yes;
+    format.keeps.attributes = Keeping::partly;
+    format.keeps.names = Keeping::partly;
+    format.keeps.exact_coordinates = Keeping::yes;
+    return format;
+}
+
 constexpr Format feflow_row() {
     Format format =
         row("feflow", "FEFLOW: elements, sets of elements for regions, chains of edges as discrete features", feflow_extensions,
@@ -178,6 +191,7 @@ constexpr Format network_row(std::string_view name, std::string_view title, std:
 constexpr std::array rows = {
     abaqus_row(),
     ucd_row(),
+    cgns_row(),
     code_aster_row(),
     csmp_row(),
     exodus_row(),
@@ -196,6 +210,7 @@ constexpr std::array rows = {
     network_row("tough2", "TOUGH2: elements and connections of a MESH file", tough2_extensions)};
 constexpr std::array mesh_rows = {MeshFormat{"abaqus", "abaqus", write_abaqus},
                                   MeshFormat{"avs-ucd", "avs-ucd", write_ucd},
+                                  MeshFormat{"cgns", "cgns", write_cgns},
                                   MeshFormat{"code-aster", "code-aster", write_code_aster},
                                   MeshFormat{"csmp", "csmp", write_csmp},
                                   MeshFormat{"exodus", "exodus", write_exodus},

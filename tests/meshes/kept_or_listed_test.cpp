@@ -77,13 +77,14 @@ Losses write_all(CellMesh mesh, std::string_view format, const TemporaryFolder& 
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// As text, or as the eight bytes of a file of Exodus.
+/// As text, or as the eight bytes of a file of Exodus or of CGNS.
 bool has_number(const std::string& text, double value) {
     std::string bytes;
     for (int shift = 56; shift >= 0; shift -= 8) bytes += static_cast<char>(std::bit_cast<std::uint64_t>(value) >> shift & 0xFFu);
+    const std::string turned(bytes.rbegin(), bytes.rend());
     std::ostringstream words;
     words << value;
-    return contains(text, words.str()) || contains(text, bytes);
+    return contains(text, words.str()) || contains(text, bytes) || contains(text, turned);
 }
 
 /// Whether what begins with some name is listed as substance that was lost.
