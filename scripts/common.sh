@@ -7,7 +7,7 @@ cd "$root"
 
 # What the build and the tests need on Debian 12. Keep in step with the find_package calls in CMakeLists.txt.
 build_packages=(g++ cmake ninja-build ccache
-    libvtk9-dev libtet1.5-dev libcgns-dev libtbb-dev zlib1g-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
+    libvtk9-dev libtet1.5-dev libcgns-dev libhdf5-dev libtbb-dev zlib1g-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
     libgtest-dev librapidcheck-dev libbenchmark-dev python3 scdoc)
 # Other programs' readers, against which the tests hold our files, and what checks the formatting.
 client_packages=(gmsh tetgen cgns-convert openfoam calculix-ccx python3-vtk9 clang-format-14

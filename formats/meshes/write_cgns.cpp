@@ -14,6 +14,7 @@ Result<std::vector<Loss>> write_cgns(const VolumeMesh&, OutputSet& out, const Wr
 
 #else
 
+#include <H5public.h>
 #include <cgnslib.h>
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -350,6 +351,7 @@ Result<std::vector<Loss>> write_cgns(const VolumeMesh& mesh, OutputSet& out, con
     if (!fits(mesh)) return failure(FailureKind::cannot_hold, "F021", {target}, "the mesh is too large for the library of CGNS");
     static std::mutex library;  // it is not made for several threads
     const std::lock_guard<std::mutex> alone(library);
+    H5dont_atexit();  // where a disk was full it would close at the end of the program what it could not close before, and crash
     std::vector<Loss> losses = common_losses(mesh, "cgns");
     const TemporaryFile file;
     if (!file.ok())
