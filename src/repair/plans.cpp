@@ -12,6 +12,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "repair/soup_edges.h"
+#include "repair/surviving_regions.h"
 #include "topology/lengths.h"
 #include "validators/closing_tolerance.h"
 
@@ -44,15 +45,17 @@ void add(std::vector<SurfacePlan>& plans, SurfacePlan plan) {
     if (!plan.steps.empty() && !known) plans.push_back(std::move(plan));
 }
 
-/// What is left: errors, and one more where the model should be closed and is not; then borders that nearly meet a surface.
+/// What is left: errors, and one more where the model should be closed and is not; then regions no thicker than the tolerance, which
+/// are room between surfaces that should be one; then borders that nearly meet a surface.
 struct Left {
-    std::uint64_t errors = 0, near_misses = 0;
+    std::uint64_t errors = 0, thin = 0, near_misses = 0;
     auto operator<=>(const Left&) const = default;
-    bool nothing() const { return errors == 0 && near_misses == 0; }
+    bool nothing() const { return errors == 0 && thin == 0 && near_misses == 0; }
 };
 
 Left left_by(const SurfaceRepair& repair) {
-    Left left{repair.should_close && !repair.closed ? 1u : 0u, repair.near_misses};
+    Left left{repair.should_close && !repair.closed ? 1u : 0u, thin_regions(*repair.result.brep, repair.lengths.tolerance),
+              repair.near_misses};
     for (const auto& [code, count] : repair.errors) left.errors += count;
     return left;
 }
@@ -60,6 +63,16 @@ Left left_by(const SurfaceRepair& repair) {
 /// Whether each surface parts regions, or a region from the outside.
 bool is_sealed(const BrepData& brep) {
     return std::ranges::none_of(brep.surfaces, [](const auto& s) { return s.regions[0] == s.regions[1]; });
+}
+
+/// The same steps and a weld before the cut; none where there is no cut, or it is there.
+std::optional<SurfacePlan> welded_before_cut(const SurfacePlan& plan) {
+    if (!has(plan.steps, "cut") || has(plan.steps, "weld")) return std::nullopt;
+    SurfacePlan longer = plan;
+    longer.steps = in_order(plan.steps, weld);
+    longer.why +=
+        std::string(longer.why.empty() ? "" : "; ") + "welded before the cut, since surfaces lie within the tolerance of each other";
+    return longer;
 }
 
 /// The same steps and a weld after the cut; none where there is no cut, or it is there.
@@ -264,6 +277,13 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         if (!is_better(*repaired)) continue;
         best = PlannedRepair{std::move(*repaired), plan, {}, {}};
         if (left_by(best->repair).nothing()) break;
+    }
+    if (left_by(best->repair).thin > 0) {
+        if (const auto longer = welded_before_cut(best->plan)) {
+            auto repaired = attempt(*longer);
+            if (!repaired) return std::move(repaired).why();
+            if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}, {}};
+        }
     }
     if (const auto longer = welded_at_the_end(best->plan, best->repair.errors)) {
         auto repaired = attempt(*longer);

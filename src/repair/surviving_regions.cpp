@@ -112,4 +112,15 @@ std::string lost_region(const BrepData& before, const BrepData& after, double th
     return {};
 }
 
+std::uint64_t thin_regions(const BrepData& brep, double thin) {
+    std::uint64_t count = 0;
+    for (const auto& region : brep.regions) {
+        if (!region.volume_known || !(region.volume > 0)) continue;
+        double area = 0;
+        largest_facets(brep, region, area);
+        count += 2 * region.volume <= thin * area ? 1 : 0;
+    }
+    return count;
+}
+
 }  // namespace geomend::repair

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -13,5 +14,8 @@ namespace geomend::repair {
 /// `may_go` lets go: it is asked with a point inside of them.
 /// \return which one is lost and where it went, in words; empty: all are there. Cost: n log n, logarithmic for each region.
 std::string lost_region(const BrepData& before, const BrepData& after, double thin, const std::function<bool(const Vec3&)>& may_go);
+
+/// How many regions are no thicker than `thin`. Cost: linear in the triangles around regions.
+std::uint64_t thin_regions(const BrepData& brep, double thin);
 
 }  // namespace geomend::repair
