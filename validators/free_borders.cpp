@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/disjoint_sets.h"
+#include "base/place_words.h"
 #include "base/wording.h"
 #include "geometry/vectors.h"
 
@@ -92,9 +93,8 @@ std::string border_text(const ModelScope& scope, std::span<const FreeBorder> bor
     if (borders.empty()) return {};
     const FreeBorder& first = borders.front();
     const bool is_depth = scope.brep().crs.z_positive == ZPositive::depth;
-    std::string text = counted(first.edges, "edge", "edges") + ", " + rounded(first.length) + " long, around (" +
-                       short_number(first.middle[0]) + ", " + short_number(first.middle[1]) + ", " +
-                       short_number(is_depth ? 0.0 - first.middle[2] : first.middle[2]) + ")";
+    std::string text = counted(first.edges, "edge", "edges") + ", " + rounded(first.length) + " long, around " +
+                       place_words({first.middle[0], first.middle[1], is_depth ? 0.0 - first.middle[2] : first.middle[2]});
     if (borders.size() > 1) text += ", and " + counted(borders.size() - 1, "more", "more");
     return text;
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "base/place_words.h"
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "grid/cell_geometry.h"
@@ -207,7 +208,7 @@ std::string words_of_first(const CornerPointGrid& host, const CornerPointGrid& l
     } else {
         text += cell_text(host, static_cast<std::size_t>(box.cells[cell]));
     }
-    text += ", but its centre, " + short_number(middle[0]) + " " + short_number(middle[1]) + " at depth " + short_number(middle[2]);
+    text += ", but its centre, " + coordinate(middle[0]) + " " + coordinate(middle[1]) + " at depth " + coordinate(middle[2]);
     const auto holder = holder_of(host, middle, single);
     return text + (holder ? ", lies in " + cell_text(host, *holder) : ", lies in no active cell of the host");
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/codes.h"
-#include "base/number_text.h"
+#include "base/place_words.h"
 #include "geometry/cell_volume.h"
 #include "validators/cell_findings.h"
 
@@ -44,9 +44,7 @@ const std::vector<Vec3>& points_of(const Object& object) {
 double stated_height(const Object& object, double z) { return info_of(object).crs.z_positive == ZPositive::depth ? 0.0 - z : z; }
 
 /// "(x, y, z)" in the file's own sense.
-std::string stated_position(const Object& object, const Vec3& p) {
-    return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(stated_height(object, p[2])) + ")";
-}
+std::string stated_position(const Object& object, const Vec3& p) { return place_words({p[0], p[1], stated_height(object, p[2])}); }
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/place_words.h"
 #include "base/wording.h"
 
 namespace geomend::gridding {
@@ -20,13 +21,13 @@ Finding repeated(const Horizon& horizon, const Net& net, const SplitPillars& spl
     }
     const std::uint32_t first = depths.repeated.front();
     const Point at = net.at(split.pillar_of[first], depths.depths[first]);
-    Finding f = make_finding("F027",
-                             "horizon " + quoted(horizon.name) + " is met more than once by " +
-                                 counted(depths.repeated.size(), "pillar", "pillars") + ", first at x " + short_number(at[0]) + ", y " +
-                                 short_number(at[1]) + ", depth " + short_number(depths.depths[first]) + "; they lie within x " +
-                                 short_number(low[0]) + " .. " + short_number(high[0]) + ", y " + short_number(low[1]) + " .. " +
-                                 short_number(high[1]),
-                             {}, depths.repeated.size());
+    Finding f =
+        make_finding("F027",
+                     "horizon " + quoted(horizon.name) + " is met more than once by " +
+                         counted(depths.repeated.size(), "pillar", "pillars") + ", first at x " + coordinate(at[0]) + ", y " +
+                         coordinate(at[1]) + ", depth " + coordinate(depths.depths[first]) + "; they lie within x " + coordinate(low[0]) +
+                         " .. " + coordinate(high[0]) + ", y " + coordinate(low[1]) + " .. " + coordinate(high[1]),
+                     {}, depths.repeated.size());
     f.entities.push_back({"horizon", horizon.name});
     return f;
 }

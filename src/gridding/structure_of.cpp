@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/place_words.h"
 #include "base/wording.h"
 #include "geometry/vectors.h"
 #include "gridding/fault_lines.h"
@@ -286,8 +287,8 @@ Result<void> add_fault_sheets(const std::vector<Candidate>& all, const std::vect
                                                  " degrees on average, less than " + rounded(options.least_dip));
             if (!fault.trace.empty()) {
                 const Point p = point_at(fault.trace, length(fault.trace) / 2);
-                f.message += ", around x " + short_number(p[0]) + ", y " + short_number(p[1]) + ", over " +
-                             short_number(length(fault.trace)) + " of strike";
+                f.message += ", around x " + coordinate(p[0]) + ", y " + coordinate(p[1]) + ", over " + short_number(length(fault.trace)) +
+                             " of strike";
             }
             f.entities.push_back({"fault", fault.name});
             why.also.push_back(std::move(f));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/output.h"
+#include "base/place_words.h"
 #include "base/wording.h"
 #include "formats/option_row.h"
 #include "formats/options.h"
@@ -207,8 +208,8 @@ Failure without_active_cells(const gridding::GridReport& made, const GridRequest
             box = {std::min(box[0], grid.pillars[p]), std::max(box[1], grid.pillars[p]), std::min(box[2], grid.pillars[p + 1]),
                    std::max(box[3], grid.pillars[p + 1])};
         }
-        why += "horizon " + geomend::quoted(without->name) + " has no value where the grid lies, from x " + short_number(box[0]) + " to " +
-               short_number(box[1]) + ", y " + short_number(box[2]) + " to " + short_number(box[3]);
+        why += "horizon " + geomend::quoted(without->name) + " has no value where the grid lies, from x " + coordinate(box[0]) + " to " +
+               coordinate(box[1]) + ", y " + coordinate(box[2]) + " to " + coordinate(box[3]);
     } else if (std::ranges::any_of(made.zones, [](const auto& zone) { return zone.without_thickness == 0; })) {
         why +=
             request.area.empty() ? "no column has a value of all horizons" : "no column lies in the area " + geomend::quoted(request.area);

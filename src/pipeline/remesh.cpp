@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/nearest_word.h"
+#include "base/place_words.h"
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "exchange/model_from_brep.h"
@@ -248,9 +249,8 @@ std::string changed_volumes(const RemeshReport& report) {
         for (const RegionVolume& r : model.regions) {
             if (!r.differs()) continue;
             const Vec3& m = r.middle;
-            text += "region " + geomend::quoted(r.name) + " around (" + short_number(m[0]) + ", " + short_number(m[1]) + ", " +
-                    short_number(m[2]) + ") had the volume " + short_number(r.before) + " and has " + short_number(r.after) +
-                    " with its new triangles: a smaller --max-distance keeps it nearer\n";
+            text += "region " + geomend::quoted(r.name) + " around " + place_words(m) + " had the volume " + short_number(r.before) +
+                    " and has " + short_number(r.after) + " with its new triangles: a smaller --max-distance keeps it nearer\n";
         }
     }
     return text;

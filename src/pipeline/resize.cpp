@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/bounds.h"
+#include "base/place_words.h"
 #include "base/wording.h"
 #include "pipeline/stressed_cells.h"
 #include "volume/stress_error.h"
@@ -36,7 +37,7 @@ Bounds common_box(const Bounds& a, const Bounds& b) {
 std::string box_text(const Bounds& box) {
     std::string text;
     for (std::size_t k = 0; k < 3; ++k) {
-        text += std::string(k == 0 ? "" : ", ") + "xyz"[k] + " " + short_number(box.low[k]) + " to " + short_number(box.high[k]);
+        text += std::string(k == 0 ? "" : ", ") + "xyz"[k] + " " + coordinate(box.low[k]) + " to " + coordinate(box.high[k]);
     }
     return text;
 }

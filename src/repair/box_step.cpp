@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/place_words.h"
 #include "base/vectors.h"
-#include "base/wording.h"
 #include "repair/surface_steps.h"
 
 namespace geomend::repair {
@@ -102,8 +102,8 @@ Result<void> meets_surfaces(const SurfaceModel& model, const Bounds& box) {
         if (box[0][k] <= all[1][k] && all[0][k] <= box[1][k]) continue;
         const std::string axis(1, "xyz"[k]);
         return failure(FailureKind::usage, "F018", {},
-                       "the box lies beside the surfaces: " + axis + " from " + rounded(box[0][k]) + " to " + rounded(box[1][k]) +
-                           ", and theirs from " + rounded(all[0][k]) + " to " + rounded(all[1][k]));
+                       "the box lies beside the surfaces: " + axis + " from " + coordinate(box[0][k]) + " to " + coordinate(box[1][k]) +
+                           ", and theirs from " + coordinate(all[0][k]) + " to " + coordinate(all[1][k]));
     }
     return {};
 }
@@ -163,15 +163,16 @@ Result<StepOutcome> add_box(SurfaceModel& model, const SurfaceStepOptions& optio
         if (box[0][k] < box[1][k]) continue;
         return failure(
             FailureKind::usage, "F018", {},
-            "the box has no extent along " + std::string(1, "xyz"[k]) + ": from " + rounded(box[0][k]) + " to " + rounded(box[1][k]));
+            "the box has no extent along " + std::string(1, "xyz"[k]) + ": from " + coordinate(box[0][k]) + " to " + coordinate(box[1][k]));
     }
     if (auto fits = meets_surfaces(model, box); !fits) return std::move(fits).why();
     const auto patches = static_cast<std::uint32_t>(model.model.patches.size());
     add_sides(model, box);
     measure_lengths(model, patches);
     outcome.changed = 6;
-    outcome.what.message = "six sides were added: x " + rounded(box[0][0]) + " .. " + rounded(box[1][0]) + ", y " + rounded(box[0][1]) +
-                           " .. " + rounded(box[1][1]) + ", z " + rounded(box[0][2]) + " .. " + rounded(box[1][2]);
+    outcome.what.message = "six sides were added: x " + coordinate(box[0][0]) + " .. " + coordinate(box[1][0]) + ", y " +
+                           coordinate(box[0][1]) + " .. " + coordinate(box[1][1]) + ", z " + coordinate(box[0][2]) + " .. " +
+                           coordinate(box[1][2]);
     return outcome;
 }
 

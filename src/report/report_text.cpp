@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "base/codes.h"
+#include "base/place_words.h"
 #include "base/wording.h"
 #include "report/advice.h"
 #include "report/elements.h"
@@ -233,8 +234,7 @@ std::string place_text(const ReportedFile& file, const Finding& f) {
     if (first == nullptr) return {};
     const std::size_t places = f.points.empty() ? f.polylines.size() : f.points.size();
     const double height = file.depths ? 0.0 - (*first)[2] : (*first)[2];
-    return "(" + short_number((*first)[0]) + ", " + short_number((*first)[1]) + ", " + short_number(height) + ")" +
-           (places > 1 ? ", the first of " + std::to_string(places) : std::string());
+    return place_words({(*first)[0], (*first)[1], height}) + (places > 1 ? ", the first of " + std::to_string(places) : std::string());
 }
 
 std::string finding_text(const ReportedFile& file, const Finding& finding) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/disjoint_sets.h"
+#include "base/place_words.h"
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "geometry/predicates.h"
@@ -18,8 +19,6 @@ namespace geomend::volumes {
 namespace {
 
 Failure not_filled(const std::string& why) { return failure(FailureKind::limit, "F026", {}, why); }
-
-std::string place(const Vec3& p) { return "(" + short_number(p[0]) + ", " + short_number(p[1]) + ", " + short_number(p[2]) + ")"; }
 
 Triangle sorted(Triangle t) {
     std::ranges::sort(t);
@@ -66,12 +65,12 @@ private:
         const std::size_t known = facets_.positions.size();
         return v < known ? facets_.positions[v] : all_.new_vertices[v - known];
     }
-    std::string place_of_facet(std::uint32_t f) const { return place(facets_.positions[facets_.triangles[f][0]]); }
+    std::string place_of_facet(std::uint32_t f) const { return place_words(facets_.positions[facets_.triangles[f][0]]); }
 
     Result<void> turn_cells() {
         for (auto& c : all_.cells) {
             const int sign = orientation(position(c[0]), position(c[1]), position(c[2]), position(c[3]));
-            if (sign == 0) return not_filled("a cell has no volume, at " + place(position(c[0])));
+            if (sign == 0) return not_filled("a cell has no volume, at " + place_words(position(c[0])));
             if (sign < 0) std::swap(c[2], c[3]);
         }
         return {};
@@ -88,7 +87,7 @@ private:
             while (end < faces.size() && faces[end].vertices == faces[i].vertices) ++end;
             const std::span<const CellFace> same(faces.data() + i, end - i);
             i = end;
-            if (same.size() > 2) return not_filled("more than two cells share a face, at " + place(position(same[0].vertices[0])));
+            if (same.size() > 2) return not_filled("more than two cells share a face, at " + place_words(position(same[0].vertices[0])));
             if (facet != facets.end() && facet->first < same[0].vertices) break;  // one that is no face
             if (facet == facets.end() || facet->first != same[0].vertices) {
                 if (same.size() == 2) sets_.join(same[0].cell, same[1].cell);
@@ -125,7 +124,7 @@ private:
             std::uint8_t& known = where[root[cell]];
             const std::uint8_t now = is_inside ? inside : outside;
             if (known != unknown && known != now)
-                return not_filled("cells inside and outside of it hang together, at " + place(position(all_.cells[cell][0])));
+                return not_filled("cells inside and outside of it hang together, at " + place_words(position(all_.cells[cell][0])));
             known = now;
         }
         RegionCells region;
@@ -155,7 +154,7 @@ private:
         std::ranges::sort(edges);
         for (const auto& [a, b] : facets_.edges) {
             if (!std::ranges::binary_search(edges, std::array<std::uint32_t, 2>{std::min(a, b), std::max(a, b)}))
-                return not_filled("a piece of a well is no edge of a cell, at " + place(facets_.positions[a]));
+                return not_filled("a piece of a well is no edge of a cell, at " + place_words(facets_.positions[a]));
         }
         return {};
     }
