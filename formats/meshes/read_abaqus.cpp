@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
 #include <unordered_map>
 
+#include "base/vectors.h"
 #include "formats/drop.h"
 #include "formats/meshes/abaqus_elements.h"
+#include "formats/meshes/abaqus_motion.h"
 #include "formats/meshes/deck_lines.h"
 #include "formats/meshes/mesh_reading.h"
 #include "formats/text_reading.h"
@@ -40,6 +43,14 @@ struct WaitingFace {
     std::uint64_t line;
 };
 
+/// What a PART states, or a copy of it: where its nodes and elements stand among all.
+struct Body {
+    std::string name;      ///< of the part, or of the instance that is it
+    std::size_t part = 0;  ///< in the order of the file, from 1
+    std::uint32_t first_point = 0, end_point = 0, first_cell = 0, end_cell = 0;
+    bool is_placed = false;  ///< an INSTANCE has put it somewhere
+};
+
 class Reader {
 public:
     explicit Reader(const ReadOptions& options) : options_(options) {}
@@ -47,7 +58,9 @@ public:
     Result<Dataset> run(const Input& input) {
         if (auto failed = read(input, 0)) return std::move(*failed);
         if (mesh_.points.empty()) return unreadable("F017", {input.name()}, "there are no nodes: expected *NODE with a line for each");
+        end_part();
         if (auto failed = add_surfaces(input)) return std::move(*failed);
+        name_bodies(input);
         name_both_sides();
         if (faces_again_ > 0)
             list_dropped(data_.losses, {LossClass::style, "", "faces of *SURFACE from their other side, or again",
@@ -69,6 +82,11 @@ private:
     Dataset data_;
     std::size_t part_ = 0, parts_ = 0;  // ids count anew in each PART; part 0 is what stands outside
     std::vector<std::unordered_map<std::int64_t, std::uint32_t>> nodes_ = {{}}, elements_ = {{}};
+    std::vector<Body> bodies_;               // parts and copies of them, as they come
+    std::vector<std::size_t> body_of_part_;  // by part
+    std::map<std::string, std::size_t> part_called_;
+    std::vector<std::vector<Vec3>> stated_;  // by part: its points before an instance moved them
+    std::uint64_t copied_ = 0;
     std::map<std::string, Members> node_sets_, element_sets_;             // by name in upper case: either case is the same
     std::map<std::pair<std::size_t, std::string>, std::int64_t> tag_of_;  // of entities, by part and name
     std::set<std::string> is_entity_;
@@ -122,33 +140,160 @@ private:
         if (keyword.word == "NSET" || keyword.word == "ELSET") return each_line([&] { return set_line(input, keyword, lines); });
         if (keyword.word == "SURFACE" && (!keyword.has("TYPE") || upper_case(keyword.value("TYPE")) == "ELEMENT"))
             return each_line([&] { return surface_line(keyword, lines); });
-        if (keyword.word == "PART") begin_part();
-        if (keyword.word == "END PART") part_ = 0;
-        std::uint64_t count = 0;
-        auto failed = each_line([&] {
-            ++count;
-            return std::optional<Failure>();
-        });
-        if (failed) return failed;
-        leave_out(input, keyword, count);
+        if (keyword.word == "INSTANCE") return instance(input, keyword, lines, kind);
+        if (keyword.word == "PART") begin_part(keyword);
+        if (keyword.word == "END PART") end_part();
+        if (auto failed = each_line([] { return std::optional<Failure>(); })) return failed;
+        leave_out(keyword);
         return std::nullopt;
     }
 
-    void begin_part() {
+    std::uint32_t point_count() const { return static_cast<std::uint32_t>(mesh_.points.size()); }
+    std::uint32_t cell_count() const { return static_cast<std::uint32_t>(mesh_.types.size()); }
+
+    void begin_part(const DeckKeyword& keyword) {
+        end_part();
         part_ = ++parts_;
         nodes_.resize(parts_ + 1);
         elements_.resize(parts_ + 1);
+        stated_.resize(parts_ + 1);
+        body_of_part_.resize(parts_ + 1, bodies_.size());
+        part_called_.try_emplace(upper_case(keyword.value("NAME")), parts_);
+        bodies_.push_back({std::string(keyword.value("NAME")), part_, point_count(), point_count(), cell_count(), cell_count(), false});
+    }
+
+    void end_part() {
+        if (part_ == 0) return;
+        bodies_.back().end_point = point_count();
+        bodies_.back().end_cell = cell_count();
+        part_ = 0;
+    }
+
+    /// INSTANCE: a line with a shift, a line with two points of an axis and an angle; both may be missing.
+    std::optional<Failure> instance(const Input& input, const DeckKeyword& keyword, DeckLines& lines, DeckLines::Kind& kind) {
+        end_part();
+        AbaqusMotion motion;
+        std::array<double, 7> turn{};
+        const Location where{input.name(), keyword.line};
+        for (int line = 0; (kind = lines.next()) == DeckLines::Kind::data; ++line) {
+            if (line == 0) {
+                if (auto failed = numbers_of_line(input, lines, motion.shift)) return failed;
+            } else if (line == 1) {
+                if (auto failed = numbers_of_line(input, lines, turn)) return failed;
+                motion.on_axis = {turn[0], turn[1], turn[2]};
+                motion.axis = {turn[3] - turn[0], turn[4] - turn[1], turn[5] - turn[2]};
+                motion.degrees = turn[6];
+                const double square = dot(motion.axis, motion.axis);
+                if (motion.degrees != 0 && (!(square > 0) || !std::isfinite(square)))
+                    return unreadable("F012", {input.name(), lines.line()}, "expected two points of the axis of a rotation, found no line");
+            } else {
+                return unreadable("F012", {input.name(), lines.line()},
+                                  "expected two lines behind *INSTANCE at most, a translation and a rotation, found a third");
+            }
+        }
+        const std::string part = upper_case(keyword.value("PART")), name(keyword.value("NAME"));
+        const auto at = part_called_.find(part);
+        if (at == part_called_.end()) {
+            drop(data_.findings, data_.losses,
+                 {.what = "an instance of the part '" + std::string(keyword.value("PART")) + "'",
+                  .why = "that part is not stated before",
+                  .where = where});
+            return std::nullopt;
+        }
+        Body& body = bodies_[body_of_part_[at->second]];
+        if (body.is_placed) return copy(where, body, name, motion);
+        stated_[body.part].assign(mesh_.points.begin() + body.first_point, mesh_.points.begin() + body.end_point);
+        body.name = name;
+        body.is_placed = true;
+        return move(where, body, motion);
+    }
+
+    std::optional<Failure> numbers_of_line(const Input& input, const DeckLines& lines, std::span<double> values) const {
+        for (std::size_t k = 0; k < values.size() && k < lines.fields().size(); ++k) {
+            const std::string_view text = lines.fields()[k];
+            if (text.empty()) continue;  // 0, as the program has it
+            const NumberStatus status = parse_real(text, values[k]);
+            if (status == NumberStatus::ok && std::isfinite(values[k])) continue;
+            return unreadable(status == NumberStatus::malformed ? "F005" : "F006", location_of(input, lines.cursor(), text),
+                              "expected a number, found " + shown(text));
+        }
+        return std::nullopt;
+    }
+
+    std::optional<Failure> move(const Location& where, const Body& body, const AbaqusMotion& motion) {
+        for (std::uint32_t p = body.first_point; p < body.end_point; ++p) {
+            mesh_.points[p] = motion.moved(stated_[body.part][p - body.first_point]);
+            if (!std::ranges::all_of(mesh_.points[p], [](double x) { return std::isfinite(x); }))
+                return unreadable("F006", where, "the instance lies beyond what numbers can say");
+        }
+        return std::nullopt;
+    }
+
+    /// A further instance of a part: its nodes and elements once more; its sets hold those of all instances.
+    std::optional<Failure> copy(const Location& where, const Body& from, const std::string& name, const AbaqusMotion& motion) {
+        constexpr std::uint64_t most_copied = std::uint64_t{1} << 25;
+        std::uint64_t members = 0;
+        for (const auto* sets : {&node_sets_, &element_sets_})
+            for (const auto& [set, list] : *sets) members += list.size();
+        copied_ += members + (from.end_point - from.first_point) + (from.end_cell - from.first_cell);
+        if (copied_ > most_copied) return unreadable("F014", where, "instances of parts have more nodes and elements than can be taken");
+        Body to{name, from.part, point_count(), 0, cell_count(), 0, true};
+        to.end_point = to.first_point + from.end_point - from.first_point;
+        to.end_cell = to.first_cell + from.end_cell - from.first_cell;
+        mesh_.points.resize(to.end_point);
+        std::map<std::uint32_t, std::uint32_t> entities;  // those of the copy by those of the part
+        const std::size_t key = std::numeric_limits<std::size_t>::max() - bodies_.size();
+        for (std::uint32_t cell = from.first_cell; cell < from.end_cell; ++cell) {
+            Members nodes(mesh_.cell_nodes(cell).begin(), mesh_.cell_nodes(cell).end());
+            for (std::uint32_t& node : nodes) node += to.first_point - from.first_point;
+            const auto [entity, is_new] = entities.try_emplace(mesh_.cell_entity[cell], 0);
+            if (is_new) {
+                const int dimension = mesh_.entities[entity->first].dimension;
+                const std::string set = mesh_.entities[entity->first].name;
+                const auto tag = tag_of_.try_emplace({key, upper_case(set)}, static_cast<std::int64_t>(tag_of_.size()) + 1).first;
+                entity->second = grown_.entity(dimension, tag->second, set);
+            }
+            grown_.add(mesh_.types[cell], nodes, entity->second);
+        }
+        const auto add = [](Members& list, std::uint32_t first, std::uint32_t end, std::uint32_t shift) {
+            for (std::size_t n = 0, count = list.size(); n < count; ++n)
+                if (list[n] >= first && list[n] < end) list.push_back(list[n] + shift);
+        };
+        for (auto& [set, list] : node_sets_) add(list, from.first_point, from.end_point, to.first_point - from.first_point);
+        for (auto& [set, list] : element_sets_) add(list, from.first_cell, from.end_cell, to.first_cell - from.first_cell);
+        bodies_.push_back(to);  // `from` is gone
+        return move(where, to, motion);
+    }
+
+    /// Elements without a set are called after their instance, those of a part with several instances after both.
+    void name_bodies(const Input& input) {
+        const bool is_assembly = std::ranges::any_of(bodies_, &Body::is_placed), has_loose = tag_of_.contains({0, ""});
+        for (const Body& body : bodies_) {
+            if (is_assembly && !body.is_placed && body.end_point > body.first_point)
+                drop(data_.findings, data_.losses,
+                     {.loss_class = LossClass::identity,
+                      .entity = body.name,
+                      .what = "that a part has no instance",
+                      .why = "it is read where its nodes are stated",
+                      .where = {input.name()},
+                      .message = "part '" + body.name + "' has no *INSTANCE: it is read where its nodes are stated"});
+            const auto shared = std::ranges::count(bodies_, body.part, &Body::part);
+            std::set<std::uint32_t> entities(mesh_.cell_entity.begin() + body.first_cell, mesh_.cell_entity.begin() + body.end_cell);
+            for (const std::uint32_t e : entities) {
+                CellMesh::Entity& entity = mesh_.entities[e];
+                if (entity.name.empty() && (bodies_.size() > 1 || has_loose)) entity.name = body.name;
+                else if (entity.name.empty()) entity.tag = 0;
+                else if (shared > 1) entity.name = body.name + "." + entity.name;
+            }
+        }
     }
 
     /// Lists a keyword that says no mesh.
-    void leave_out(const Input& input, const DeckKeyword& keyword, std::uint64_t data_lines) {
-        static const std::set<std::string_view> silent{"INCLUDE", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "HEADING"};
-        if (silent.contains(keyword.word) || (keyword.word == "INSTANCE" && data_lines == 0) || keyword.word == "END INSTANCE") return;
-        const Location where{input.name(), keyword.line};
-        if (keyword.word == "INSTANCE")
-            drop(data_.findings, data_.losses,
-                 {.what = "where *INSTANCE moves a part", .why = "parts are read where their nodes are stated", .where = where});
-        else list_dropped(data_.losses, {LossClass::substance, "", "*" + keyword.word, "it says no mesh", 1});
+    void leave_out(const DeckKeyword& keyword) {
+        static const std::set<std::string_view> silent{"INCLUDE",      "PART",         "END PART", "ASSEMBLY",
+                                                       "END ASSEMBLY", "END INSTANCE", "HEADING"};
+        if (silent.contains(keyword.word)) return;
+        list_dropped(data_.losses, {LossClass::substance, "", "*" + keyword.word, "it says no mesh", 1});
     }
 
     std::optional<Failure> whole(const Input& input, const DeckLines& lines, std::size_t field, const char* what,
@@ -252,8 +397,9 @@ private:
 
     std::uint32_t entity_of(int dimension, const std::string& name) {
         if (!name.empty()) is_entity_.insert(upper_case(name));
+        const bool is_loose = name.empty() && part_ == 0;
         const auto [at, is_new] =
-            tag_of_.try_emplace({part_, upper_case(name)}, name.empty() ? 0 : static_cast<std::int64_t>(tag_of_.size()) + 1);
+            tag_of_.try_emplace({part_, upper_case(name)}, is_loose ? 0 : static_cast<std::int64_t>(tag_of_.size()) + 1);
         return grown_.entity(dimension, at->second, name);
     }
 
@@ -275,17 +421,28 @@ private:
             return std::nullopt;
         }
         Members& members = sets[upper_case(name)];
+        const Body* body = nullptr;
         if (keyword.has("INSTANCE")) {
-            list_dropped(data_.losses, {LossClass::substance, std::string(keyword.value("NSET")) + std::string(keyword.value("ELSET")),
-                                        "set of an instance", "sets are read within their part"});
-            return std::nullopt;
+            const std::string wanted = upper_case(keyword.value("INSTANCE"));
+            const auto at = std::ranges::find_if(bodies_, [&](const Body& b) { return b.is_placed && upper_case(b.name) == wanted; });
+            if (at == bodies_.end()) {
+                list_dropped(data_.losses, {LossClass::substance, std::string(name), "set of an instance", "the instance is not stated"});
+                return std::nullopt;
+            }
+            body = &*at;
         }
-        const auto& known = of_nodes ? nodes_[part_] : elements_[part_];
+        const std::size_t part = body != nullptr ? body->part : part_;
+        const auto& known = of_nodes ? nodes_[part] : elements_[part];
+        std::uint32_t shift = 0;  // from the first instance of the part to this one
+        if (body != nullptr) {
+            const Body& first = bodies_[body_of_part_[body->part]];
+            shift = of_nodes ? body->first_point - first.first_point : body->first_cell - first.first_cell;
+        }
         std::uint64_t missing = 0;
         const auto add = [&](std::int64_t id) {
             const auto at = known.find(id);
             if (at == known.end()) ++missing;
-            else members.push_back(at->second);
+            else members.push_back(at->second + shift);
         };
         if (keyword.has("GENERATE")) {
             std::int64_t first = 0, last = 0, step = 1;

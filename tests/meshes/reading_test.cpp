@@ -246,8 +246,56 @@ TEST(Abaqus, PartsCountTheirNodesAnew) {
     const CellMesh& mesh = mesh_in(data);
     ASSERT_EQ(mesh.cell_count(), 2u);
     EXPECT_EQ(nodes(mesh, 1), (std::vector<std::uint32_t>{4, 5, 6, 7}));
-    ASSERT_EQ(data.findings.size(), 1u) << "where the instance lies";
-    EXPECT_EQ(data.findings[0].where.line, 20u);
+    EXPECT_EQ(mesh.points[4], (Vec3{5, 0, 10}));
+    ASSERT_EQ(data.findings.size(), 1u) << "A has no instance";
+    EXPECT_EQ(data.findings[0].code, "F150");
+}
+
+TEST(Abaqus, PartsStandWhereTheirInstancesPutThemAndAsOftenAsThoseAre) {
+    const std::string parts =
+        "*Part, "
+        "name=Box\n*Node\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*Element,type=C3D4\n1,1,2,3,4\n*Nset,nset=tip\n4\n*Elset,elset=all\n1\n"
+        "*End Part\n*Part, name=Bolt\n*Node\n1,0,0,0\n2,2,0,0\n3,0,2,0\n4,0,0,2\n*Element,type=C3D4,elset=steel\n7,1,2,3,4\n*End Part\n";
+    const Dataset data = read_text("abaqus", parts +
+                                                 "*Assembly, name=A\n*Instance, name=Box-1, part=box\n*End Instance\n"
+                                                 "*Instance, name=Bolt-1, part=Bolt\n 10, 0, 0\n*End Instance\n"
+                                                 "*Instance, name=Bolt-2, part=Bolt\n 10, 0, 5\n 10, 0, 5, 10, 0, 9, 90\n*End Instance\n"
+                                                 "*Instance, name=Box-2, part=Box\n , , 0\n 0, 0, 0, 1, 1, 1, 240.\n*End Instance\n"
+                                                 "*Nset, nset=heads, instance=Bolt-2\n 2, 4\n*Elset, elset=top, instance=Bolt-2\n 7\n"
+                                                 "*Surface, name=side\n top, S1\n*End Assembly\n");
+    const CellMesh& mesh = mesh_in(data);
+    EXPECT_TRUE(data.findings.empty()) << data.findings[0].message;
+    ASSERT_EQ(mesh.cell_count(), 5u) << "four cells and a face";
+    ASSERT_EQ(mesh.points.size(), 16u);
+    EXPECT_EQ(mesh.points[5], (Vec3{12, 0, 0}));
+    EXPECT_EQ(mesh.points[9], (Vec3{10, 2, 5})) << "x was turned to y";
+    EXPECT_EQ(mesh.points[10], (Vec3{8, 0, 5}));
+    for (std::size_t k = 0; k < 3; ++k)  // by 240 degrees around (1,1,1) x goes to z, y to x and z to y
+        for (std::size_t node = 0; node < 3; ++node) EXPECT_NEAR(mesh.points[13 + node][k], k == (node + 2) % 3 ? 1 : 0, 1e-15) << node;
+    const std::vector<std::string> names{"Box-1", "Bolt-1.steel", "Bolt-2.steel", "Box-2"};
+    for (std::uint32_t cell = 0; cell < 4; ++cell) EXPECT_EQ(entity_of(mesh, cell).name, names[cell]);
+    EXPECT_EQ(entity_of(mesh, 4).name, "side");
+    const auto set = [&](std::string_view name) {
+        const auto at = std::ranges::find(mesh.info.sets, name, &NamedSet::name);
+        return at == mesh.info.sets.end() ? std::vector<std::uint32_t>{} : at->members;
+    };
+    EXPECT_EQ(set("HEADS"), (std::vector<std::uint32_t>{9, 11}));
+    EXPECT_EQ(set("TIP"), (std::vector<std::uint32_t>{3, 15})) << "in both instances of its part";
+    EXPECT_EQ(set("ALL"), (std::vector<std::uint32_t>{0, 3}));
+}
+
+TEST(Abaqus, InstancesThatCannotBePlacedAreToldOrRefused) {
+    const std::string part = "*Part, name=P\n*Node\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*Element,type=C3D4\n1,1,2,3,4\n*End Part\n";
+    const Dataset lost =
+        read_text("abaqus", part + "*Instance, name=Q-1, part=Q\n*End Instance\n*Instance, name=P-1, part=P\n*End Instance\n");
+    ASSERT_EQ(lost.findings.size(), 1u);
+    EXPECT_EQ(lost.findings[0].where.line, 10u);
+    EXPECT_TRUE(mesh_in(lost).entities.empty()) << "a single part needs no region";
+    for (const char* lines : {"1, x, 0\n", "0,0,0\n1,1,1, 1,1,1, 90\n", "0,0,0\n0,0,0,0,0,1,90\n1\n", "1e999,0,0\n"})
+        EXPECT_NE(failure_of("abaqus", part + "*Instance, name=P-1, part=P\n" + lines + "*End Instance\n"), "") << lines;
+    std::string many = part;
+    for (int n = 0; n < 3; ++n) many += "*Part, name=E\n*End Part\n*Instance, name=I, part=P\n*End Instance\n";
+    EXPECT_EQ(mesh_in(read_text("abaqus", many)).cell_count(), 3u);
 }
 
 TEST(Abaqus, SurfacesOfBothSidesAreOneAndAreCutWhereRegionsChange) {
