@@ -31,6 +31,7 @@ public:
         constexpr std::uint64_t often = 16384;
         while (cursor_.next_line()) {
             if (cursor_.line() % often == 0 && options_.monitor != nullptr && options_.monitor->stopped()) return stopped(input_);
+            goes_on_ = false;
             if (auto failed = record(cursor_.token())) return std::move(*failed);
         }
         for (Part& part : parts_) finish(part);
@@ -57,35 +58,61 @@ private:
     std::map<std::string, std::size_t> part_of_;
     std::string name_;
     std::map<std::string, std::uint64_t> style_;
+    bool goes_on_ = false;  // the word at hand ends with the '\\' that joins the next line to this one
 
-    std::optional<Failure> record(std::string_view word) {
-        if (word.empty() || word.starts_with('#')) return std::nullopt;
-        if (word == "v") return position();
-        if (word == "f") return face();
-        if (word == "l") return line();
-        if (word == "p") return points();
-        if (word == "o" || word == "g") {
+    /// The next word of a record, which a '\\' at the end of a line carries on to the next one; empty at its end.
+    std::string_view word() {
+        while (true) {
+            if (goes_on_ && !cursor_.next_line()) return {};
+            goes_on_ = false;
+            std::string_view token = cursor_.token();
+            if (!token.ends_with('\\') || !cursor_.at_line_end()) return token;
+            token.remove_suffix(1);
+            goes_on_ = true;
+            if (!token.empty()) return token;
+        }
+    }
+    void skip_record() {
+        while (cursor_.rest().ends_with('\\') && cursor_.next_line()) {
+        }
+    }
+    /// Passes over the rest of a record; false where there was none.
+    bool pass_rest() {
+        bool any = false;
+        while (!word().empty()) any = true;
+        return any;
+    }
+
+    std::optional<Failure> record(std::string_view name) {
+        if (name.empty() || name.starts_with('#')) return std::nullopt;
+        if (name == "v") return position();
+        if (name == "f") return face();
+        if (name == "l") return line();
+        if (name == "p") return points();
+        if (name == "o" || name == "g") {
             name_ = cursor_.rest();
             return std::nullopt;
         }
         constexpr std::array<std::string_view, 7> looks{"vt", "vn", "usemtl", "mtllib", "s", "usemap", "maplib"};
-        if (std::ranges::find(looks, word) != looks.end()) {
-            ++style_[std::string(word)];
+        if (std::ranges::find(looks, name) != looks.end()) {
+            ++style_[std::string(name)];
+            skip_record();
             return std::nullopt;
         }
         drop(data_.findings, data_.losses,
-             {.what = "record '" + std::string(word.substr(0, 40)) + "'",
+             {.what = "record '" + std::string(name.substr(0, 40)) + "'",
               .why = "curves, free-form surfaces and what is no record of OBJ files are not read",
               .where = {input_.name(), cursor_.line()}});
+        skip_record();
         return std::nullopt;
     }
 
     std::optional<Failure> position() {
         Vec3 p{};
         for (double& x : p) {
-            if (auto failed = finite_number(input_, cursor_, cursor_.token(), "a coordinate", x)) return failed;
+            if (auto failed = finite_number(input_, cursor_, word(), "a coordinate", x)) return failed;
         }
-        if (!cursor_.at_line_end()) ++style_["v with colours"];
+        if (pass_rest()) ++style_["v with colours"];
         if (positions_.size() >= no_index) return unreadable("F014", {input_.name(), cursor_.line()}, "expected fewer than 2^32 positions");
         positions_.push_back(p);
         return std::nullopt;
@@ -100,7 +127,8 @@ private:
     /// The positions that the rest of the line names: "7", "7/1/2", or "-1" for the last one so far.
     std::optional<Failure> corners(std::size_t least, std::vector<std::uint32_t>& to) {
         to.clear();
-        for (std::string_view token = cursor_.token(); !token.empty() && !token.starts_with('#'); token = cursor_.token()) {
+        const std::uint64_t first = cursor_.line();
+        for (std::string_view token = word(); !token.empty() && !token.starts_with('#'); token = word()) {
             std::int64_t n = 0;
             if (parse_integer(token.substr(0, token.find('/')), n) != NumberStatus::ok)
                 return unreadable("F005", location_of(input_, cursor_, token), "expected the number of a position, found " + shown(token));
@@ -112,7 +140,7 @@ private:
             to.push_back(static_cast<std::uint32_t>(index));
         }
         if (to.size() >= least) return std::nullopt;
-        return unreadable("F012", {input_.name(), cursor_.line(), 1},
+        return unreadable("F012", {input_.name(), first, 1},
                           "expected at least " + std::to_string(least) + " positions, found " + std::to_string(to.size()));
     }
 

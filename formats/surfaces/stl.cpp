@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "base/wording.h"
 #include "formats/drop.h"
@@ -153,11 +154,16 @@ private:
 
 // ---- binary ----
 
-bool is_binary(std::string_view bytes) {
-    if (bytes.size() < header_size) return false;
+/// Bytes behind the triangles of a binary file; nothing where it is none. Such bytes are less than the triangles have.
+std::optional<std::uint64_t> bytes_behind(std::string_view bytes) {
+    if (bytes.size() < header_size) return std::nullopt;
     std::uint32_t count = 0;
     std::memcpy(&count, bytes.data() + 80, 4);
-    return bytes.size() == header_size + std::uint64_t{facet_size} * count;
+    const std::uint64_t facets = std::uint64_t{facet_size} * count;
+    if (bytes.size() < header_size + facets) return std::nullopt;
+    const std::uint64_t more = bytes.size() - header_size - facets;
+    if (more > 0 && (more >= facets || sniff_stl(bytes.substr(0, 4096), {}) > 0)) return std::nullopt;
+    return more;
 }
 
 Vec3 vector_at(const char* at) {
@@ -166,8 +172,8 @@ Vec3 vector_at(const char* at) {
     return {v[0], v[1], v[2]};
 }
 
-Result<Dataset> read_binary(const Input& input, const ReadOptions& options) {
-    const std::string_view bytes = input.bytes();
+Result<Dataset> read_binary(const Input& input, const ReadOptions& options, std::uint64_t more) {
+    const std::string_view bytes = input.bytes().substr(0, input.bytes().size() - more);
     Solid solid;
     solid.surface.info.name = name_of(input);
     solid.surface.info.precision = CoordinatePrecision::single_precision;
@@ -190,6 +196,12 @@ Result<Dataset> read_binary(const Input& input, const ReadOptions& options) {
     Dataset data;
     if (marked > 0)
         list_dropped(data.losses, {LossClass::style, "", "attribute bytes of triangles", "programs use them for colours", marked});
+    if (more > 0)
+        drop(data.findings, data.losses,
+             {.loss_class = more < facet_size ? LossClass::identity : LossClass::substance,
+              .what = "what stands behind the triangles: " + counted(more, "byte", "bytes"),
+              .why = "the file states " + counted((bytes.size() - header_size) / facet_size, "triangle", "triangles"),
+              .where = {input.name()}});
     solid.finish(data, input);
     return data;
 }
@@ -281,8 +293,9 @@ int sniff_stl(std::string_view head, std::string_view) {
 }
 
 Result<Dataset> read_stl(const Input& input, const ReadOptions& options) {
+    const auto more = bytes_behind(input.bytes());
     auto data = [&]() -> Result<Dataset> {
-        if (is_binary(input.bytes())) return read_binary(input, options);
+        if (more) return read_binary(input, options, *more);
         TextCursor cursor(text_of(input));
         if (cursor.next_line() && same_word(cursor.token(), "solid")) return TextReader(input, options).run();
         return unreadable(
@@ -291,7 +304,7 @@ Result<Dataset> read_stl(const Input& input, const ReadOptions& options) {
     }();
     if (!data) return data;
     data->format = "surface";
-    data->variant = is_binary(input.bytes()) ? "STL, binary" : "STL, text";
+    data->variant = more ? "STL, binary" : "STL, text";
     return data;
 }
 

@@ -68,6 +68,23 @@ TEST(Stl, BinaryFilesAreToldByTheirSize) {
     EXPECT_EQ(refused("stl", binary_stl({{0, 0, 1, none, 0, 0, 1, 0, 0, 0, 1, 0}})), "F006 top.stl");
 }
 
+TEST(Stl, BytesBehindTheTrianglesOfABinaryFileAreTold) {
+    const std::array<float, 12> facet{0, 0, 1, 0, 0, 0, 0.1f, 0, 0, 0, 1, 0};
+    for (const std::size_t more : {2u, 60u}) {
+        const Dataset data = good_surface("stl", binary_stl({facet, facet}) + std::string(more, '\0'));
+        EXPECT_EQ(data.variant, "STL, binary");
+        EXPECT_EQ(surface_at(data, 0).polygons.size(), 2u);
+        ASSERT_EQ(data.losses.size(), 1u);
+        EXPECT_EQ(data.losses[0].loss_class, more < 50 ? LossClass::identity : LossClass::substance) << "room for a triangle";
+        ASSERT_EQ(data.findings.size(), 1u);
+        EXPECT_NE(data.findings[0].message.find(std::to_string(more) + " bytes"), std::string::npos) << data.findings[0].message;
+    }
+    std::string bytes = binary_stl({facet}) + std::string(500, 'x');
+    bytes[0] = 'S';
+    bytes[1] = '\0';
+    EXPECT_EQ(refused("stl", bytes).substr(0, 4), "F008") << "most of it is no triangle";
+}
+
 TEST(Stl, DamageIsToldWithItsPlace) {
     EXPECT_EQ(refused("stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n"), "F005 top.stl:4:12");
     EXPECT_EQ(refused("stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1e999\n"), "F006 top.stl:4:12");
@@ -97,6 +114,21 @@ TEST(Obj, NamesMakeSurfacesAndNumbersMayCountBackwards) {
     EXPECT_EQ(corners, (std::vector<Vec3>{{0, 0, -1}, {0, 0, 0}, {1, 0, 0}}));
     ASSERT_EQ(data.losses.size(), 1u);
     EXPECT_EQ(data.losses[0].loss_class, LossClass::style);
+}
+
+TEST(Obj, ABackslashAtTheEndOfALineCarriesARecordOn) {
+    const Dataset data =
+        good_surface("obj", "v 0 0 \\\n0\nv 1 0 0\\\r\n 1 1 1\nv 1 1 0\nv 0 1 0\nvn 0 \\\n 0 1\nf 1 2 \\\n\\\n3\\\n 4\nl 1 \\\n 2 3\n");
+    ASSERT_EQ(data.objects.size(), 2u);
+    EXPECT_TRUE(data.findings.empty());
+    const Surface& top = surface_at(data, 0);
+    ASSERT_EQ(top.points.size(), 4u);
+    ASSERT_EQ(top.polygons.size(), 1u);
+    EXPECT_EQ(top.polygons[0].size(), 4u);
+    EXPECT_EQ(std::get<PolylineSet>(data.objects[1]).edges.size(), 2u);
+    EXPECT_EQ(refused("obj", "v 0 0 0\nv 1 0 0\nf 1 \\\n 2 3\n"), "F007 top.obj:4:4");
+    EXPECT_EQ(refused("obj", "v 0 0 0\nv 1 0 0\nf 1 \\\n 2 \\\n"), "F012 top.obj:3:1");
+    EXPECT_EQ(refused("obj", "v 0 0 0\nv 1 0 0\nf 1 \\ 2\n"), "F005 top.obj:3:5") << "within a line it means nothing";
 }
 
 TEST(Obj, DamageIsToldWithItsPlace) {
