@@ -70,7 +70,8 @@ void ObjectHead::header_entry(std::string_view entry, std::uint64_t line) {
         scanner_.log.add(
             "F166", line, 1,
             [&] {
-                return "expected 'key:value' in this HEADER, found '" + std::string(entry.substr(0, 60)) + "': it is kept as it stands";
+                return "expected 'key:value' in this HEADER, found '" + std::string(entry.substr(0, 60)) +
+                       "': it is kept as it stands for Gocad files";
             },
             "entry");
     }
@@ -208,7 +209,7 @@ void ObjectHead::take(std::string_view keyword, TextCursor& line) {
     const std::string word(keyword);
     if (!same_word(word, "CLASSIFICATION") && !same_word(word, "PROPERTY_CN")) {
         scanner_.log.add(
-            "F102", line.line(), 1, [&] { return "'" + word + "' is not known here; it is kept as it stands"; }, word);
+            "F102", line.line(), 1, [&] { return "'" + word + "' is not known here; it is kept as it stands for Gocad files"; }, word);
     }
     keep(word, line);
 }

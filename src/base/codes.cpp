@@ -162,6 +162,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F165", warning, "all that a file states is there, but no last line end: its last number may have lost digits"},
     CodeInfo{"F166", warning,
              "the head of an object is malformed: a second HEADER, a line that is no entry, an empty name, a version that is not known"},
+    CodeInfo{"F167", info, "a repaired model encloses no region, and may be open: it is not called valid"},
     // Geology.
     CodeInfo{"G01", warning, "a name is used more than once: for regions, layers, fault blocks or surfaces",
              OtherSeverity{info, "the regions are parts of one group"}},

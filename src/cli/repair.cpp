@@ -187,6 +187,7 @@ ExitStatus run(const RepairOptions& o) {
     look_on(*request, o, debris);
     auto repaired = repair_file(*request);
     if (!repaired) return report(repaired.why());
+    const bool was_sound = repaired->valid_before && repaired->file.steps.empty();
     const bool valid = repaired->edited && count_by_severity(repaired->file.findings).error == 0;
     ExitStatus status = !valid ? ExitStatus::invalid_result : fails(o, repaired->file.findings) ? ExitStatus::findings : ExitStatus::done;
     Report all = empty_report(o);
@@ -205,7 +206,8 @@ ExitStatus run(const RepairOptions& o) {
     if (o.json) return worse(status, print_about(repair_json(all), o.output, repaired->written));
     if (!o.quiet) {
         // The model itself may go to standard output.
-        const std::string text = report_text(all, wants_color(o.output == "-" ? STDERR_FILENO : STDOUT_FILENO));
+        const std::string text = report_text(all, wants_color(o.output == "-" ? STDERR_FILENO : STDOUT_FILENO)) +
+                                 (was_sound ? "  there was nothing to mend\n" : "");
         status = worse(status, print_about(text, o.output, repaired->written));
     }
     if (o.dry_run) std::fputs("geomend: a dry run: nothing was written\n", stderr);

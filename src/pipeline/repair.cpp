@@ -308,7 +308,14 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     auto after = validate_result(path, dataset, request.checks, wanted);
     if (!after) return std::move(after).why();
     if (report.open) keep_unclosed(before->asked, *after);
-    else if (!report.closed && !report.valid_before && after->valid == true) after->valid.reset();
+    else if (!report.closed && !report.valid_before && after->valid == true) {
+        after->valid.reset();
+        after->findings.push_back(
+            make_finding("F167",
+                         "the result is not fully checked: the surfaces enclose no region, so that nothing says whether they are "
+                         "open where they should close; no error is left in what was checked",
+                         {path}));
+    }
     after->steps = std::move(report.file.steps);
     if (!after->closing) after->closing = report.file.closing;
     report.file = std::move(*after);

@@ -36,7 +36,7 @@ WITHOUT_LINE = {
     "F123": "the entities are named", "F132": "about all depths of a grid", "F133": "about a file that is not used", "F141": "what is missing stands nowhere",
     "F143": "about a file that is missing", "F151": "made while converting", "F152": "made while converting",
     "F153": "made while converting", "F154": "made while converting", "F155": "made while converting",
-    "F160": "about kinds of objects", "F161": "about the whole grid", "F162": "about what was not judged",
+    "F160": "about kinds of objects", "F161": "about the whole grid", "F162": "about what was not judged", "F167": "about the whole result",
 }
 
 
@@ -138,6 +138,7 @@ CASES = {
     "F163": ({"a.w": "1.0\nUndefined\nA 1 2\n1\nGR API lin\n1 2 3 75\n1 2 4 80\n"}, "validate a.w"),
     "F165": ({"a.vtk": VTK % "POLYDATA" + "POINTS 3 double\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2"}, "validate a.vtk"),
     "F166": ({"a.ts": tsurf(TRIANGLE, head="name:a\nno entry")}, "validate a.ts"),
+    "F167": ({"a.ts": tsurf(TRIANGLE, TRIANGLE)}, "repair a.ts -o o.ts"),
 }
 
 

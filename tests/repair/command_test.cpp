@@ -35,6 +35,21 @@ TEST(Validate, CallsASoundGridValid) {
     EXPECT_EQ(report["files"][0]["valid"], true) << run.out;
 }
 
+TEST(Repair, SaysWhereThereWasNothingToMendAndWhyItsResultIsNotFullyChecked) {
+    const TemporaryFolder folder;
+    const std::string head = "GOCAD TSurf 1\nHEADER {\nname:a\n}\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nTRGL 1 2 3\n";
+    test::write_file(folder / "sound.ts", head + "END\n");
+    test::write_file(folder / "twice.ts", head + "TRGL 1 2 3\nEND\n");
+    const auto sound = run_geomend({"repair", folder / "sound.ts", "-o", folder / "o.ts"});
+    EXPECT_EQ(sound.status, 0) << sound.err;
+    EXPECT_NE(sound.out.find("nothing to mend"), std::string::npos) << sound.out;
+    const auto twice = run_geomend({"repair", folder / "twice.ts", "-o", folder / "o.ts"});
+    EXPECT_EQ(twice.status, 0) << twice.err;
+    EXPECT_EQ(twice.out.find("nothing to mend"), std::string::npos) << twice.out;
+    EXPECT_NE(twice.out.find("not fully checked"), std::string::npos) << twice.out;
+    EXPECT_NE(twice.out.find("the surfaces enclose no region"), std::string::npos) << twice.out;
+}
+
 TEST(Validate, TellsByItsStatusWhatItFound) {
     const TemporaryFolder folder;
     test::write_file(folder / "good.grdecl", column_deck({{1000, 1010}, {1010, 1020}}));
