@@ -127,7 +127,9 @@ void GridScope::measure(const CheckOptions& options) {
         lengths_.diameter = 2 * std::sqrt(*std::ranges::max_element(farthest));
     }
     const bool single = grid_.info.precision == CoordinatePrecision::single_precision;
-    const auto rule = [&](double largest) { return std::max(1e-7 * lengths_.diameter, 4 * step_above(largest, single)); };
+    const auto rule = [&](double largest) {  // where no cell is judged there is no length
+        return all.cells == 0 ? 0.0 : std::max(1e-7 * lengths_.diameter, 4 * step_above(largest, single));
+    };
     lengths_.tolerance = options.tolerance >= 0 ? options.tolerance : rule(all.largest);
     depth_tolerance_ = options.tolerance >= 0 ? options.tolerance : rule(all.largest_depth);
     lengths_.near = options.near >= 0 ? options.near : 1e-3 * lengths_.diameter;

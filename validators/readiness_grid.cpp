@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "validators/cell_findings.h"
 #include "validators/object_places.h"
@@ -129,6 +130,29 @@ void check_region_multipliers(const CornerPointGrid& grid, std::vector<Finding>&
         return findings.push_back(
             about(grid, "S09", "MULTREGT has a multiplier within region " + std::to_string(*m.from) + ": OPM Flow stops"));
     }
+    for (const auto& m : grid.region_multipliers) {
+        if ((m.connections != "NNC" && m.connections != "NONNC") || m.value == 1) continue;
+        return findings.push_back(
+            about(grid, "S09",
+                  "MULTREGT multiplies " +
+                      std::string(m.connections == "NNC" ? "connections of cells that are no neighbours by (i,j,k) (NNC)"
+                                                         : "connections of neighbours by (i,j,k) only (NONNC)") +
+                      ": OPM Flow 2022.10 takes vertical connections, and those across faults, for the other kind in "
+                      "most grids, and multiplies others than stated"));
+    }
+}
+
+/// Flow 2022.10 takes all factors of a pair of NNC but for the last pair in the order of cells, of which it takes the first.
+void check_connection_factors(const CornerPointGrid& grid, std::vector<Finding>& findings) {
+    if (grid.connections.empty()) return;
+    std::pair<std::uint64_t, std::uint64_t> last{0, 0};
+    for (const auto& c : grid.connections) last = std::max(last, std::pair(std::min(c.first, c.second), std::max(c.first, c.second)));
+    const auto is_last = [&](const auto& f) { return last == std::pair(std::min(f.first, f.second), std::max(f.first, f.second)); };
+    if (std::ranges::count_if(grid.connection_factors, is_last) < 2) return;
+    findings.push_back(about(grid, "S09",
+                             "EDITNNC multiplies the connection of cells " + cell_text(grid, static_cast<std::size_t>(last.first)) +
+                                 " and " + cell_text(grid, static_cast<std::size_t>(last.second)) +
+                                 " more than once: OPM Flow 2022.10 takes the first of these factors only, as it is the last pair of NNC"));
 }
 
 }  // namespace
@@ -145,6 +169,7 @@ void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& find
     check_properties(grid, findings);
     check_faults(grid, findings);
     check_region_multipliers(grid, findings);
+    check_connection_factors(grid, findings);
     check_map_unit(grid, findings);
     if (grid.unit_system.empty())
         findings.push_back(about(grid, "S12", "no unit system is stated: METRIC is assumed (metres, millidarcy, bar)"));

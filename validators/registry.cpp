@@ -268,7 +268,9 @@ constexpr std::array table = {
     Check{"S06", "with --for: a name is too long, has a character or beginning that the target refuses, or is there twice"},
     Check{"S07", "with --for: cells of three dimensions of a type that the target has not"},
     Check{"S08", "with --for abaqus or geos: cells without entity, cell set or attribute 'attribute'"},
-    Check{"S09", "with --for flow: local refinements, two porosities, MULTREGT within a region, multipliers of undeclared faults"},
+    Check{"S09",
+          "with --for flow: local refinements, two porosities, MULTREGT within a region or with NNC or NONNC, multipliers of undeclared "
+          "faults"},
     Check{"S10", "with --for openfoam: outer faces that no named cell of two dimensions covers"},
     Check{"S12", "with --for flow: no PERMY or PERMZ, no unit system"},
 };

@@ -209,9 +209,11 @@ CellArray* regions_of(Edit& e, std::size_t i, const char* usual = "MULTNUM") {
     const std::string word = e.record.given(i) ? upper_case(trimmed(e.record.text(i))) : usual;
     const std::string array = word == "F" ? "FLUXNUM" : word == "O" ? "OPERNUM" : word == "M" ? "MULTNUM" : word;
     CellArray* a = e.g.find(array);
-    if (a == nullptr && array == "MULTNUM" && cells_of(*e.g.dims) <= e.room) {
+    const auto keyword = cell_keyword(array);
+    if (a == nullptr && keyword && keyword->whole && keyword->initial && cells_of(*e.g.dims) <= e.room) {
         e.room -= cells_of(*e.g.dims);
-        e.g.arrays.push_back({array, std::vector<std::int32_t>(static_cast<std::size_t>(cells_of(*e.g.dims)), 1), Section::grid});
+        const auto initial = static_cast<std::int32_t>(*keyword->initial);
+        e.g.arrays.push_back({array, std::vector<std::int32_t>(static_cast<std::size_t>(cells_of(*e.g.dims)), initial), keyword->section});
         a = &e.g.arrays.back();
     }
     if (a == nullptr || a->values.index() != 1) {
@@ -346,14 +348,14 @@ struct EditWords {
     std::string_view keyword;
     int changed = -1;             ///< an array of which OPM Flow asks that it can be operated on
     int first = -1, second = -1;  ///< further arrays and words
-    int regions = -1;             ///< M, F or O
+    int regions = -1;             ///< M, F or O; of OPERATER the name of an array
 };
 
 constexpr EditWords words_of_edit(std::string_view keyword) {
     if (keyword == "COPY") return {keyword, 1, 0};
     if (keyword == "COPYREG") return {keyword, 1, 0, -1, 3};
     if (keyword == "OPERATE") return {keyword, 0, 7, 8};
-    if (keyword == "OPERATER") return {keyword, -1, 0, 3};
+    if (keyword == "OPERATER") return {keyword, -1, 0, 3, 6};
     if (keyword.ends_with("REG")) return {keyword, -1, 0, -1, 3};
     return {keyword, 0};
 }
@@ -376,7 +378,7 @@ void note_words(const Edit& e, const EditWords& words, std::vector<Finding>& fin
     const std::string regions = look(words.regions, "the kind of regions of ");
     if (!changed.empty() && !flow_operates_on(changed))
         note_flow_stops(findings, e.in.location(e.record.begin), std::string(words.keyword) + " changes " + changed);
-    if (!regions.empty() && regions != "M" && regions != "F" && regions != "O")
+    if (!regions.empty() && (reads ? !flow_takes_regions(regions) : regions != "M" && regions != "F" && regions != "O"))
         note_flow_stops(findings, e.in.location(e.record.begin), std::string(words.keyword) + " has the kind of regions " + shown(regions));
 }
 

@@ -150,10 +150,11 @@ OptionalFailure DeckReader::keyword(const Item& word) {
     if (!word.quoted && !probing_ && !in_companion_ && !flow_reads(word_)) note_unread(word.at, word_);
     if (word_ != "EXTERNAL_FILE" && !word.quoted) take_line_remark();
     if (word_ == "END") {
-        ended_ = true;
+        end_here(in().at());
         return {};
     }
     if (word_ == "ENDINC") {
+        note_text_behind(frames_.back(), in().at(), word_);
         in().jump(in().end());
         return {};
     }
@@ -181,6 +182,33 @@ OptionalFailure DeckReader::keyword(const Item& word) {
     }
     if (section_ == Section::runspec) return keep(word.at, word_, true);
     return unknown(word.at, std::string(text));
+}
+
+/// Text that nobody reads, comments apart: told once.
+void DeckReader::note_text_behind(const Frame& frame, const char* from, const std::string& keyword) {
+    std::string_view rest(from, static_cast<std::size_t>(frame.scanner.end() - from));
+    while (!probing_ && !rest.empty()) {
+        const std::string_view line = rest.substr(0, rest.find('\n'));
+        const std::string_view text = trimmed(line);
+        if (!text.empty() && !text.starts_with("--")) {
+            const std::string begin = shown(text.substr(0, text.find_first_of(" \t")));
+            return drop(findings_, losses_,
+                        {LossClass::identity,
+                         {},
+                         "text behind " + keyword,
+                         "simulators read nothing there; it begins with " + begin,
+                         1,
+                         frame.scanner.location(text.data())});
+        }
+        rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    }
+}
+
+/// END, with all that stands behind it, in this file and in those that include it.
+void DeckReader::end_here(const char* from) {
+    ended_ = true;
+    note_text_behind(frames_.back(), from, "END");
+    for (std::size_t f = frames_.size() - 1; f-- > 0;) note_text_behind(frames_[f], frames_[f].scanner.at(), "END");
 }
 
 /// A keyword that OPM Flow does not know. All of them are one finding.
@@ -212,7 +240,7 @@ OptionalFailure DeckReader::section_text() {
         const char* stop = newline == nullptr ? end : static_cast<const char*>(newline);
         const std::string_view text(line, static_cast<std::size_t>(stop - line));
         next = section_line(text, section_);
-        ended_ = is_end_line(text);
+        if (is_end_line(text)) end_here(stop);
         if (next != Section::none || ended_) break;
         if (std::string unknown = words.unknown_in(text); !unknown.empty() && !probing_ && !in_companion_) note_unread(line, unknown);
         if (std::string fault = words.fault_in(text); !fault.empty() && !probing_ && scheduled_faults_.size() < 100'000)

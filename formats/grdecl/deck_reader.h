@@ -38,6 +38,8 @@ private:
     OptionalFailure run();
     OptionalFailure keyword(const Item& word);
     OptionalFailure section_text();
+    void note_text_behind(const Frame& frame, const char* from, const std::string& keyword);
+    void end_here(const char* from);
     OptionalFailure include();
     OptionalFailure external_file();
     OptionalFailure open_include(std::string_view path, const char* at);

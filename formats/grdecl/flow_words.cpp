@@ -25,6 +25,11 @@ constexpr auto operated = std::to_array<std::string_view>(
      "SGL",    "SGLPC",  "SGU",      "SOGCR",    "SOWCR",   "SSOL",    "SWAT",    "SWATINIT", "SWCR",   "SWL",    "SWLPC",
      "SWU",    "TEMPI",  "THCGAS",   "THCOIL",   "THCONR",  "THCONSF", "THCROCK", "THCWATER", "TRANX",  "TRANY",  "TRANZ"});
 
+// Those of whole numbers among them.
+constexpr auto of_regions =
+    std::to_array<std::string_view>({"ACTNUM", "ENDNUM", "EQLNUM", "FIPNUM", "FLUXNUM", "IMBNUM", "ISOLNUM", "KRNUMX", "KRNUMY", "KRNUMZ",
+                                     "LWSLTNUM", "MISCNUM", "MULTNUM", "OPERNUM", "PVTNUM", "ROCKNUM", "SATNUM"});
+
 // Further keywords that it knows. In the order of the alphabet.
 constexpr auto further = std::to_array<std::string_view>({
     // clang-format off
@@ -113,6 +118,10 @@ bool flow_reads(std::string_view keyword) {
 
 bool flow_operates_on(std::string_view array) {
     return among(operated, array) || (array.starts_with("FIP") && cell_keyword(array).has_value());
+}
+
+bool flow_takes_regions(std::string_view array) {
+    return among(of_regions, array) || (array.starts_with("FIP") && cell_keyword(array).has_value());
 }
 
 void note_flow_stops(std::vector<Finding>& findings, const Location& where, const std::string& message) {

@@ -16,6 +16,9 @@ bool flow_reads(std::string_view keyword);
 /// Whether it takes an array as the one that EQUALS, ADD, MULTIPLY, COPY and their like change.
 bool flow_operates_on(std::string_view array);
 
+/// Whether OPERATER of OPM Flow 2022.10 takes a word as its array of regions: the name of one of whole numbers, never M, F or O.
+bool flow_takes_regions(std::string_view array);
+
 /// Reports (F149) what OPM Flow stops at. The same message is counted, not repeated.
 void note_flow_stops(std::vector<Finding>& findings, const Location& where, const std::string& message);
 

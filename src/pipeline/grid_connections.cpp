@@ -38,13 +38,18 @@ void add_connection(CornerPointGrid& grid, std::map<std::pair<std::uint64_t, std
 }
 
 // What section EDIT says of transmissibilities of neighbours: operations on the computed ones, then those that are stated.
+// Simulators (flow 2022.10) change none of pairs that are joined past cells between them.
 void apply_section_edit(const CornerPointGrid& grid, const grid::Connections& found, bool from_deck, grid::Transmissibilities& values) {
     constexpr std::array names = {"TRANX", "TRANY", "TRANZ"};
     constexpr std::array bits = {grid::Connections::east, grid::Connections::south, grid::Connections::below};
     const std::array arrays = {&values.x, &values.y, &values.z};
+    const std::size_t layer = std::size_t{grid.dims[0]} * grid.dims[1];
+    const auto touches_below = [&](std::size_t cell) { return cell + layer < found.present.size() && found.present[cell + layer] != 0; };
     for (std::size_t d = 0; d < 3; ++d) {
         std::vector<double>& array = *arrays[d];
-        const auto joined = [&](std::size_t cell) { return array[cell] != 0 || (d < 2 && (found.neighbours[cell] & bits[d]) != 0); };
+        const auto joined = [&](std::size_t cell) {
+            return d == 2 ? array[cell] != 0 && touches_below(cell) : array[cell] != 0 || (found.neighbours[cell] & bits[d]) != 0;
+        };
         grid::apply_edits(grid, names[d], joined, array);
         if (!from_deck) continue;
         const std::vector<double> stated = grid::fitting_values(grid, names[d], NAN);

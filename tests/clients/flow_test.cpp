@@ -95,6 +95,30 @@ void write_include(const CornerPointGrid& grid, const std::filesystem::path& fil
     write_file(file, text);
 }
 
+/// What `convert` computes of a deck is what the simulator writes of it, with what section EDIT says.
+void expect_same_file(const FlowCase& c) {
+    for (const char* name : {"ours.EGRID", "ours.INIT"}) {
+        const ProgramRun run = run_geomend(
+            {"convert", (c.folder / "CASE.DATA").string(), "-o", (c.folder / name).string(), "--lossy", "--option", "connections=compute"});
+        ASSERT_EQ(run.status, 0) << run.err;
+    }
+    const auto read = load((c.folder / "ours.INIT").string(), {});
+    ASSERT_TRUE(read);
+    const auto& ours = std::get<CornerPointGrid>(read->objects.front());
+    const CornerPointGrid theirs = simulated(c);
+    for (const char* name : {"TRANX", "TRANY", "TRANZ"}) {
+        const auto a = values(ours, name), b = values(theirs, name);
+        ASSERT_EQ(a.size(), b.size()) << name;
+        for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5 * std::abs(b[i])) << name << i;
+    }
+    const Pairs pairs = stated(ours), expected = stated(theirs);
+    ASSERT_EQ(pairs.size(), expected.size());
+    for (const auto& [pair, value] : expected) {
+        ASSERT_TRUE(pairs.contains(pair)) << pair.first << ' ' << pair.second;
+        EXPECT_NEAR(pairs.at(pair), value, 1e-5 * std::abs(value)) << pair.first << ' ' << pair.second;
+    }
+}
+
 class Flow : public ::testing::Test {
 protected:
     void SetUp() override {
@@ -230,26 +254,37 @@ TEST_F(Flow, multiplies_faults_and_regions_as_we_do) {
     expect_same_as_simulator(c);
 }
 
+TEST_F(Flow, multiplies_by_all_factors_of_a_connection_as_we_do) {
+    FlowCase c{folder_.path(), {6, 4, 3}, "", false};
+    c.grid_section =
+        "NNC\n 2 1 1 6 4 3 0.75 /\n 1 2 2 6 3 3 0.5 /\n/\nEDIT\nEDITNNC\n 2 1 1 6 4 3 0.5 /\n/\nEDITNNC\n 6 4 3 2 1 1 0.1 /\n 1 2 2 6 3 3 "
+        "0.2 /\n/\n";
+    write_include(faulted(), folder_ / "GRID.GRDECL");
+    write_deck(c);
+    ASSERT_TRUE(dry_run(c));
+    expect_same_file(c);
+}
+
+TEST_F(Flow, changes_no_transmissibility_past_cells_that_are_left_out_as_we_do) {
+    const CornerPointGrid grid = thin_layers({"one below", {10, 10, 0.5, 10, 10}, {}, "", ""});
+    write_include(grid, folder_ / "GRID.GRDECL");
+    const std::array edits = {"ADD\n TRANZ 0.5 /\n/\n", "MULTIPLY\n TRANZ 0.1 /\n/\n", "MAXVALUE\n TRANZ 4 /\n/\n",
+                              "EQUALS\n TRANZ 7 /\n/\n"};
+    for (const char* edit : edits) {
+        const FlowCase c{folder_.path(), grid.dims, std::string("MINPV\n 2000 /\nEDIT\n") + edit, true};
+        write_deck(c);
+        ASSERT_TRUE(dry_run(c)) << edit;
+        expect_same_file(c);
+    }
+}
+
 TEST_F(Flow, adds_stated_connections_of_neighbours_to_their_transmissibilities_as_we_do) {
     FlowCase c{folder_.path(), {6, 4, 3}, "", false};
     c.grid_section = "NNC\n 1 2 1 2 2 1 5 /\n 2 3 3 2 2 3 7 /\n 2 2 1 2 2 2 0.5 /\n 1 2 2 6 4 3 11 /\n/\n";
     write_include(faulted(), folder_ / "GRID.GRDECL");
     write_deck(c);
     ASSERT_TRUE(dry_run(c));
-    for (const char* name : {"ours.EGRID", "ours.INIT"}) {
-        const ProgramRun run = run_geomend(
-            {"convert", (folder_ / "CASE.DATA").string(), "-o", (folder_ / name).string(), "--lossy", "--option", "connections=compute"});
-        ASSERT_EQ(run.status, 0) << run.err;
-    }
-    const auto read = load((folder_ / "ours.INIT").string(), {});
-    ASSERT_TRUE(read);
-    const auto& ours = std::get<CornerPointGrid>(read->objects.front());
-    const CornerPointGrid theirs = simulated(c);
-    for (const char* name : {"TRANX", "TRANY", "TRANZ"}) {
-        const auto a = values(ours, name), b = values(theirs, name);
-        ASSERT_EQ(a.size(), b.size()) << name;
-        for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5 * std::abs(b[i])) << name << i;
-    }
+    expect_same_file(c);
 }
 
 TEST_F(Flow, takes_grids_that_we_wrote_with_the_same_cells_and_pore_volumes) {

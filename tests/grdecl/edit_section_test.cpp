@@ -95,6 +95,40 @@ TEST(FlowStopsAt, RegionsAndArraysThatAreNotThere) {
     EXPECT_FALSE(stops(deck("OPERNUM\n 4*1 /\nOPERATER\n PERMX 1 MULTX PERMX 0.3 /\n/\n", ""), ""));
 }
 
+TEST(FlowStopsAt, RegionsOfOperaterThatAreNoNamesOfArrays) {
+    const std::string regions = "OPERNUM\n 1 2 2 1 /\nMULTNUM\n 4*1 /\nFLUXNUM\n 4*1 /\n";
+    const auto operates = [&](const std::string& item) {
+        return deck(regions + "OPERATER\n PERMX 1 MULTX PERMX 0.5 0 " + item + " /\n/\n", "");
+    };
+    for (const char* letter : {"M", "F", "O"}) EXPECT_TRUE(stops(operates(letter), letter)) << letter;
+    for (const char* word : {"NTG", "PERMX", "PINCHNUM"}) EXPECT_TRUE(stops(operates(word), word)) << word;
+    for (const char* array : {"OPERNUM", "MULTNUM", "FLUXNUM", "1*", ""}) EXPECT_FALSE(stops(operates(array), "")) << array;
+    const Dataset of_initial = operates("FIPNUM");  // not given: all cells are of region 1
+    EXPECT_FALSE(stops(of_initial, ""));
+    EXPECT_EQ(values(grid_of(of_initial), "PERMX"), std::vector<double>(4, 50));
+    EXPECT_EQ(values(grid_of(operates("OPERNUM")), "PERMX"), (std::vector<double>{50, 100, 100, 50}));
+}
+
+TEST(Grammar, TellsOnceWhatStandsBehindEnd) {
+    const auto told = [](const std::string& text) {
+        const auto d = read_text(text);
+        EXPECT_TRUE(d) << why(d);
+        std::vector<std::uint64_t> lines;
+        for (const Finding& f : d->findings) {
+            if (f.code == "F150") lines.push_back(f.where.line);
+        }
+        EXPECT_EQ(d->losses.size(), lines.size());
+        return lines;
+    };
+    const auto line = static_cast<std::uint64_t>(std::ranges::count(grid_text, '\n'));
+    using Lines = std::vector<std::uint64_t>;
+    EXPECT_EQ(told(grid_text + "END\n\n-- PERMY\nPERMY\n 4*1 /\nPERMZ\n 4*1 /\n"), Lines{line + 4});
+    EXPECT_EQ(told(grid_text + "SCHEDULE\nTSTEP\n 1 /\nEND\nTSTEP\n 1 /\n"), Lines{line + 5});
+    EXPECT_EQ(told(grid_text + "ENDINC\nPERMY\n 4*1 /\n"), Lines{line + 2});
+    for (const char* nothing : {"END", "END\n", "END\n \n -- no more\n", "SCHEDULE\nEND\n-- no more", "ENDINC\n"})
+        EXPECT_EQ(told(grid_text + nothing), Lines{}) << nothing;
+}
+
 TEST(FlowStopsAt, FaultsOfTheScheduleThatNobodyStates) {
     const auto with = [](const std::string& records) {
         auto d = read_text(grid_text + "FAULTS\n 'F1' 1 1 1 1 1 2 'X' /\n/\nSCHEDULE\nMULTFLT\n" + records + "/\nTSTEP\n 1 /\nEND\n");

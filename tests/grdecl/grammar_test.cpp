@@ -67,8 +67,9 @@ TEST(Grammar, SkippedTextAndEnd) {
     const auto d = read_text(small + "SKIP\nPORO\n 1 / nonsense\nENDSKIP\nPORO\n 4*0.1 /\nEND\nPORO 17\n");
     ASSERT_TRUE(d) << why(d);
     EXPECT_EQ(values(grid_of(*d), "PORO")[0], 0.1);
-    ASSERT_EQ(d->losses.size(), 1U);
+    ASSERT_EQ(d->losses.size(), 2U);
     EXPECT_EQ(d->losses[0].loss_class, LossClass::style);
+    EXPECT_EQ(d->losses[1].what, "text behind END");
 }
 
 TEST(Grammar, ABoxIsFilledAndTheRestStaysAsItWas) {

@@ -435,6 +435,8 @@ TEST(Lengths, FollowTheDesign) {
     grid.activity = {1, 1, 1, 1, 1, 1, 1, 0};
     corner(grid, 1, 1, 1, 7) = 1e6;
     EXPECT_NEAR(validators::GridScope(grid, {}).lengths().diameter, diameter, 0.1 * diameter);
+    grid.activity.assign(grid.cell_count(), 0);
+    EXPECT_EQ(validators::GridScope(grid, {}).lengths().tolerance, 0) << "no cell, no length";
 }
 
 }  // namespace

@@ -97,6 +97,25 @@ TEST(ReadinessForFlow, TellsWhatItDoesNotKnow) {
     EXPECT_EQ(codes_of(ready(data, "flow")), Codes{"S12 info"});  // flow 2022.10 runs the host, with a warning
 }
 
+TEST(ReadinessForFlow, TellsThatKindsOfConnectionsOfMultregtAreMistaken) {
+    for (const char* kind : {"ALL", "NNC", "NONNC"}) {
+        CornerPointGrid grid = flow_grid();
+        grid.region_multipliers.push_back({1, 2, 0.1, "XYZ", kind, 'M'});
+        EXPECT_EQ(codes_of(ready(of(grid), "flow")), kind == std::string("ALL") ? Codes{} : Codes{"S09 error"}) << kind;
+        grid.region_multipliers[0].value = 1;
+        EXPECT_EQ(codes_of(ready(of(grid), "flow")), Codes{}) << kind;
+    }
+}
+
+TEST(ReadinessForFlow, TellsThatFurtherFactorsOfTheLastConnectionAreNotTaken) {
+    CornerPointGrid grid = flow_grid();
+    grid.connections = {{9, 4, 0.5}, {3, 11, 0.5}};
+    grid.connection_factors = {{3, 11, 0.5}, {11, 3, 0.5}, {4, 9, 0.5}};
+    EXPECT_EQ(codes_of(ready(of(grid), "flow")), Codes{}) << "(3,11) is not the last in the order of cells";
+    grid.connection_factors.push_back({9, 4, 0.1});
+    EXPECT_EQ(codes_of(ready(of(grid), "flow")), Codes{"S09 error"});
+}
+
 TEST(ReadinessForFlow, NeedsActiveCellsAndAGrid) {
     CornerPointGrid grid = flow_grid();
     grid.activity.assign(grid.cell_count(), 0);
