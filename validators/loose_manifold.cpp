@@ -15,6 +15,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "topology/face_edges.h"
+#include "topology/surface_array.h"
 #include "validators/cell_findings.h"
 
 namespace geomend::validators {
@@ -279,6 +280,20 @@ void find_points(const ModelScope& scope, const Connections& known, std::uint32_
     }
 }
 
+/// Whether nothing says which surfaces the polygons of an object belong to: an array or an entity would, even of one surface, or a second
+/// object, or a file of a geological program, in which each surface is an object of its own.
+bool is_all_there_is(const ModelScope& scope, const Part& part) {
+    const auto& [object, number] = part;
+    if (number == no_index) return true;
+    const std::string& format = scope.dataset().format;
+    const auto* source = std::get_if<Surface>(&scope.dataset().objects[object]);
+    if (source == nullptr || topology::has_surface_array(*source) || (format != "surface" && format != "vtk")) return false;
+    const auto& surfaces = scope.brep().surfaces;
+    const ObjectInfo& info = info_of(scope.dataset().objects[object]);
+    return info.role == FeatureRole::unknown && info.role_text.empty() && info.feature.empty() &&
+           std::ranges::all_of(surfaces, [&](const auto& s) { return part_of(s) == part && s.role == FeatureRole::unknown; });
+}
+
 Finding finding_of_part(const ModelScope& scope, const Wrong& wrong, const Part& part) {
     const auto& [object, number] = part;
     std::string what;
@@ -290,7 +305,7 @@ Finding finding_of_part(const ModelScope& scope, const Wrong& wrong, const Part&
     for (const std::uint32_t s : wrong.surfaces) {
         if (finding.entities.size() < listed_elements) finding.entities.push_back(surface_ref(scope, s));
     }
-    if (number == no_index) use_other_severity(finding);
+    if (is_all_there_is(scope, part)) use_other_severity(finding);
     finding.element_kind = "triangle";
     for (const auto& [s, p] : wrong.polygons) {
         if (finding.elements.size() >= listed_elements) break;

@@ -2,6 +2,7 @@
 // The records of a legacy file become one object.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "base/text_cursor.h"
 #include "formats/drop.h"
@@ -483,6 +484,9 @@ Result<Dataset> read_legacy(const Input& input, const ReadOptions& options) {
     LegacyFile file;
     Dataset data;
     if (!parse_legacy(scanner, file) || !Mapper(scanner, file).run(data)) return scanner.take_failure();
+    // The format has no place for a name: one that says nothing more is called after its file, as in XML.
+    if (data.objects.size() == 1 && info_of(data.objects[0]).name.empty())
+        info_of(data.objects[0]).name = std::filesystem::path(input.base_name()).stem().string();
     return data;
 }
 

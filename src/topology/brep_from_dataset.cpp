@@ -25,9 +25,9 @@ bool states_model(const CellMesh& mesh) {
     return false;
 }
 
-SurfaceComplex complex_of(const Dataset& dataset, const ModelSource& source) {
+SurfaceComplex complex_of(const Dataset& dataset, const ModelSource& source, Arrays arrays) {
     if (source.kind == ModelSource::stated_model) return complex_of_stated_model(dataset, dataset.models[source.model], source.groups);
-    if (source.kind == ModelSource::loose_surfaces) return complex_of_loose_surfaces(dataset, source.groups);
+    if (source.kind == ModelSource::loose_surfaces) return complex_of_loose_surfaces(dataset, source.groups, arrays);
     return complex_of_tagged_mesh(dataset, source.groups[0]);
 }
 
@@ -69,7 +69,7 @@ void build_breps(Dataset& dataset) {
     dataset.breps.clear();
     for (const ModelSource& source : model_sources(dataset)) {
         if (source.kind == ModelSource::loose_surfaces) continue;
-        auto model = assemble(complex_of(dataset, source), RegionSearch::where_none_are_stated);
+        auto model = assemble(complex_of(dataset, source, Arrays::are_values), RegionSearch::where_none_are_stated);
         if (model) {
             std::ranges::move(model->findings, std::back_inserter(dataset.findings));
             dataset.breps.push_back(std::move(model->brep));
@@ -81,14 +81,14 @@ void build_breps(Dataset& dataset) {
 
 std::vector<SurfaceComplex> complexes_of(const Dataset& dataset, std::span<const ModelSource> sources) {
     std::vector<SurfaceComplex> complexes;
-    for (const ModelSource& source : sources) complexes.push_back(complex_of(dataset, source));
+    for (const ModelSource& source : sources) complexes.push_back(complex_of(dataset, source, Arrays::are_values));
     return complexes;
 }
 
 Result<std::vector<JudgedModel>> models_to_judge(const Dataset& dataset, std::span<const ModelSource> sources) {
     std::vector<JudgedModel> models;
     for (const ModelSource& source : sources) {
-        auto model = assemble(complex_of(dataset, source), RegionSearch::always);
+        auto model = assemble(complex_of(dataset, source, Arrays::tell_apart), RegionSearch::always);
         if (!model) return std::move(model).why();
         models.push_back(std::move(model).value());
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "topology/faces_from_surfaces.h"
 
+#include <algorithm>
 #include <numeric>
 #include <unordered_map>
 #include <variant>
@@ -42,6 +43,20 @@ Attribute restricted(const Attribute& attribute, const std::vector<std::uint32_t
     return result;
 }
 
+namespace {
+
+void add_attributes(const Surface& surface, const std::vector<std::uint32_t>& points, const std::vector<std::uint32_t>& polygons,
+                    BrepData::Surface& to) {
+    for (const Attribute& a : surface.info.attributes) {
+        if (a.location == AttributeLocation::point) to.attributes.push_back(restricted(a, points, a.location));
+        if (a.location == AttributeLocation::polygon || a.location == AttributeLocation::cell)
+            to.attributes.push_back(restricted(a, polygons, AttributeLocation::polygon));
+        if (a.location == AttributeLocation::object) to.attributes.push_back(a);
+    }
+}
+
+}  // namespace
+
 std::size_t part_count(const Surface& surface) { return surface.parts.empty() ? 1 : surface.parts.size(); }
 
 BrepData::Surface surface_of_part(const Surface& surface, std::uint32_t part, const std::vector<std::uint32_t>& vertex_of) {
@@ -73,13 +88,7 @@ BrepData::Surface surface_of_part(const Surface& surface, std::uint32_t part, co
     for (const std::uint32_t point : used) result.nodes.emplace_back(vertex_of[point]);
     std::vector<std::uint32_t> polygon_indices(polygons.last - polygons.first);
     std::iota(polygon_indices.begin(), polygon_indices.end(), static_cast<std::uint32_t>(polygons.first));
-    for (const Attribute& a : surface.info.attributes) {
-        if (a.location == AttributeLocation::point) result.attributes.push_back(restricted(a, used, a.location));
-        if (a.location == AttributeLocation::polygon || a.location == AttributeLocation::cell) {
-            result.attributes.push_back(restricted(a, polygon_indices, AttributeLocation::polygon));
-        }
-        if (a.location == AttributeLocation::object) result.attributes.push_back(a);
-    }
+    add_attributes(surface, used, polygon_indices, result);
     return result;
 }
 
@@ -89,6 +98,28 @@ SurfaceComplex::Face face_of_part(const Surface& surface, std::uint32_t object, 
     face.surface.source_object = object;
     face.surface.source_part = part;
     face.first_polygon = surface.parts.empty() ? 0 : surface.parts[part].first_polygon;
+    face.tolerance = points.tolerance.at(object);
+    return face;
+}
+
+SurfaceComplex::Face face_of_polygons(const Surface& surface, std::uint32_t object, const std::vector<std::uint32_t>& polygons,
+                                      const WeldedPoints& points) {
+    SurfaceComplex::Face face;
+    std::vector<std::uint32_t> used, polygon;
+    for (const std::uint32_t p : polygons) used.insert(used.end(), surface.polygons[p].begin(), surface.polygons[p].end());
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const auto& vertex_of = points.of.at(object);
+    for (const std::uint32_t point : used) face.surface.nodes.emplace_back(vertex_of[point]);
+    for (const std::uint32_t p : polygons) {
+        polygon.clear();
+        for (const std::uint32_t point : surface.polygons[p])
+            polygon.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(used, point) - used.begin()));
+        face.surface.polygons.push_back(polygon);
+    }
+    add_attributes(surface, used, polygons, face.surface);
+    face.surface.source_object = object;
+    face.source_polygons = polygons;
     face.tolerance = points.tolerance.at(object);
     return face;
 }

@@ -17,6 +17,11 @@ BrepData::Surface surface_of_part(const Surface& surface, std::uint32_t part, co
 /// The same as a face, without names and role. \pre the surface is object `object` of the Dataset that the points are of
 SurfaceComplex::Face face_of_part(const Surface& surface, std::uint32_t object, std::uint32_t part, const WeldedPoints& points);
 
+/// Some polygons of a Surface as a face, without names and role; its nodes are the points that they use, ascending.
+/// \param polygons ascending numbers of polygons; \pre as of face_of_part(). Cost: n log n in the polygons.
+SurfaceComplex::Face face_of_polygons(const Surface& surface, std::uint32_t object, const std::vector<std::uint32_t>& polygons,
+                                      const WeldedPoints& points);
+
 /// Adds the border corners that a surface states, as hints where closed lines have their corners.
 void add_corner_hints(const Object& object, const std::vector<std::uint32_t>& vertex_of, SurfaceComplex& complex);
 

@@ -24,8 +24,11 @@ std::vector<std::uint32_t> objects_of(const Dataset& dataset, const StatedModel&
 /// A cell mesh whose entities say all. \pre the group is one CellMesh. Cost: linear.
 SurfaceComplex complex_of_tagged_mesh(const Dataset& dataset, const WeldGroup& group);
 
+/// Whether arrays that are called after surfaces tell the surfaces of one object apart (surfaces_by_array()).
+enum class Arrays : std::uint8_t { are_values, tell_apart };
+
 /// Surfaces that belong to no model: one face for each part. Surfaces whose triangles have points of their own, as STL files
 /// have it, are joined where points are equal (M08). \pre all are surfaces. Cost: linear.
-SurfaceComplex complex_of_loose_surfaces(const Dataset& dataset, std::span<const WeldGroup> groups);
+SurfaceComplex complex_of_loose_surfaces(const Dataset& dataset, std::span<const WeldGroup> groups, Arrays arrays);
 
 }  // namespace geomend::topology

@@ -47,12 +47,19 @@ void report_soup(SurfaceComplex& complex, const SurfaceComplex::Face& face) {
 /// Where a face comes from: a part of a surface, or cells of a mesh.
 struct Place {
     std::uint32_t object, part;
-    std::optional<MeshSurface> cells;
+    std::optional<MeshSurface> cells;  ///< of a mesh; or polygons of a surface that an array tells apart
 };
 
 SurfaceComplex::Face face_at(const Dataset& dataset, const Place& place, const WeldedPoints& points) {
-    if (place.cells) return face_of_cells(std::get<CellMesh>(dataset.objects[place.object]), place.object, *place.cells, points);
+    if (const auto* mesh = std::get_if<CellMesh>(&dataset.objects[place.object]))
+        return face_of_cells(*mesh, place.object, *place.cells, points);
     const auto& surface = std::get<Surface>(dataset.objects[place.object]);
+    if (place.cells) {
+        SurfaceComplex::Face face = face_of_polygons(surface, place.object, place.cells->cells, points);
+        face.surface.source_part = place.cells->part;
+        face.interface_name = place.cells->name;
+        return face;
+    }
     SurfaceComplex::Face face = face_of_part(surface, place.object, place.part, points);
     face.interface_name = surface.info.name;
     face.surface.role = surface.info.role;
@@ -61,7 +68,7 @@ SurfaceComplex::Face face_at(const Dataset& dataset, const Place& place, const W
 }
 
 /// All faces of some objects; what is said of lines and of whole interfaces goes into the complex.
-std::vector<Place> places_of(const Dataset& dataset, std::span<const std::uint32_t> objects, const WeldedPoints& points,
+std::vector<Place> places_of(const Dataset& dataset, std::span<const std::uint32_t> objects, const WeldedPoints& points, Arrays arrays,
                              SurfaceComplex& complex) {
     std::vector<Place> places;
     std::set<std::string> known;
@@ -72,6 +79,9 @@ std::vector<Place> places_of(const Dataset& dataset, std::span<const std::uint32
             continue;
         }
         const auto& surface = std::get<Surface>(dataset.objects[o]);
+        auto by_array = arrays == Arrays::tell_apart ? surfaces_by_array(surface) : std::vector<MeshSurface>();
+        for (MeshSurface& one : by_array) places.push_back({o, 0, std::move(one)});
+        if (!by_array.empty()) continue;
         for (std::uint32_t part = 0; part < part_count(surface); ++part) places.push_back({o, part, std::nullopt});
         add_corner_hints(dataset.objects[o], points.of.at(o), complex);
         if (known.insert(surface.info.name).second) {
@@ -83,7 +93,7 @@ std::vector<Place> places_of(const Dataset& dataset, std::span<const std::uint32
 
 }  // namespace
 
-SurfaceComplex complex_of_loose_surfaces(const Dataset& dataset, std::span<const WeldGroup> groups) {
+SurfaceComplex complex_of_loose_surfaces(const Dataset& dataset, std::span<const WeldGroup> groups, Arrays arrays) {
     std::vector<std::uint32_t> objects;
     for (const WeldGroup& group : groups) objects.insert(objects.end(), group.objects.begin(), group.objects.end());
     std::ranges::sort(objects);
@@ -94,7 +104,7 @@ SurfaceComplex complex_of_loose_surfaces(const Dataset& dataset, std::span<const
     complex.stated = false;
     complex.take_apart = true;
     complex.lines.shared_nodes = true;  // a fault that ends inside a horizon seldom cuts it there
-    const std::vector<Place> places = places_of(dataset, objects, points, complex);
+    const std::vector<Place> places = places_of(dataset, objects, points, arrays, complex);
     complex.faces.resize(places.size());
     std::vector<std::uint8_t> joined(places.size(), 0);
     parallel_for_each_index(places.size(), [&](std::size_t f) {

@@ -5,10 +5,12 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <numeric>
 #include <string_view>
 
 #include "topology/faces_from_mesh.h"
 #include "topology/mesh_parts.h"
+#include "topology/surface_array.h"
 
 namespace geomend::topology {
 
@@ -24,18 +26,17 @@ std::string plain_name(std::string_view name) {
 }
 
 /// The array that says to which surface cells belong; nullptr where none is called so.
-const Attribute* surface_array(const CellMesh& mesh) {
+const Attribute* surface_array(const ObjectInfo& info, std::size_t cells) {
     constexpr std::array<std::string_view, 22> names = {
         "surface",       "surfaces", "surfaceid", "surfaceids",       "surfacename", "patch", "patchid",      "patches",
         "cellentityids", "entityid", "entity",    "feature",          "featureid",   "name",  "gmshphysical", "gmshgeometrical",
         "attribute",     "part",     "partid",    "stlsolidlabeling", "regionid",    "region"};
     for (const std::string_view wanted : names) {
-        for (const Attribute& a : mesh.info.attributes) {
+        for (const Attribute& a : info.attributes) {
             const bool whole =
                 !std::holds_alternative<std::vector<double>>(a.values) && !std::holds_alternative<std::vector<float>>(a.values);
-            if (whole && a.location == AttributeLocation::cell && a.components == 1 && value_count(a) == mesh.cell_count() &&
-                plain_name(a.name) == wanted)
-                return &a;
+            const bool of_cells = a.location == AttributeLocation::cell || a.location == AttributeLocation::polygon;
+            if (whole && of_cells && a.components == 1 && value_count(a) == cells && plain_name(a.name) == wanted) return &a;
         }
     }
     return nullptr;
@@ -48,7 +49,7 @@ std::string word_of(const Attribute& array, std::uint32_t cell) {
 }
 
 /// The other cells by what an array says of them; whole numbers in their order.
-void add_labelled(const CellMesh& mesh, const Attribute& array, const std::vector<std::uint32_t>& cells, std::vector<MeshSurface>& all) {
+void add_labelled(const ObjectInfo& info, const Attribute& array, const std::vector<std::uint32_t>& cells, std::vector<MeshSurface>& all) {
     const bool words = std::holds_alternative<std::vector<std::string>>(array.values);
     std::map<std::pair<double, std::string>, std::vector<std::uint32_t>> by_label;
     for (const std::uint32_t c : cells)
@@ -57,7 +58,7 @@ void add_labelled(const CellMesh& mesh, const Attribute& array, const std::vecto
         MeshSurface surface;
         const std::string word = word_of(array, own.front());
         surface.name = words ? word : array.name + " " + word;
-        if (surface.name.empty()) surface.name = mesh.info.name;
+        if (surface.name.empty()) surface.name = info.name;
         surface.cells = std::move(own);
         surface.part = static_cast<std::uint32_t>(all.size());
         all.push_back(std::move(surface));
@@ -99,8 +100,8 @@ std::vector<MeshSurface> surfaces_of_mesh(const CellMesh& mesh) {
         if (taken[c] == 0 && dimension(mesh.types[c]) == 2) rest.push_back(c);
     }
     if (rest.empty()) return all;
-    if (const Attribute* array = surface_array(mesh)) {
-        add_labelled(mesh, *array, rest, all);
+    if (const Attribute* array = surface_array(mesh.info, mesh.cell_count())) {
+        add_labelled(mesh.info, *array, rest, all);
         return all;
     }
     MeshSurface surface;
@@ -109,6 +110,21 @@ std::vector<MeshSurface> surfaces_of_mesh(const CellMesh& mesh) {
     surface.role_text = mesh.info.role_text;
     surface.cells = std::move(rest);
     all.push_back(std::move(surface));
+    return all;
+}
+
+bool has_surface_array(const Surface& surface) { return surface_array(surface.info, surface.polygons.size()) != nullptr; }
+
+std::vector<MeshSurface> surfaces_by_array(const Surface& surface) {
+    const ObjectInfo& info = surface.info;
+    if (!surface.parts.empty() || info.role != FeatureRole::unknown || !info.role_text.empty() || !info.feature.empty()) return {};
+    const Attribute* array = surface_array(info, surface.polygons.size());
+    if (array == nullptr) return {};
+    std::vector<std::uint32_t> polygons(surface.polygons.size());
+    std::iota(polygons.begin(), polygons.end(), 0);
+    std::vector<MeshSurface> all;
+    add_labelled(info, *array, polygons, all);
+    if (all.size() < 2) all.clear();
     return all;
 }
 

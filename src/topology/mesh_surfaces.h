@@ -8,7 +8,7 @@
 
 namespace geomend::topology {
 
-/// Two-dimensional cells of a mesh that are one surface.
+/// Two-dimensional cells of a mesh, or polygons of a surface, that are one surface.
 struct MeshSurface {
     std::string name, role_text;
     FeatureRole role = FeatureRole::unknown;
@@ -23,5 +23,9 @@ bool is_surface_mesh(const CellMesh& mesh);
 /// The surfaces of such a mesh: its entities that have cells, then the other cells by the values of a cell array that is called after
 /// surfaces, as "surface", "patch_id" or "gmsh:physical"; one of all where there is none. Cost: n log n in cells.
 std::vector<MeshSurface> surfaces_of_mesh(const CellMesh& mesh);
+
+/// The surfaces that such an array tells apart in one object, as in poly data; empty where there is no such array, where all its values
+/// are the same, and where the file itself says what the object is, by its parts, its role or its feature. Cost: n log n in polygons.
+std::vector<MeshSurface> surfaces_by_array(const Surface& surface);
 
 }  // namespace geomend::topology

@@ -81,5 +81,76 @@ TEST(ALooseSurface, ThatHoldsAWholeModelMayHaveContacts) {
     EXPECT_EQ(measure(found_in(as_one(with_fin)), "edges_shared_by_more_than_two"), 1);
 }
 
+/// A box that is closed, and a wall that hangs on one of its edges.
+Dataset box_with_fin(const std::string& format) {
+    const auto fin = test::quad({1, 1, 0}, {2, 2, 0}, {2, 2, 1}, {1, 1, 1});
+    test::ModelMaker maker;
+    maker.add("model", FeatureRole::unknown, test::joined({test::box({0, 0, 0}, {1, 1, 1}), fin}));
+    Dataset data;
+    data.format = format;
+    data.objects.push_back(maker.data.objects[0]);
+    return data;
+}
+
+std::set<std::string> codes_in(const Dataset& data) {
+    auto checked = validators::check_models(data, {});
+    EXPECT_TRUE(checked);
+    return codes_of(checked->findings);
+}
+
+TEST(ALooseSurface, ThatIsAloneInAMeshFileMayHoldAWholeModel) {
+    for (const char* format : {"surface", "vtk"}) {
+        const auto codes = codes_in(box_with_fin(format));
+        EXPECT_TRUE(codes.contains("B03 warning")) << format;
+        EXPECT_FALSE(codes.contains("B03 error") || codes.contains("B18 error")) << format;
+        // Another surface, or a role, says what is one.
+        Dataset two = box_with_fin(format);
+        two.objects.push_back(loose_triangles({{5, 5, 5}, {6, 5, 5}, {5, 6, 5}}, {{0, 1, 2}}).objects[0]);
+        EXPECT_TRUE(codes_in(two).contains("B03 error")) << format;
+        Dataset fault = box_with_fin(format);
+        info_of(fault.objects[0]).role = FeatureRole::fault;
+        EXPECT_TRUE(codes_in(fault).contains("B03 error")) << format;
+    }
+    EXPECT_TRUE(codes_in(box_with_fin("gocad")).contains("B03 error"));
+}
+
+TEST(ALooseSurface, IsToldApartByAnArrayThatIsCalledAfterSurfaces) {
+    Dataset data = box_with_fin("vtk");
+    const auto add = [&](const std::string& name, std::vector<std::int32_t> values) {
+        Attribute array;
+        array.name = name;
+        array.location = AttributeLocation::polygon;
+        array.values = std::move(values);
+        info_of(data.objects[0]).attributes = {array};
+    };
+    std::vector<std::int32_t> values(14, 1);
+    values[12] = values[13] = 7;
+    add("surface", values);
+    auto checked = validators::check_models(data, {});
+    ASSERT_TRUE(checked);
+    EXPECT_TRUE(find(checked->findings, "B03", Severity::warning).code.empty());
+    const Finding free = find(checked->findings, "B29", Severity::warning);
+    ASSERT_EQ(free.entities.size(), 1u);
+    EXPECT_EQ(free.entities[0].name, "surface 7");
+    // Values of something else do not; one value everywhere says that all is one surface.
+    add("colour", values);
+    EXPECT_TRUE(codes_in(data).contains("B03 warning"));
+    add("surface", std::vector<std::int32_t>(14, 1));
+    EXPECT_TRUE(codes_in(data).contains("B03 error"));
+    info_of(data.objects[0]).attributes.clear();
+    EXPECT_TRUE(codes_in(data).contains("B03 warning"));
+}
+
+TEST(ClosedSurfaces, WithASideInCommonAreJudgedAlikeHoweverTheyAreTurned) {
+    test::ModelMaker maker;
+    maker.add("a", FeatureRole::unknown, test::box({0, 0, 0}, {1, 1, 1}));
+    maker.add("b", FeatureRole::unknown, test::box({1, 0, 0}, {2, 1, 1}));
+    Dataset data;
+    data.objects = maker.data.objects;
+    const auto codes = codes_in(data);
+    EXPECT_TRUE(codes.contains("B20 error"));
+    for (const Dataset& turned : {moved(data, rotated), on_the_map(data, 1000)}) EXPECT_EQ(codes_in(turned), codes);
+}
+
 }  // namespace
 }  // namespace geomend
