@@ -11,26 +11,13 @@
 #include "formats/gocad/model3d.h"
 #include "formats/gocad/object_head.h"
 #include "formats/gocad/object_readers.h"
+#include "model/holds_nothing.h"
 
 namespace geomend::gocad {
 
 namespace {
 
 constexpr std::size_t most_findings_of_a_failure = 100;
-
-bool holds_nothing(const Object& object) {
-    struct Visitor {
-        bool operator()(const PointSet& o) const { return o.points.empty(); }
-        bool operator()(const PolylineSet& o) const { return o.points.empty(); }
-        bool operator()(const Surface& o) const { return o.points.empty() || o.polygons.size() == 0; }
-        bool operator()(const CellMesh& o) const { return o.points.empty() || o.cell_count() == 0; }
-        bool operator()(const StructuredGrid& o) const { return o.points.empty(); }
-        bool operator()(const Raster&) const { return false; }
-        bool operator()(const Well& o) const { return o.path.empty() && o.markers.empty() && o.curves.empty(); }
-        bool operator()(const CornerPointGrid&) const { return false; }
-    };
-    return std::visit(Visitor{}, object);
-}
 
 /// What came of one frame.
 struct Part {

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/load.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <new>
+#include <string>
 
 #include "base/input.h"
+#include "base/wording.h"
 #include "formats/options.h"
 #include "formats/registry.h"
+#include "model/holds_nothing.h"
 #include "pipeline/deck_companions.h"
 #include "topology/keys.h"
 
 namespace geomend {
 
 namespace {
+
+constexpr std::size_t most_empty_named = 100;
 
 // A family name ("vtk") leaves the choice among its formats to the content.
 Result<const Format*> named_format(const std::string& name, const Input& input) {
@@ -23,6 +30,26 @@ Result<const Format*> named_format(const std::string& name, const Input& input) 
         if (format.family == named->family && format.read != nullptr) return &format;
     }
     return failure(FailureKind::usage, "F018", {}, "--from " + name + ": this format can only be written");
+}
+
+// Tells of what holds nothing, where the reader did not: nobody should take it for a sound model.
+void report_empty_objects(const std::string& file, Dataset& dataset) {
+    if (std::ranges::any_of(dataset.findings, [](const Finding& f) { return f.code == "F119"; })) return;
+    Finding finding = make_finding("F119", {}, {file}, 0);
+    for (const Object& object : dataset.objects) {
+        if (!holds_nothing(object)) continue;
+        ++finding.count;
+        if (finding.entities.size() < most_empty_named) finding.entities.push_back({kind_name(object), info_of(object).name, -1});
+    }
+    if (dataset.objects.empty() && dataset.models.empty() && dataset.losses.empty()) {
+        finding.message = "the file holds nothing: no points and no elements";
+    } else if (finding.count == 1) {
+        finding.message =
+            finding.entities[0].kind + " " + geomend::quoted(finding.entities[0].name) + " holds nothing: it has no points, or no elements";
+    } else if (finding.count > 1) {
+        finding.message = std::to_string(finding.count) + " objects hold nothing: they have no points, or no elements";
+    }
+    if (!finding.message.empty()) dataset.findings.push_back(std::move(finding));
 }
 
 }  // namespace
@@ -44,6 +71,7 @@ Result<Dataset> load(const OpenedInput& opened, const LoadOptions& options, std:
             if (auto followed = follow_deck_companions(*dataset, input, options); !followed) return std::move(followed).why();
         }
         if (dataset) topology::report_stated_keys(input.name(), *dataset);
+        if (dataset) report_empty_objects(input.name(), *dataset);
         if (companions != nullptr) *companions = input.companions();
         return dataset;
     } catch (const std::bad_alloc&) {

@@ -94,5 +94,22 @@ TEST_P(Hostile, ReadsTheSameWithCarriageReturns) {
 
 INSTANTIATE_TEST_SUITE_P(Real, Hostile, testing::ValuesIn(files));
 
+TEST(FilesThatHoldNothing, AreTold) {
+    const TemporaryFolder folder;
+    const std::pair<const char*, const char*> empty[] = {
+        {"e.stl", "solid x\nendsolid x\n"},
+        {"e.off", "OFF\n0 0 0\n"},
+        {"e.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n"},
+        {"e.ts", "GOCAD TSurf 1\nHEADER {\nname:x\n}\nTFACE\nEND\n"},
+        {"e.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 0 double\n"}};
+    for (const auto& [name, text] : empty) {
+        write_file(folder / name, text);
+        for (const char* command : {"validate", "info"}) {
+            const auto run = run_geomend({command, (folder / name).string()});
+            EXPECT_TRUE(run.status == 3 || (run.out + run.err).find("F119") != std::string::npos) << name << run.out << run.err;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace geomend::test
