@@ -6,12 +6,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <span>
 
 #include "base/disjoint_sets.h"
 #include "base/usual_no_data.h"
+#include "topology/seen_inside.h"
 
 namespace geomend::topology {
 
@@ -190,9 +192,13 @@ private:
         for (const auto& [a, b] : cuts) {
             if (roots[a] != core->first && roots[b] != core->first && roots[a] != roots[b]) return false;
         }
+        std::vector<std::uint32_t> far, counting;
         for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-            if (roots[i] != core->first) marks_[vertices[i]] = Outlying::far;
+            if (roots[i] != core->first) far.push_back(vertices[i]);
         }
+        std::ranges::copy_if(triangles_, std::back_inserter(counting), [&](std::uint32_t t) { return counts(used_.triangles[t]); });
+        if (is_body_seen_from(used_, counting, far)) return false;
+        for (const std::uint32_t v : far) marks_[v] = Outlying::far;
         return true;
     }
 };

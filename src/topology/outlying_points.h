@@ -27,8 +27,9 @@ enum class Outlying : std::uint8_t {
 ///
 /// Vertices are `far` where edges that are at least ten times as long as all the rest is wide are all that links them to the
 /// rest, and they are at most a twentieth of it (from a hundred times on: a quarter). So what tapers off through several
-/// vertices, as a salt dome does, and what makes a good part of a surface is not outlying, nor is a part that no edge links.
-/// Cost: linear; some times that where something is found.
+/// vertices, as a salt dome does, and what makes a good part of a surface is not outlying, nor is a part that no edge links, nor the apex
+/// of a cone: vertices that close a body which they see as a whole from inside (seen_inside.h). Cost: linear; some times that where
+/// something is found.
 std::vector<Outlying> find_outlying(const UsedPoints& used, const HangingParts& parts);
 
 }  // namespace geomend::topology

@@ -191,6 +191,49 @@ TEST(Lengths, know_walls_that_end_at_a_usual_depth_from_no_data) {
     EXPECT_TRUE(lengths_of(with({wall({0, -99999}, 0)})).outlying.empty());
 }
 
+/// A closed cone of eight sides with a base that has a point in the middle, and with a collar, a narrower ring above the base, or without.
+Surface cone(double height, bool collar) {
+    Surface surface;
+    surface.info.name = "cone";
+    surface.points = {{0, 0, 0}, {0.3, 0.2, height}};
+    const auto ring = [&](double radius, double z) {
+        for (int i = 0; i < 8; ++i) surface.points.push_back({radius * std::cos(i * 0.785398), radius * std::sin(i * 0.785398), z});
+    };
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        surface.polygons.corners.insert(surface.polygons.corners.end(), {a, b, c});
+    };
+    ring(1, 0);
+    if (collar) ring(0.5, 0.5);
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        const std::uint32_t here = 2 + i, next = 2 + (i + 1) % 8, up = collar ? 8 : 0;
+        add(0, next, here);
+        if (collar) {
+            add(here, next, next + 8);
+            add(here, next + 8, here + 8);
+        }
+        add(here + up, next + up, 1);
+    }
+    return surface;
+}
+
+TEST(Lengths, know_the_apex_of_a_body_from_a_point_that_was_pulled_out_of_one) {
+    for (const double height : {3.0, 30.0, 300.0, 3e4}) {
+        Surface body = cone(height, false);
+        for (int turned = 0; turned < 2; ++turned) {
+            const auto found = lengths_of(with({body}));
+            EXPECT_TRUE(found.outlying.empty()) << height;
+            EXPECT_GT(found.largest.diameter, height);
+            std::swap(body.polygons.corners[0], body.polygons.corners[1]);  // how it is wound plays no part
+        }
+    }
+    const auto pulled = lengths_of(with({cone(300, true)}));
+    ASSERT_EQ(pulled.outlying.size(), 1u);
+    EXPECT_EQ(pulled.outlying[0].point, 1u);
+    Surface open = cone(300, false);
+    open.polygons.corners.resize(open.polygons.corners.size() - 6);
+    EXPECT_EQ(lengths_of(with({open})).outlying.size(), 1u) << "it encloses nothing";
+}
+
 TEST(Lengths, know_a_needle_from_no_data) {
     const auto needle = sheet("salt", 20, 100, {0, 0, -1000}, [](std::uint32_t i, std::uint32_t j) {
         return i == 10 && j == 10 ? 9000.0 : i + j == 20 ? 200.0 : 0.0;
