@@ -180,7 +180,9 @@ constexpr std::array table = {
     of_model("G08", "a surface and a region have the same name", check_names_of_model),
     of_model("G09",
              "a layer lies above a horizon at one place and below it at another, or on both sides of it at one place and on one side at "
-             "another; a warning where normals show that layers are overturned",
+             "another (a warning where normals show that layers are overturned); or two fault blocks change sides along one fault, or lie "
+             "on both sides of it "
+             "and are parted by a horizon",
              check_layer_lists),
     of_both("M01", "points of a model, a point set or polylines are nearer than the tolerance, and not equal", check_near_points,
             check_point_positions),
@@ -234,7 +236,8 @@ constexpr std::array table = {
     of_object("M34", "the measured depths of a log both grow and shrink", check_log_depths),
     of_cells("M35", "more cells of a type have negative volumes than positive ones, in VTK's order of nodes", check_cell_volumes),
     of_cells("M36",
-             "parts of a mesh of cells that no face joins have nodes in common; an error where tetrahedra meet so, else as inactive cells "
+             "parts of a mesh of cells, or of a stated region of it, that no face joins have nodes in common; an error where tetrahedra "
+             "meet so, else as inactive cells "
              "of grids leave it",
              check_cell_contacts),
     of_cells("M37",

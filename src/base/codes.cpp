@@ -17,7 +17,7 @@ constexpr std::array catalogue = {
     CodeInfo{"B02", error, "a surface crosses itself"},
     CodeInfo{"B03", error,
              "a surface is not manifold away from lines: more than two of its triangles share an edge, or it touches itself at a point",
-             OtherSeverity{warning, "nothing says which surfaces the faces of a mesh belong to"}},
+             OtherSeverity{warning, "nothing says which surfaces the faces belong to, as where a mesh file holds one surface only"}},
     CodeInfo{"B04", error, "a surface is in several parts that are not connected"},
     CodeInfo{"B05", error, "a region is not closed by the surfaces that are stated to bound it"},
     CodeInfo{"B06", error, "the surfaces of a model enclose no volume"},
@@ -175,7 +175,7 @@ constexpr std::array catalogue = {
     CodeInfo{"G07", warning, "a region is in more than one layer or fault block",
              OtherSeverity{info, "a region is in none, although some are stated"}},
     CodeInfo{"G08", info, "a name is used for a surface and a region"},
-    CodeInfo{"G09", error, "the layers on the two sides of a horizon contradict each other",
+    CodeInfo{"G09", error, "the layers on the two sides of a horizon, or the fault blocks on those of a fault, contradict each other",
              OtherSeverity{warning, "layers may be overturned there, as normals say"}},
     // Meshes of surfaces and cells.
     CodeInfo{"M01", warning, "points are nearer to each other than the tolerance, but not equal"},

@@ -177,6 +177,54 @@ TEST(Layers, ThatContradictEachOtherAcrossAFaultAreAnError) {
     EXPECT_EQ(codes_of(judged(thick)).count("G09 error"), 0u);
 }
 
+TEST(FaultBlocks, ThatChangeSidesAlongAFaultAreAnError) {
+    using Lists = std::vector<StatedModel::RegionList>;
+    const auto with = [](const Lists& blocks) {
+        LayeredModel model;
+        model.maker.model().fault_blocks = blocks;
+        return model.data();
+    };
+    const Dataset mixed = with({{"L", {1, 4, 5}, {}}, {"R", {2, 3, 6}, {}}});
+    for (const Dataset& data : rewritten(mixed)) {
+        const Finding f = find(judged(data), "G09", Severity::error);
+        EXPECT_EQ(f.points.size(), 2u);
+        EXPECT_EQ(f.entities.empty() ? "" : f.entities[0].name, "fault");
+    }
+    // One block on each side, and a fault within a block.
+    const Dataset right = with({{"L", {1, 3, 5}, {}}, {"R", {2, 4, 6}, {}}}), within = with({{"L", {1, 2, 3, 5}, {}}, {"R", {4, 6}, {}}});
+    for (const Dataset& sound : {right, within}) EXPECT_EQ(codes_of(judged(sound)).count("G09 error"), 0u);
+}
+
+TEST(FaultBlocks, ThatAHorizonPartsOnBothSidesOfAFaultAreAnError) {
+    using Lists = std::vector<StatedModel::RegionList>;
+    LayeredModel layers;
+    layers.maker.model().fault_blocks = Lists{{"L", {1, 2}, {}}, {"R", {3, 4, 5, 6}, {}}};
+    for (const Dataset& data : rewritten(layers.data())) {
+        const Finding f = find(judged(data), "G09", Severity::error);
+        ASSERT_EQ(f.entities.size(), 4u);
+        EXPECT_EQ(f.entities[0].name, "fault");
+    }
+    // What lies above an unconformity may be a block of its own.
+    for (auto& face : layers.maker.model().faces) {
+        if (face.role == FeatureRole::horizon) face.role = FeatureRole::unconformity;
+    }
+    for (Object& object : layers.data().objects) {
+        if (info_of(object).role == FeatureRole::horizon) info_of(object).role = FeatureRole::unconformity;
+    }
+    EXPECT_EQ(codes_of(judged(layers.data())).count("G09 error"), 0u);
+}
+
+TEST(Lists, ThatHaveTheUniverseAreTold) {
+    LayeredModel layers, blocks;
+    layers.maker.model().layers[0].regions.push_back(0);
+    blocks.maker.model().fault_blocks = {{"all", {0, 1, 2, 3, 4, 5, 6}, {}}};
+    const Finding of_layer = find(judged(layers.data()), "F113", Severity::warning);
+    ASSERT_EQ(of_layer.entities.size(), 2u);
+    EXPECT_EQ(of_layer.entities[0].name, "layer_0");
+    EXPECT_EQ(find(judged(blocks.data()), "F113", Severity::warning).entities.size(), 2u);
+    EXPECT_TRUE(find(judged(LayeredModel().data()), "F113", Severity::warning).code.empty());
+}
+
 /// A second model, or loose surfaces, in the file of a layered model.
 Dataset with_second(const Dataset& second) {
     Dataset data = LayeredModel().data();
