@@ -2,6 +2,10 @@
 // What parts of a mesh of cells have in common where no face joins them: faces that lie on each other, edges and corners.
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
 
 #include "base/bounds.h"
 #include "base/disjoint_sets.h"
@@ -83,7 +87,28 @@ void tell_unmatched(const CellScope& scope, const OuterFaces& outer, const std::
     findings.push_back(std::move(finding));
 }
 
-/// Cells at nodes at which parts meet that neither faces nor pairs of facing triangles join.
+/// Takes off the marks of nodes at which no two parts of one region meet, where regions are stated: different ones may touch anywhere.
+template <class EachCorner>
+void leave_contacts_of_regions(const CellScope& scope, DisjointSets& parts, const EachCorner& each_corner,
+                               std::vector<std::uint8_t>& meets) {
+    const auto region = stated_regions_of_cells(scope);
+    if (region.empty()) return;
+    std::vector<std::tuple<std::uint32_t, std::int64_t, std::uint32_t>> at_nodes;  // node, region, part
+    for (const std::uint32_t cell : scope.volume_cells()) {
+        each_corner(cell, [&](std::uint32_t v) {
+            if (meets[v] != 0) at_nodes.emplace_back(v, region[cell], parts.root(cell));
+        });
+    }
+    std::ranges::sort(at_nodes);
+    at_nodes.erase(std::unique(at_nodes.begin(), at_nodes.end()), at_nodes.end());
+    std::ranges::fill(meets, std::uint8_t{0});
+    for (std::size_t i = 1; i < at_nodes.size(); ++i) {
+        const auto &a = at_nodes[i - 1], &b = at_nodes[i];
+        if (std::get<0>(a) == std::get<0>(b) && std::get<1>(a) == std::get<1>(b)) meets[std::get<0>(b)] = 1;
+    }
+}
+
+/// Cells at nodes at which parts of one region, or of a mesh without regions, meet that neither faces nor pairs of facing triangles join.
 void tell_loose_contacts(const CellScope& scope, const OuterFaces& outer, const std::vector<Pair>& pairs, std::vector<Finding>& findings) {
     DisjointSets parts(scope.mesh().cell_count());
     const auto groups = scope.group_first();
@@ -107,6 +132,7 @@ void tell_loose_contacts(const CellScope& scope, const OuterFaces& outer, const 
             else if (part_at[v] != part) meets[v] = 1;
         });
     }
+    leave_contacts_of_regions(scope, parts, each_corner, meets);
     std::vector<std::uint32_t> cells;
     bool has_tetrahedra = false;
     for (const std::uint32_t cell : scope.volume_cells()) {

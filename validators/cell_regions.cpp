@@ -74,6 +74,12 @@ CellRegions regions_of(const CellScope& scope) {
 
 }  // namespace
 
+std::vector<std::int64_t> stated_regions_of_cells(const CellScope& scope) {
+    CellRegions regions = regions_of(scope);
+    if (!regions.stated) regions.of.clear();
+    return std::move(regions.of);
+}
+
 void check_cell_regions(const CellScope& scope, std::span<const std::array<std::uint32_t, 2>> facing, std::vector<Finding>& findings) {
     const CellRegions regions = regions_of(scope);
     if (regions.of.empty()) return;

@@ -10,6 +10,10 @@
 
 namespace geomend::validators {
 
+/// Per cell of a mesh the region that the file states for it, by entities or an array called after regions; empty where it states none.
+/// Cells in none have a number of their own. Cost: linear.
+std::vector<std::int64_t> stated_regions_of_cells(const CellScope& scope);
+
 /// M37: regions whose cells neither common faces nor faces that lie on each other join. Regions are the entities of the mesh; where
 /// it has none, the values of an array of whole numbers that is called after regions or materials.
 /// \param facing pairs of cells with outer faces that lie on each other

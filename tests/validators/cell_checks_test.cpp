@@ -169,5 +169,22 @@ TEST(ChecksOfCells, FindRepeatedCellsNearNodesAndUnusedNodes) {
     EXPECT_EQ(codes_of(unused), std::set<std::string>{"M28"});
 }
 
+TEST(ChecksOfCells, LetRegionsMeetAtAnEdgeButNotPartsOfOne) {
+    CellMesh mesh;
+    mesh.points = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {0.5, 1, 0.5}, {-1, 0.5, 0.5}, {-0.5, -1, 0.5}};
+    add(mesh, CellType::tetrahedron, {0, 2, 3, 1});
+    add(mesh, CellType::tetrahedron, {0, 4, 5, 1});
+    Attribute region;
+    region.name = "region";
+    region.location = AttributeLocation::cell;
+    for (const bool two : {false, true}) {
+        region.values = std::vector<std::int32_t>{1, two ? 2 : 1};
+        mesh.info.attributes = {region};
+        EXPECT_EQ(codes_of(mesh).contains("M36"), !two);
+    }
+    mesh.info.attributes.clear();
+    EXPECT_TRUE(codes_of(mesh).contains("M36"));
+}
+
 }  // namespace
 }  // namespace geomend
