@@ -118,10 +118,11 @@ void check_cell_jacobians(const CellScope& scope, std::vector<Finding>& findings
         folded.push_back(cell);
     }
     if (folded.empty()) return;
-    Finding finding = cells_of_mesh_finding(scope, "M21",
-                                            counted(folded.size(), "cell is", "cells are") + in_mesh(scope) +
-                                                " folded at a corner (worst Jacobian " + rounded(worst) + " of the cell's volume)",
-                                            folded);
+    Finding finding =
+        cells_of_mesh_finding(scope, "M21",
+                              counted(folded.size(), "cell", "cells") + in_mesh(scope) + (folded.size() == 1 ? " is" : " are") +
+                                  " folded at a corner (worst Jacobian " + rounded(worst) + " of the cell's volume)",
+                              folded);
     finding.measures = {{"jacobian", worst}};
     findings.push_back(std::move(finding));
 }

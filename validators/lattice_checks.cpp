@@ -111,11 +111,11 @@ void check_lattice_cells(const ObjectScope& scope, std::vector<Finding>& finding
         findings.back().measures.emplace_back("pinched", static_cast<double>(empty.count));
     }
     if (folded.count > 0) {
-        findings.push_back(lattice_finding(scope, cells, "M21",
-                                           counted(folded.count, "cell is", "cells are") + of_object(scope) +
-                                               " folded at a corner (worst determinant of its edges " + rounded(-folded.worst) +
-                                               " of the product of their lengths)",
-                                           folded));
+        findings.push_back(lattice_finding(
+            scope, cells, "M21",
+            counted(folded.count, "cell", "cells") + of_object(scope) + (folded.count == 1 ? " is" : " are") +
+                " folded at a corner (worst determinant of its edges " + rounded(-folded.worst) + " of the product of their lengths)",
+            folded));
         findings.back().measures = {{"jacobian", -folded.worst}};
     }
 }

@@ -151,9 +151,10 @@ void report_borders(const ModelScope& scope, const Borders& some, const SurfaceD
         }
         if (pair.finding.count == 0) continue;
         const std::string where = border == other ? "itself" : quoted(scope.brep().surfaces[other].name);
+        const std::string smallest = rounded(pair.smallest), largest = rounded(pair.largest);
         Finding finding = finding_of("B23", "the border of " + quoted(scope.brep().surfaces[border].name) + " nearly meets " + where +
-                                                ": " + counted(pair.finding.count, "edge is ", "edges are ") + rounded(pair.smallest) +
-                                                (pair.largest > pair.smallest ? " to " + rounded(pair.largest) : std::string()) + " away");
+                                                ": " + counted(pair.finding.count, "edge is ", "edges are ") + smallest +
+                                                (largest != smallest ? " to " + largest : std::string()) + " away");
         finding.entities.push_back(surface_ref(scope, border));
         if (border != other) finding.entities.push_back(surface_ref(scope, other));
         finding.count = pair.finding.count;

@@ -269,8 +269,9 @@ void report_overlaps_at_lines(const ModelScope& scope, std::span<const LineId> l
 void check_radial_order(const ModelScope& scope, std::vector<Finding>& findings) {
     const auto& lines = scope.model().found.uncertain_lines;
     if (lines.empty()) return;
-    Finding finding = finding_of("B17", "around " + counted(lines.size(), "line", "lines") +
-                                            " polygons coincide, so that their order is not known, and regions were not found across it");
+    Finding finding =
+        finding_of("B17", "polygons coincide at " + counted(lines.size(), "line", "lines") + ": which of them comes first around " +
+                              (lines.size() == 1 ? "it" : "them") + " is not known, so regions that meet there were not told apart");
     finding.count = lines.size();
     finding.element_kind = "line";
     for (const LineId l : lines) {

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include "base/text_cursor.h"
 #include "formats/grdecl/deck_reader.h"
@@ -34,6 +39,15 @@ bool is_file_name(std::string_view quoted) {
     const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     return dot != std::string::npos && dot + 1 < word.size() && is_letter(word[dot + 1]) &&
            std::ranges::any_of(word.substr(0, dot), is_letter);
+}
+
+/// Whether a word is a number, perhaps repeated, that a list of real numbers could hold.
+bool is_real(std::string_view word) {
+    if (const std::size_t star = word.find('*'); star != std::string_view::npos) word.remove_prefix(star + 1);
+    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size();
 }
 
 /// Values that a box gives to the uppermost layer hold for the cells below that have none yet, as simulators take them.
@@ -121,7 +135,8 @@ Failure DeckReader::array_failure(const ArrayScan& scan, std::string_view name, 
                                   "expected a number" + of + ", found " + shown(plain) +
                                       ", which looks like the name of a file: INCLUDE '" + unquoted(plain) +
                                       "' / takes the text of a file in");
-            return unreadable("F005", at, "expected a number" + of + (word ? ", or the '/' that ends it" : "") + ", found " + token);
+            const std::string wanted = is_real(item.substr(0, item.find_first_of(" \t\r\n,/"))) ? "a whole number" : "a number";
+            return unreadable("F005", at, "expected " + wanted + of + (word ? ", or the '/' that ends it" : "") + ", found " + token);
         }
         case ArrayStatus::ok:
         case ArrayStatus::too_many:

@@ -45,6 +45,8 @@ TEST(WrongDecks, NumbersThatAreNone) {
     EXPECT_EQ(bad(small + "PORO\n 0.1 0.2 0.3 1e999 /\n"), "F006 grid.grdecl:9:14");
     EXPECT_EQ(bad(small + "SATNUM\n 1 2.0 3 4 /\n"), "F005 grid.grdecl:9:4");
     EXPECT_EQ(bad(small + "SATNUM\n 1 2 3 3000000000 /\n"), "F005 grid.grdecl:9:8");
+    EXPECT_EQ(message(small + "SATNUM\n 1 2.0 3 4 /\n"), "expected a whole number of SATNUM, found '2.0'");
+    EXPECT_EQ(message(small + "PORO\n 1 2,5x 3 4 /\n").substr(0, 25), "expected a number of PORO");
     EXPECT_EQ(bad(small + "MAPAXES\n 1 2 3 nan 5 6 /\n"), "F006 grid.grdecl:9:8");
 }
 
