@@ -60,18 +60,16 @@ std::vector<StatedRegion> stated_regions(const SurfaceComplex& complex, std::spa
     return regions;
 }
 
-/// Tells of lists that name the Universe: what is outside of the model is in none.
-void report_universe_in_lists(const SurfaceComplex& complex, const std::vector<SurfaceComplex::RegionList>& lists, const char* kind,
-                              Assembly& a) {
-    for (const auto& list : lists) {
+/// Tells of layers that list the Universe, which is outside of the model. Gocad does so with the fault block of what is in none.
+void report_universe_in_layers(const SurfaceComplex& complex, Assembly& a) {
+    for (const auto& layer : complex.layers) {
         const auto is_outside = [&](std::uint32_t r) { return r < complex.regions.size() && complex.regions[r].universe; };
-        const auto found = std::ranges::find_if(list.regions, is_outside);
-        if (found == list.regions.end()) continue;
-        Finding finding = make_finding("F113",
-                                       std::string(kind) + " '" + list.name + "' lists region '" + complex.regions[*found].name +
-                                           "', which is the outside of the model: it is left out of the list",
-                                       {}, 1);
-        finding.entities = {{kind, list.name, -1}, {"region", complex.regions[*found].name, -1}};
+        const auto found = std::ranges::find_if(layer.regions, is_outside);
+        if (found == layer.regions.end()) continue;
+        const std::string& universe = complex.regions[*found].name;
+        Finding finding = make_finding(
+            "F113", "layer '" + layer.name + "' lists region '" + universe + "', which is the outside of the model: it is left out", {}, 1);
+        finding.entities = {{"layer", layer.name, -1}, {"region", universe, -1}};
         a.findings.push_back(std::move(finding));
     }
 }
@@ -92,8 +90,7 @@ void make_lists(const SurfaceComplex& complex, const std::vector<RegionId>& ids,
     };
     resolve(complex.layers, a.brep.layers);
     resolve(complex.fault_blocks, a.brep.fault_blocks);
-    report_universe_in_lists(complex, complex.layers, "layer", a);
-    report_universe_in_lists(complex, complex.fault_blocks, "fault block", a);
+    report_universe_in_layers(complex, a);
     if (missing.empty() || was_reported(complex, "F109")) return;
     Finding finding = make_finding("F109", "layers or fault blocks list " + std::to_string(missing.size()) + " numbers without a region",
                                    {}, missing.size());
