@@ -9,6 +9,7 @@
 
 #include "base/place_words.h"
 #include "base/vectors.h"
+#include "base/wording.h"
 #include "repair/surface_steps.h"
 
 namespace geomend::repair {
@@ -113,8 +114,8 @@ Failure stray_points(const std::vector<SurfaceModel::StrayPoint>& stray) {
     const Vec3& at = stray[0].at;
     return failure(FailureKind::usage, "F018", {},
                    "no box fits these surfaces: " + counted(stray.size(), "point lies", "points lie") + " far off, of " +
-                       quoted(stray[0].surface) + " at (" + rounded(at[0]) + ", " + rounded(at[1]) + ", " + rounded(at[2]) +
-                       "); give such points their heights or remove them, or give the sides of the box");
+                       quoted(stray[0].surface) + " at " + place_words(at) +
+                       "; give such points their heights or remove them, or give the sides of the box");
 }
 
 constexpr std::array<std::string_view, 6> names = {"box_west", "box_east", "box_south", "box_north", "box_base", "box_top"};

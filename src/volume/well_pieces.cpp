@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/length.h"
+#include "base/place_words.h"
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "geometry/segment_tree.h"
@@ -136,7 +137,7 @@ std::string near_wells_text(const NearWells& near) {
     return (near.first == near.second ? "well " + quoted(near.first) + " comes within " + rounded(near.distance) + " of itself"
                                       : "wells " + quoted(near.first) + " and " + quoted(near.second) + " come within " +
                                             rounded(near.distance) + " of each other") +
-           " at (" + short_number(p[0]) + ", " + short_number(p[1]) + ", " + short_number(p[2]) + ") without meeting";
+           " at " + place_words(p) + " without meeting";
 }
 
 Result<std::vector<std::optional<NearWells>>> part_edges(CutByWells& cut, std::span<RegionFacets> facets,
