@@ -2,8 +2,11 @@
 #include "validators/free_borders.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "base/disjoint_sets.h"
 #include "base/place_words.h"
@@ -62,6 +65,44 @@ void face(const BrepData& brep, FreeBorder& border) {
     }
 }
 
+/// Free lines that hang together as rings, each of which goes round once: holes may touch in a point. All in one where lines end or
+/// branch so that there are no such rings.
+std::vector<std::vector<std::uint32_t>> rings_of(const BrepData& brep, const std::vector<std::uint32_t>& lines) {
+    std::vector<std::vector<std::uint32_t>> rings;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> open_at;  // per vertex the lines that end there and are in no ring
+    const auto ends = [&](std::uint32_t l) {
+        const auto& v = brep.lines[l].vertices;
+        return std::array{v.front().value, v.back().value};
+    };
+    for (const std::uint32_t l : lines) {
+        const auto [a, b] = ends(l);
+        if (a == b) rings.push_back({l});
+        else open_at[a].push_back(l), open_at[b].push_back(l);
+    }
+    if (std::ranges::any_of(open_at, [](const auto& at) { return at.second.size() % 2 != 0; })) return {lines};
+    for (const auto& [start, unused] : open_at) {
+        std::vector<std::uint32_t> way, stations{start};  // lines, and the vertices before and behind them
+        while (!way.empty() || !open_at[stations.back()].empty()) {
+            const std::uint32_t here = stations.back(), l = open_at[here].back();
+            const auto [a, b] = ends(l);
+            const std::uint32_t there = a == here ? b : a;
+            std::erase(open_at[here], l);
+            std::erase(open_at[there], l);
+            way.push_back(l);
+            const auto again = std::ranges::find(stations, there);
+            const auto first = again - stations.begin();
+            if (again == stations.end()) {
+                stations.push_back(there);
+                continue;
+            }
+            rings.emplace_back(way.begin() + first, way.end());
+            way.resize(static_cast<std::size_t>(first));
+            stations.resize(static_cast<std::size_t>(first) + 1);
+        }
+    }
+    return rings;
+}
+
 }  // namespace
 
 std::vector<FreeBorder> free_borders(const ModelScope& scope, std::span<const std::uint32_t> lines) {
@@ -77,13 +118,17 @@ std::vector<FreeBorder> free_borders(const ModelScope& scope, std::span<const st
     for (std::uint32_t i = 0; i < free.size(); ++i) {
         for (const CornerId c : brep.lines[free[i]].corners) joined.join(i, at_corner.emplace(c.value, i).first->second);
     }
-    std::map<std::uint32_t, FreeBorder> by_root;
-    for (std::uint32_t i = 0; i < free.size(); ++i) by_root[joined.root(i)].lines.push_back(free[i]);
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
+    for (std::uint32_t i = 0; i < free.size(); ++i) by_root[joined.root(i)].push_back(free[i]);
     std::vector<FreeBorder> borders;
-    for (auto& [root, border] : by_root) {
-        measure(brep, border);
-        face(brep, border);
-        borders.push_back(std::move(border));
+    for (const auto& [root, together] : by_root) {
+        for (auto& ring : rings_of(brep, together)) {
+            FreeBorder border;
+            border.lines = std::move(ring);
+            measure(brep, border);
+            face(brep, border);
+            borders.push_back(std::move(border));
+        }
     }
     std::ranges::stable_sort(borders, {}, &FreeBorder::length);
     return borders;

@@ -130,6 +130,7 @@ constexpr std::array unmended = {
     Unmended{"F164", reading},
     Unmended{"F165", reading},
     Unmended{"F166", reading},
+    Unmended{"F167", no_defect},
     // Geology.
     Unmended{"G01", geology},
     Unmended{"G02", geology},

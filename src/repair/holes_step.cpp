@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/bounds.h"
@@ -23,19 +26,58 @@ struct Loop {
     double length = 0;
 };
 
+/// The free border edges of a patch that begin at a vertex and are in no loop yet.
+using Outgoing = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>>;
+
+Outgoing outgoing_of(const TriangleSoup& soup, const FreeBorders& borders) {
+    Outgoing from;
+    for (std::uint32_t e = 0; e < borders.edges.size(); ++e)
+        from[{soup.patches[borders.edges[e].triangle], borders.edges[e].from}].push_back(e);
+    return from;
+}
+
+/// Whether triangles that fill a loop would face the way that those around it do: else it goes around them.
+bool is_around_nothing(const TriangleSoup& soup, const FreeBorders& borders, const std::vector<std::uint32_t>& edges) {
+    Vec3 filling{}, around{};
+    const Vec3& origin = soup.vertices[borders.edges[edges[0]].from];
+    for (const std::uint32_t e : edges) {
+        const auto& [a, b, c] = soup.triangles[borders.edges[e].triangle];
+        const Vec3 &from = soup.vertices[borders.edges[e].from], &to = soup.vertices[borders.edges[e].to];
+        filling = plus(filling, cross(minus(to, origin), minus(from, origin)));
+        around = plus(around, cross(minus(soup.vertices[b], soup.vertices[a]), minus(soup.vertices[c], soup.vertices[a])));
+    }
+    return dot(filling, around) > 0;
+}
+
+/// Loops that go through no vertex twice: holes that touch in a point are two. Of loops that touch others, those around nothing.
 std::vector<Loop> closed_loops(const TriangleSoup& soup, const FreeBorders& borders) {
     std::vector<Loop> loops;
+    Outgoing from = outgoing_of(soup, borders);
     std::vector<std::uint8_t> done(borders.edges.size(), 0);
-    for (std::uint32_t start = 0; start < done.size(); ++start) {
-        if (done[start] != 0) continue;
-        Loop loop{{}, soup.patches[borders.edges[start].triangle], 0};
-        std::uint32_t e = start;
-        for (; e != no_index && done[e] == 0; e = borders.edges[e].next) {
-            done[e] = 1;
-            loop.edges.push_back(e);
+    const auto take = [&](const std::vector<std::uint32_t>& edges, std::uint32_t patch) {
+        const bool touches = std::ranges::any_of(edges, [&](std::uint32_t e) { return borders.edges[e].next == no_index; });
+        if (touches && !is_around_nothing(soup, borders, edges)) return;
+        Loop loop{edges, patch, 0};
+        for (const std::uint32_t e : edges)
             loop.length += length(minus(soup.vertices[borders.edges[e].to], soup.vertices[borders.edges[e].from]));
+        loops.push_back(std::move(loop));
+    };
+    for (std::uint32_t start = 0; start < done.size(); ++start) {
+        const std::uint32_t patch = soup.patches[borders.edges[start].triangle];
+        std::vector<std::uint32_t> way;
+        for (std::uint32_t e = done[start] == 0 ? start : no_index; e != no_index;) {
+            done[e] = 1;
+            way.push_back(e);
+            const std::uint32_t here = borders.edges[e].to;
+            const auto again = std::ranges::find(way, here, [&](std::uint32_t k) { return borders.edges[k].from; });
+            if (again != way.end()) {
+                take({again, way.end()}, patch);
+                way.erase(again, way.end());
+            }
+            const auto& all = from[{patch, here}];
+            const auto next = std::ranges::find(all, 0, [&](std::uint32_t k) { return done[k]; });
+            e = next == all.end() || (way.empty() && here != borders.edges[start].from) ? no_index : *next;
         }
-        if (e == start) loops.push_back(std::move(loop));
     }
     return loops;
 }

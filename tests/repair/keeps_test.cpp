@@ -330,5 +330,25 @@ TEST(Weld, EndsWhereNothingSettles) {
     EXPECT_TRUE(run.status == 0 || run.status == 6) << run.status << run.out << run.err;
 }
 
+// A cube of side 10 without two triangles that have one corner in common.
+TEST(Holes, ThatTouchInAPointAreFoundAndFilled) {
+    const TemporaryFolder folder;
+    std::string text = "GOCAD TSurf 1\nHEADER {\nname:cube\n}\nTFACE\n";
+    for (int v = 0; v < 8; ++v) {
+        text += "VRTX " + std::to_string(v + 1);
+        for (int axis = 0; axis < 3; ++axis) text += (v >> axis) % 2 != 0 ? " 10" : " 0";
+        text += '\n';
+    }
+    // Missing: 1 3 4 of the bottom and 1 2 6 of a side.
+    for (const char* t : {"1 4 2", "5 6 8", "5 8 7", "1 6 5", "3 7 8", "3 8 4", "1 5 7", "1 7 3", "2 4 8", "2 8 6"})
+        text += std::string("TRGL ") + t + '\n';
+    write_file(folder / "in.ts", text + "END\n");
+    const auto checked = run_geomend({"validate", folder / "in.ts"});
+    EXPECT_NE(checked.out.find("B29"), std::string::npos) << "it is open, and says so\n" << checked.out;
+    const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--max-gap", "40"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    expect_volumes(folder / "out.ml", {1000});
+}
+
 }  // namespace
 }  // namespace geomend
