@@ -118,11 +118,19 @@ std::vector<FreeBorder> free_borders(const ModelScope& scope, std::span<const st
     for (std::uint32_t i = 0; i < free.size(); ++i) {
         for (const CornerId c : brep.lines[free[i]].corners) joined.join(i, at_corner.emplace(c.value, i).first->second);
     }
+    const topology::LineGraph& graph = scope.model().graph;
+    const auto surface_at = [&](std::uint32_t l) {
+        const auto uses = graph.edge_uses(graph.edges[graph.line_edges[graph.line_first_edge[l]]]);
+        const auto of_surface = std::ranges::find_if(uses, [](const auto& use) { return use.surface != no_index; });
+        return of_surface == uses.end() ? no_index : of_surface->surface;
+    };
     std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
     for (std::uint32_t i = 0; i < free.size(); ++i) by_root[joined.root(i)].push_back(free[i]);
     std::vector<FreeBorder> borders;
     for (const auto& [root, together] : by_root) {
-        for (auto& ring : rings_of(brep, together)) {
+        const bool of_one = std::ranges::all_of(together, [&](std::uint32_t l) { return surface_at(l) == surface_at(together[0]); });
+        auto rings = of_one ? rings_of(brep, together) : std::vector<std::vector<std::uint32_t>>{together};
+        for (auto& ring : rings) {
             FreeBorder border;
             border.lines = std::move(ring);
             measure(brep, border);

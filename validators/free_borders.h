@@ -22,7 +22,8 @@ struct FreeBorder {
     Vec3 facing{};       ///< of a closed one: a vector as long as the area that it goes round, across it; its sign means nothing
 };
 
-/// The lines among `lines` that are free borders, as they hang together, rings that touch in points apart; the shortest first.
+/// The lines among `lines` that are free borders, as they hang together, rings of one surface that touch in points
+/// apart; the shortest first.
 /// \pre lines are of the model  Cost: n log n in their vertices.
 std::vector<FreeBorder> free_borders(const ModelScope& scope, std::span<const std::uint32_t> lines);
 
