@@ -92,7 +92,8 @@ TEST(Spe11, ABoxGridTakesItsFaciesAndRunsInFlow) {
     EXPECT_EQ(made["properties"][0]["without_value"], 0);
     EXPECT_EQ(run_geomend({"validate", folder / "spe11.grdecl"}).status, 0);
     if (std::system("command -v flow > /dev/null 2>&1") != 0) GTEST_SKIP() << "flow is not installed";
-    const std::string run = "cd " + folder.path().string() + " && timeout 300 flow spe11.DATA --output-dir=out > log 2>&1";
+    const std::string run =
+        "cd " + folder.path().string() + " && OMPI_MCA_orte_tmpdir_base=$PWD timeout 300 flow spe11.DATA --output-dir=out > log 2>&1";
     ASSERT_EQ(std::system(run.c_str()), 0);
     const auto in_flow = geomend::test::info(folder / "out/SPE11.EGRID");
     EXPECT_EQ(in_flow["objects"][0]["counts"]["active_cells"], made["active_cells"]);
