@@ -450,10 +450,10 @@ BrepData creased(const BrepData& brep, const RemeshOptions& options) {
 /// Sizes that make few enough triangles, in words; where close lines keep triangles small it takes more than their number says.
 /// \param count of triangles as sizes are
 std::string sizes_that_do(const BrepData& brep, const RemeshOptions& options, double count) {
-    constexpr int most_tries = 20;
+    constexpr int most_sizes = 20;
     const double whole = diagonal_of(brep), number = std::sqrt(count / static_cast<double>(options.most_triangles));
     double factor = std::isfinite(number) ? std::max(1.0, number) : 1e-3 * whole / options.size;
-    for (int i = 0; i < most_tries && (!has_one_size(options) || factor * options.size < whole); ++i, factor *= 1.25) {
+    for (int i = 0; i < most_sizes && (!has_one_size(options) || factor * options.size < whole); ++i, factor *= 1.25) {
         const std::string offered = two_digits_above(has_one_size(options) ? options.size * factor : factor);
         const double exactly = std::strtod(offered.c_str(), nullptr) / (has_one_size(options) ? options.size : 1);
         const RemeshOptions larger = with_larger_sizes(options, exactly);
