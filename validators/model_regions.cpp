@@ -518,16 +518,14 @@ void check_outside_surfaces(const ModelScope& scope, std::vector<Finding>& findi
         for (const auto& side : region.sides) is_beside_cells[side.surface.value] = 1;
     }
     // Where polygons coincide at a line of a surface, which regions it bounds is not certain (B17).
-    std::vector<std::uint8_t> is_uncertain(brep.surfaces.size(), 0);
-    for (std::uint32_t s = 0; s < brep.surfaces.size() && !found.uncertain_lines.empty(); ++s) {
-        const auto is_one = [&](const auto& at) {
-            return std::ranges::find(found.uncertain_lines, at.line) != found.uncertain_lines.end();
-        };
-        is_uncertain[s] = std::ranges::any_of(brep.surfaces[s].lines, is_one) ? 1 : 0;
-    }
+    std::vector<std::uint8_t> uncertain_line(brep.lines.size(), 0);
+    for (const LineId l : found.uncertain_lines) uncertain_line[l.value] = 1;
+    const auto is_uncertain = [&](std::uint32_t s) {
+        return std::ranges::any_of(brep.surfaces[s].lines, [&](const auto& at) { return uncertain_line[at.line.value] != 0; });
+    };
     Finding finding;
     for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
-        if (brep.surfaces[s].polygons.size() == 0 || is_beside_cells[s] != 0 || is_uncertain[s] != 0) continue;
+        if (brep.surfaces[s].polygons.size() == 0 || is_beside_cells[s] != 0 || is_uncertain(s)) continue;
         if (found.region_of_side[2 * s] != no_index || found.region_of_side[2 * s + 1] != no_index) continue;
         if (finding.code.empty()) finding = finding_of("B16", {});
         ++finding.count;

@@ -270,43 +270,35 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         if (auto added = add_errors_as_asked(options.checks, *repaired); !added) return std::move(added).why();
         return repaired;
     };
-    const auto is_better = [&](const SurfaceRepair& repair) { return !best || left_by(repair) < left_by(best->repair); };
+    // What is better than all before is kept; what is left of it is worked out once.
+    Left left;
+    const auto try_plan = [&](const std::optional<SurfacePlan>& plan) -> Result<void> {
+        if (!plan) return {};
+        auto repaired = attempt(*plan);
+        if (!repaired) return std::move(repaired).why();
+        const Left of_this = left_by(*repaired);
+        if (best && !(of_this < left)) return {};
+        left = of_this;
+        best = PlannedRepair{std::move(*repaired), *plan, {}, {}};
+        return {};
+    };
     for (const SurfacePlan& plan : plans) {
-        auto repaired = attempt(plan);
-        if (!repaired) return std::move(repaired).why();
-        if (!is_better(*repaired)) continue;
-        best = PlannedRepair{std::move(*repaired), plan, {}, {}};
-        if (left_by(best->repair).nothing()) break;
+        if (auto tried = try_plan(plan); !tried) return std::move(tried).why();
+        if (left.nothing()) break;
     }
-    if (left_by(best->repair).thin > 0) {
-        if (const auto longer = welded_before_cut(best->plan)) {
-            auto repaired = attempt(*longer);
-            if (!repaired) return std::move(repaired).why();
-            if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}, {}};
-        }
+    if (left.thin > 0) {
+        if (auto tried = try_plan(welded_before_cut(best->plan)); !tried) return std::move(tried).why();
     }
-    if (const auto longer = welded_at_the_end(best->plan, best->repair.errors)) {
-        auto repaired = attempt(*longer);
-        if (!repaired) return std::move(repaired).why();
-        if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}, {}};
+    if (auto tried = try_plan(welded_at_the_end(best->plan, best->repair.errors)); !tried) return std::move(tried).why();
+    if (auto tried = try_plan(filled_after_cut(best->plan, best->repair)); !tried) return std::move(tried).why();
+    if (left.errors > 0) {
+        if (auto tried = try_plan(by_finest(dataset, best->plan, options)); !tried) return std::move(tried).why();
     }
-    if (const auto longer = filled_after_cut(best->plan, best->repair)) {
-        auto repaired = attempt(*longer);
-        if (!repaired) return std::move(repaired).why();
-        if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *longer, {}, {}};
-    }
-    if (left_by(best->repair).errors > 0) {
-        if (const auto finer = by_finest(dataset, best->plan, options)) {
-            auto repaired = attempt(*finer);
-            if (!repaired) return std::move(repaired).why();
-            if (is_better(*repaired)) best = PlannedRepair{std::move(*repaired), *finer, {}, {}};
-        }
-    }
-    if (!search || (left_by(best->repair).errors == 0 && best->repair.closed)) return std::move(*best);
+    if (!search || (left.errors == 0 && best->repair.closed)) return std::move(*best);
     // What is left of a closed model where nearly all is mended is no matter of a larger tolerance, and a try takes as long as the repair.
     constexpr std::uint64_t nearly_all = 10;
     const auto had = static_cast<std::uint64_t>(std::ranges::count(before, Severity::error, &Finding::severity));
-    if (best->repair.closed && nearly_all * left_by(best->repair).errors <= had) return std::move(*best);
+    if (best->repair.closed && nearly_all * left.errors <= had) return std::move(*best);
     auto wider = wider_tolerances(dataset, options);
     if (!wider) return std::move(wider).why();
     for (const double tolerance : wider->lengths) {
