@@ -60,7 +60,9 @@ private:
 class RowMaker {
 public:
     RowMaker(const CornerPointGrid& grid, std::span<const std::uint8_t> present, const PillarNodes& nodes)
-        : planes_(grid, present, nodes), levels_(grid, present, nodes), pillar_nodes_(static_cast<std::uint32_t>(nodes.size())) {}
+        : planes_(grid, present, nodes),
+          levels_(grid, present, nodes, planes_.depths()),
+          pillar_nodes_(static_cast<std::uint32_t>(nodes.size())) {}
 
     void start(std::uint32_t j, std::span<const RowPoints> rows) {
         planes_.make(j, south_);

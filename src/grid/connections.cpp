@@ -48,7 +48,7 @@ void connect_row(const CornerPointGrid& grid, std::uint32_t j, PairSides& sides,
         const std::uint32_t second = first + (pair.along_i ? 1 : grid.dims[0]);
         const std::uint32_t layer = grid.dims[0] * grid.dims[1];
         each_contact(sides, [&](std::uint32_t k, std::uint32_t m) {
-            if (!grid.reservoirs.empty() && pillar_set(grid, k) != pillar_set(grid, m)) return;
+            if (!on_same_pillars(grid, k, m)) return;
             ++row.internal;
             if (k == m) to.neighbours[first + std::size_t{layer} * k] |= pair.along_i ? Connections::east : Connections::south;
             else
@@ -84,30 +84,32 @@ std::size_t next_below(const CornerPointGrid& grid, std::span<const std::uint8_t
     return cells;
 }
 
+bool on_same_pillars(const CornerPointGrid& grid, std::uint32_t one, std::uint32_t two) {
+    return grid.reservoirs.empty() || pillar_set(grid, one) == pillar_set(grid, two);
+}
+
 bool stacked(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::uint32_t upper, std::uint32_t lower) {
-    if (!grid.reservoirs.empty() && pillar_set(grid, upper) != pillar_set(grid, lower)) return false;
+    if (!on_same_pillars(grid, upper, lower)) return false;
     const double* bottom = grid.depths.data() + corner_index(grid.dims, i, j, upper, 4);
     const double* top = grid.depths.data() + corner_index(grid.dims, i, j, lower, 0);
     const std::size_t row = 2 * std::size_t{grid.dims[0]};
     return bottom[0] == top[0] && bottom[1] == top[1] && bottom[row] == top[row] && bottom[row + 1] == top[row + 1];
 }
 
-void column_sides(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, CellFace face, std::span<Side> sides) {
+void column_sides(ColumnDepths& depths, std::uint32_t i, std::uint32_t j, CellFace face, std::span<Side> sides) {
     const auto [a, b] = side_corners[static_cast<std::size_t>(face)];
-    const std::size_t plane = 4 * std::size_t{grid.dims[0]} * grid.dims[1];
-    const double* at_a = grid.depths.data() + corner_index(grid.dims, i, j, 0, a);
-    const double* at_b = grid.depths.data() + corner_index(grid.dims, i, j, 0, b);
-    for (std::size_t k = 0; k < sides.size(); ++k) {
-        sides[k] = {at_a[2 * k * plane], at_b[2 * k * plane], at_a[(2 * k + 1) * plane], at_b[(2 * k + 1) * plane]};
-    }
+    const std::size_t column = 2 * std::size_t{i}, row = 2 * std::size_t{j};
+    const double* at_a = depths.column(column + (a & 1u), row + (a >> 1));
+    const double* at_b = depths.column(column + (b & 1u), row + (b >> 1));
+    for (std::size_t k = 0; k < sides.size(); ++k) sides[k] = {at_a[2 * k], at_b[2 * k], at_a[2 * k + 1], at_b[2 * k + 1]};
 }
 
 void load(const CornerPointGrid& grid, std::span<const std::uint8_t> present, const ColumnPair& pair, PairSides& sides) {
     const std::uint32_t i2 = pair.i + (pair.along_i ? 1 : 0), j2 = pair.j + (pair.along_i ? 0 : 1);
     sides.first.resize(grid.dims[2]);
     sides.second.resize(grid.dims[2]);
-    column_sides(grid, pair.i, pair.j, pair.along_i ? CellFace::i_plus : CellFace::j_plus, sides.first);
-    column_sides(grid, i2, j2, pair.along_i ? CellFace::i_minus : CellFace::j_minus, sides.second);
+    column_sides(sides.depths, pair.i, pair.j, pair.along_i ? CellFace::i_plus : CellFace::j_plus, sides.first);
+    column_sides(sides.depths, i2, j2, pair.along_i ? CellFace::i_minus : CellFace::j_minus, sides.second);
     column_presence(grid, present, pair.i, pair.j, sides.first_active);
     column_presence(grid, present, i2, j2, sides.second_active);
     sides.ordered = in_order(sides.first, sides.first_active) && in_order(sides.second, sides.second_active);
@@ -123,7 +125,7 @@ Connections connections(const CornerPointGrid& grid, SimulatedCells cells) {
     result.internal = result.bridges.size();
     std::vector<RowResult> rows(grid.dims[1]);
     parallel_blocks(rows.size(), 1, [&](std::size_t first, std::size_t last) {
-        PairSides sides;
+        PairSides sides(grid);
         for (std::size_t j = first; j < last; ++j) {
             connect_row(grid, static_cast<std::uint32_t>(j), sides, result, rows[j]);
             connect_downwards(grid, static_cast<std::uint32_t>(j), result, rows[j]);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "grid/column_depths.h"
 #include "grid/side_overlap.h"
 #include "grid/simulated_cells.h"
 #include "model/corner_point.h"
@@ -44,13 +45,16 @@ Connections connections(const CornerPointGrid& grid, SimulatedCells cells);
 /// The next present cell below, in the same column, or grid.cell_count().
 std::size_t next_below(const CornerPointGrid& grid, std::span<const std::uint8_t> present, std::size_t cell);
 
+/// True where two layers use the same set of coordinate lines.
+bool on_same_pillars(const CornerPointGrid& grid, std::uint32_t one, std::uint32_t two);
+
 /// True where the bottom of one cell is the top of another of the same column, on all four pillars.
 /// \param upper, lower layers of column (i,j)
 bool stacked(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, std::uint32_t upper, std::uint32_t lower);
 
 /// The sides that the cells of column (i,j) turn to a neighbour, one per layer; face is one of the four lateral ones.
 /// Pillar a is the one with the lower j (for i faces) or the lower i (for j faces).
-void column_sides(const CornerPointGrid& grid, std::uint32_t i, std::uint32_t j, CellFace face, std::span<Side> sides);
+void column_sides(ColumnDepths& depths, std::uint32_t i, std::uint32_t j, CellFace face, std::span<Side> sides);
 
 /// Two columns side by side.
 struct ColumnPair {
@@ -61,12 +65,14 @@ struct ColumnPair {
 
 /// Buffers for one pair of columns, reused from pair to pair.
 struct PairSides {
+    explicit PairSides(const CornerPointGrid& grid) : depths(grid) {}
+    ColumnDepths depths;
     std::vector<Side> first, second;
     std::vector<std::uint8_t> first_active, second_active;
     bool ordered = false;  ///< active cells of both columns lie one below the other, upright
 };
 
-/// Fills the buffers for a pair; cells that are not present count as inactive.
+/// Fills the buffers for a pair, those made for this grid; cells that are not present count as inactive.
 void load(const CornerPointGrid& grid, std::span<const std::uint8_t> present, const ColumnPair& pair, PairSides& sides);
 
 /// Calls body(k of the first column, k of the second) for each pair of active cells whose sides share area, ascending.

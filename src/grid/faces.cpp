@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "grid/column_depths.h"
 #include "grid/level_faces.h"
 #include "grid/pillar_nodes.h"
 #include "grid/plane_faces.h"
@@ -62,7 +63,8 @@ void add_levels(const CornerPointGrid& grid, const PillarNodes& nodes, std::span
     for (std::size_t start = 0; start < grid.dims[1]; start += rows_at_once) {
         const std::size_t count = std::min<std::size_t>(rows_at_once, grid.dims[1] - start);
         parallel_blocks(count, 1, [&](std::size_t first, std::size_t last) {
-            LevelMaker maker(grid, to.present, nodes);
+            ColumnDepths depths(grid);
+            LevelMaker maker(grid, to.present, nodes, depths);
             for (std::size_t r = first; r < last; ++r) {
                 const NumberedRow &north = rows[start + r], &south = rows[start + r + 1];
                 maker.make(static_cast<std::uint32_t>(start + r), {&north.row, north.shift}, {&south.row, south.shift}, batches[r]);

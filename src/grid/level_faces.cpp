@@ -23,23 +23,31 @@ void LevelMaker::stack(std::uint32_t i, std::uint32_t j) {
     const std::size_t layer = std::size_t{grid_.dims[0]} * grid_.dims[1], column = grid_.cell(i, j, 0);
     std::uint32_t above = no_cell;
     last_ = {};
+    for (unsigned c = 0; c < 4; ++c) columns_[c] = depths_.column(2 * std::size_t{i} + (c & 1u), 2 * std::size_t{j} + (c >> 1));
     for (std::uint32_t k = 0; k < grid_.dims[2]; ++k) {
         const auto cell = static_cast<std::uint32_t>(column + k * layer);
         if (present_[cell] == 0) continue;
-        const bool touching = above != no_cell && stacked(grid_, i, j, above, k);
-        if (above != no_cell) level(i, j, above, touching ? cell : no_cell, CellFace::k_plus);
-        if (!touching) level(i, j, k, no_cell, CellFace::k_minus);
+        const bool touch = above != no_cell && touching(above, k);
+        if (above != no_cell) level(i, j, above, touch ? cell : no_cell, CellFace::k_plus);
+        if (!touch) level(i, j, k, no_cell, CellFace::k_minus);
         above = k;
     }
     if (above != no_cell) level(i, j, above, no_cell, CellFace::k_plus);
 }
 
+// The bottom of one cell of the column is the top of another.
+bool LevelMaker::touching(std::uint32_t upper, std::uint32_t lower) const {
+    const std::size_t bottom = 2 * std::size_t{upper} + 1, top = 2 * std::size_t{lower};
+    return on_same_pillars(grid_, upper, lower) &&
+           std::ranges::all_of(columns_, [&](const double* depths) { return depths[bottom] == depths[top]; });
+}
+
 void LevelMaker::level(std::uint32_t i, std::uint32_t j, std::uint32_t k, std::uint32_t other, CellFace side) {
-    const unsigned base = side == CellFace::k_plus ? 4 : 0;
+    const std::size_t place = 2 * std::size_t{k} + (side == CellFace::k_plus ? 1 : 0);
     const std::size_t pillar = pillar_of(grid_, i, j, k, 0), lines = std::size_t{grid_.dims[0]} + 1;
     std::array<double, 4> depth;
     for (unsigned c = 0; c < 4; ++c) {
-        depth[c] = grid_.depths[corner_index(grid_.dims, i, j, k, c + base)];
+        depth[c] = columns_[c][place];
         last_[c] = nodes_.id(pillar + (c & 1u) + (c >> 1) * lines, depth[c], last_[c]);
     }
     polygon_.clear();

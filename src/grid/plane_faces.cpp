@@ -64,7 +64,7 @@ void PlaneMaker::across_j(std::uint32_t i, std::uint32_t j) {
 void PlaneMaker::border(std::uint32_t i, std::uint32_t j, CellFace face, const Between& between) {
     sides_.first.resize(grid_.dims[2]);
     sides_.first_active.resize(grid_.dims[2]);
-    column_sides(grid_, i, j, face, sides_.first);
+    column_sides(sides_.depths, i, j, face, sides_.first);
     for (std::uint32_t k = 0; k < grid_.dims[2]; ++k) sides_.first_active[k] = present_[grid_.cell(i, j, k)];
     number(sides_.first, sides_.first_active, between, first_nodes_);
     for (std::uint32_t k = 0; k < grid_.dims[2]; ++k) {

@@ -70,11 +70,14 @@ class PlaneMaker {
 public:
     /// \param present as present_cells() gives it
     PlaneMaker(const CornerPointGrid& grid, std::span<const std::uint8_t> present, const PillarNodes& nodes)
-        : grid_(grid), present_(present), nodes_(nodes) {}
+        : grid_(grid), present_(present), nodes_(nodes), sides_(grid) {}
 
     /// \param j row of pillars, 0 .. ny
     /// \param to loses what it held; its arrays are used again. Cost: linear in layers for columns that are in order.
     void make(std::uint32_t j, PlaneRow& to);
+
+    /// Holds the rows of depths that were last read: after make(j), those of the columns of row j - 1 and j.
+    ColumnDepths& depths() { return sides_.depths; }
 
 private:
     // The pillars at both ends of a plane, without the shift of the set of coordinate lines.

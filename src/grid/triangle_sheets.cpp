@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::uint32_t nobody = 0xffffffffu;
 
-struct Edge {
+struct SideOfTriangle {
     std::uint32_t low, high, triangle;
     std::uint8_t forward;  // the triangle runs from low to high
-    auto operator<=>(const Edge&) const = default;
+    auto operator<=>(const SideOfTriangle&) const = default;
 };
 
-std::vector<Edge> edges_of(std::span<const std::array<std::uint32_t, 3>> triangles) {
-    std::vector<Edge> edges;
+std::vector<SideOfTriangle> edges_of(std::span<const std::array<std::uint32_t, 3>> triangles) {
+    std::vector<SideOfTriangle> edges;
     edges.reserve(3 * triangles.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -31,7 +31,7 @@ std::vector<Edge> edges_of(std::span<const std::array<std::uint32_t, 3>> triangl
 
 // Calls body(first, last) for each run of uses of one edge.
 template <class Body>
-void each_edge(std::span<const Edge> edges, const Body& body) {
+void each_edge(std::span<const SideOfTriangle> edges, const Body& body) {
     for (std::size_t i = 0, j; i < edges.size(); i = j) {
         for (j = i + 1; j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high;) ++j;
         body(edges.subspan(i, j - i));
@@ -95,10 +95,10 @@ private:
 
 TriangleSheets triangle_sheets(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint64_t> plane,
                                bool may_turn) {
-    const std::vector<Edge> edges = edges_of(triangles);
+    const std::vector<SideOfTriangle> edges = edges_of(triangles);
     const auto link = [&](const auto& apart) {
         Links links(triangles.size());
-        each_edge(edges, [&](std::span<const Edge> uses) {
+        each_edge(edges, [&](std::span<const SideOfTriangle> uses) {
             if (uses.size() != 2 || apart(uses[0].triangle, uses[1].triangle)) return;
             const bool against = uses[0].forward == uses[1].forward;
             if (against && !may_turn) return;
@@ -109,12 +109,12 @@ TriangleSheets triangle_sheets(std::span<const std::array<std::uint32_t, 3>> tri
     };
     TriangleSheets sheets = Walker(triangles.size(), link([](auto, auto) { return false; })).walk();
     std::vector<std::uint8_t> meets_itself(sheets.count, 0);
-    each_edge(edges, [&](std::span<const Edge> uses) {
+    each_edge(edges, [&](std::span<const SideOfTriangle> uses) {
         if (uses.size() < 3) return;
-        for (const Edge& one : uses) {
+        for (const SideOfTriangle& one : uses) {
             const std::uint32_t sheet = sheets.sheet[one.triangle];
-            const auto own =
-                static_cast<std::size_t>(std::ranges::count_if(uses, [&](const Edge& use) { return sheets.sheet[use.triangle] == sheet; }));
+            const auto own = static_cast<std::size_t>(
+                std::ranges::count_if(uses, [&](const SideOfTriangle& use) { return sheets.sheet[use.triangle] == sheet; }));
             if (own > 2) meets_itself[sheet] = 1;
         }
     });
