@@ -141,16 +141,6 @@ Meant meant_of(const ModelScope& scope, const OpenGroup& group, std::span<const 
     return any([](FeatureRole role) { return !may_end_freely(role); }) ? Meant::undecided : meant;
 }
 
-void name_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfaces, Finding& finding) {
-    finding.element_kind = "surface";
-    finding.count = surfaces.size();
-    for (const std::uint32_t s : surfaces) {
-        if (finding.entities.size() >= listed_elements) break;
-        finding.entities.push_back(surface_ref(scope, s));
-        finding.index.push_back(s);
-    }
-}
-
 std::string names_of(const ModelScope& scope, std::span<const std::uint32_t> surfaces) {
     std::string text = quoted(scope.brep().surfaces[surfaces[0]].name);
     if (surfaces.size() > 1) text += " and " + counted(surfaces.size() - 1, "other surface", "other surfaces");

@@ -288,13 +288,7 @@ Finding leak_finding(const ModelScope& scope, std::uint32_t region, const std::v
     } else if (scope.model().regions_stated) {
         finding.measures = {{"stated_surfaces", static_cast<double>(surfaces.size())}};
     }
-    finding.element_kind = "surface";
-    finding.count = surfaces.size();
-    for (const std::uint32_t s : surfaces) {
-        if (finding.entities.size() >= listed_elements) break;
-        finding.entities.push_back(surface_ref(scope, s));
-        finding.index.push_back(s);
-    }
+    name_surfaces(scope, surfaces, finding);
     return finding;
 }
 

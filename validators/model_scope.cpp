@@ -208,6 +208,16 @@ Finding polygons_finding(const ModelScope& scope, std::string_view code, std::ui
 
 EntityRef surface_ref(const ModelScope& scope, std::uint32_t surface) { return {"surface", scope.brep().surfaces[surface].name, surface}; }
 
+void name_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfaces, Finding& finding) {
+    finding.element_kind = "surface";
+    finding.count = surfaces.size();
+    for (const std::uint32_t s : surfaces) {
+        if (finding.entities.size() >= listed_elements) break;
+        finding.entities.push_back(surface_ref(scope, s));
+        finding.index.push_back(s);
+    }
+}
+
 EntityRef line_ref(const ModelScope& scope, std::uint32_t line) {
     const auto& l = scope.brep().lines[line];
     if (!l.name.empty() || !l.contact.valid()) return {"line", l.name, line};

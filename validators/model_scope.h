@@ -91,6 +91,8 @@ Finding finding_of(std::string_view code, std::string message);
 Finding polygons_finding(const ModelScope& scope, std::string_view code, std::uint32_t surface, std::string message,
                          std::span<const std::uint32_t> polygons);
 EntityRef surface_ref(const ModelScope& scope, std::uint32_t surface);
+/// Makes surfaces the elements of a finding, and names the first of them.
+void name_surfaces(const ModelScope& scope, std::span<const std::uint32_t> surfaces, Finding& finding);
 EntityRef line_ref(const ModelScope& scope, std::uint32_t line);
 EntityRef region_ref(const ModelScope& scope, std::uint32_t region);
 /// "region 'Lower'" for a region found by walking along surfaces; "the outside" for no_index.

@@ -285,9 +285,8 @@ OptionalFailure DeckReader::edits() {
         if (result.applied && result.without_effect.empty()) return {};
         if (!result.without_effect.empty()) {
             note_without_effect(record.begin, result.without_effect);
-        } else if (not_applied_++ == 0) {
-            first_not_applied_ = where(record.begin);
-            missing_array_ = result.missing;
+        } else {
+            notes_.not_applied.add([&] { return where(record.begin); }, result.missing);
         }
         if (result.missing == "FLUXNUM" || result.missing == "OPERNUM")
             note_flow_stops(findings_, where(record.begin), keyword + " needs " + result.missing + ", which is not there");

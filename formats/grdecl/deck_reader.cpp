@@ -135,7 +135,7 @@ OptionalFailure DeckReader::run() {
 
 OptionalFailure DeckReader::keyword(const Item& word) {
     if (!word.quoted && word.text == "/") {
-        if (stray_slashes_++ == 0) first_stray_slash_ = where(word.at);
+        notes_.stray_slashes.add([&] { return where(word.at); });
         return {};
     }
     const std::string_view text = trimmed(word.text);
@@ -213,8 +213,7 @@ void DeckReader::end_here(const char* from) {
 
 /// A keyword that OPM Flow does not know. All of them are one finding.
 void DeckReader::note_unread(const char* at, const std::string& word) {
-    if (unread_count_++ == 0) first_unread_ = where(at);
-    if (unread_.size() < 20 && std::ranges::find(unread_, word) == unread_.end()) unread_.push_back(word);
+    notes_.unread.add([&] { return where(at); }, word);
 }
 
 void DeckReader::enter(Section s) {
@@ -400,8 +399,7 @@ OptionalFailure DeckReader::keep(const char* begin, std::string_view name, bool 
     }
     keep_text(begin, end);
     if (known || probing_) return {};
-    if (unknown_count_++ == 0) first_unknown_ = where(begin);
-    if (unknown_.size() < 100 && std::ranges::find(unknown_, name) == unknown_.end()) unknown_.emplace_back(name);
+    notes_.unknown.add([&] { return where(begin); }, name);
     return {};
 }
 

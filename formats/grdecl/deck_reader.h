@@ -10,6 +10,7 @@
 
 #include "formats/format.h"
 #include "formats/grdecl/deck.h"
+#include "formats/grdecl/deck_notes.h"
 #include "formats/grdecl/number_array.h"
 
 namespace geomend::grdecl {
@@ -110,6 +111,9 @@ private:
 
     // deck_result.cpp
     Result<Dataset> finish();
+    Result<void> need_dims();
+    Result<CornerPointGrid> grid_of(GridText& text, const std::vector<Object>& before);
+    Result<const CornerPointGrid*> host_of(const CornerPointGrid& local, const std::vector<Object>& before) const;
     void dims_from_boxes();
     void look_up_scheduled_faults();
 
@@ -145,20 +149,8 @@ private:
     std::string unit_system_;
     std::vector<std::pair<Section, std::string>> texts_;  ///< of sections that are kept as they stand
     bool in_companion_ = false;                           ///< in the file of properties that simulators do not take
-    std::vector<std::string> unread_;                     ///< keywords that OPM Flow does not know
-    Location first_unread_;
-    std::uint64_t unread_count_ = 0;
-    std::vector<std::string> unknown_;  ///< keywords that were kept, for F102
-    Location first_unknown_;
-    std::uint64_t unknown_count_ = 0;
+    DeckNotes notes_;
     std::vector<std::pair<std::string, Location>> scheduled_faults_;  ///< of MULTFLT in SCHEDULE
-    std::uint64_t stray_slashes_ = 0;
-    Location first_stray_slash_;
-    std::uint64_t remarks_ = 0;  ///< behind keywords on their lines
-    Location first_remark_;
-    std::uint64_t not_applied_ = 0;
-    Location first_not_applied_;
-    std::string missing_array_;
     std::vector<Finding> findings_;
     std::vector<Loss> losses_;
 };

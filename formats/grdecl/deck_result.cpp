@@ -46,6 +46,60 @@ void DeckReader::look_up_scheduled_faults() {
     }
 }
 
+/// A text without dimensions is of a grid where its faults or the files that it names say so.
+Result<void> DeckReader::need_dims() {
+    if (grid().dims) return {};
+    const CornerPointGrid& g = grid().grid;
+    if (g.faults.empty() && g.region_multipliers.empty() && g.info.annotations.empty() && !g.map_axes && texts_.empty())
+        return unreadable("F017", {input_->name()}, "nothing in the text is of a grid");
+    const bool follows = std::ranges::any_of(g.info.annotations, [](const Annotation& a) {
+        return a.key == "grdecl.record" && (a.value.starts_with("GDFILE") || a.value.starts_with("IMPORT"));
+    });
+    const bool placed = std::ranges::any_of(g.faults, [](const auto& fault) { return !fault.boxes.empty(); });
+    if (!placed && !follows)
+        return unreadable("F024", {input_->name()},
+                          "neither SPECGRID nor DIMENS stands in the text: give the numbers of cells with --option dims=NX,NY,NZ, or read "
+                          "the deck that includes this file");
+    dims_from_boxes();
+    return {};
+}
+
+Result<const CornerPointGrid*> DeckReader::host_of(const CornerPointGrid& local, const std::vector<Object>& before) const {
+    const CornerPointGrid* host = nullptr;
+    for (const Object& object : before) {
+        const auto& other = std::get<CornerPointGrid>(object);
+        if (local.host->grid.empty() ? !other.host.has_value() : other.info.name == local.host->grid) host = &other;
+    }
+    if (host == nullptr) return unreadable("F007", {input_->name()}, "the host of local grid " + shown(local.info.name) + " is not there");
+    if (local.host->last[2] >= host->dims[2])
+        return unreadable("F012", {input_->name()}, "the local grid " + shown(local.info.name) + " lies in layers of the fracture");
+    return host;
+}
+
+/// The grid that a text says; local grids come behind their hosts.
+Result<CornerPointGrid> DeckReader::grid_of(GridText& text, const std::vector<Object>& before) {
+    if (text.geometry_file && text.depths.empty()) {
+        list_dropped(losses_, {LossClass::substance, text.grid.info.name, companion_loss("GDFILE", *text.geometry_file),
+                               "convert that file, with this one as its properties", 1});
+    }
+    text.grid.unit_system = unit_system_;
+    auto& crs = text.grid.info.crs;
+    if (!before.empty()) crs.axis_units = std::get<CornerPointGrid>(before[0]).info.crs.axis_units;
+    if (crs.axis_units[0].empty() && !unit_system_.empty()) crs.axis_units.fill(std::string(length_unit(unit_system_)));
+    if (!crs.axis_units[0].empty()) crs.stated = true;
+    const auto fine_cells = std::move(text.fine_cells);
+    const auto fine_widths = std::move(text.fine_widths);
+    const bool dual = before.empty() && porosity_ != CornerPointGrid::Porosity::single;
+    auto built = build_grid(std::move(text), *input_, dual, room_, findings_, losses_);
+    if (!built) return std::move(built).why();
+    built->porosity = porosity_;
+    if (!built->host) return built;
+    const auto host = host_of(*built, before);
+    if (!host) return host.why();
+    if (auto failed = refine_host(*built, fine_cells, fine_widths, **host, *input_, room_)) return std::move(*failed);
+    return built;
+}
+
 Result<Dataset> DeckReader::finish() {
     current_ = 0;
     look_up_scheduled_faults();
@@ -53,81 +107,15 @@ Result<Dataset> DeckReader::finish() {
     dataset.format = "grdecl";
     const bool deck = std::ranges::any_of(texts_, [](const auto& t) { return t.first == Section::runspec; });
     dataset.variant = deck ? "DATA deck" : "GRDECL";
-    if (!grid().dims) {
-        const CornerPointGrid& g = grid().grid;
-        if (g.faults.empty() && g.region_multipliers.empty() && g.info.annotations.empty() && !g.map_axes && texts_.empty())
-            return unreadable("F017", {input_->name()}, "nothing in the text is of a grid");
-        const bool follows = std::ranges::any_of(g.info.annotations, [](const Annotation& a) {
-            return a.key == "grdecl.record" && (a.value.starts_with("GDFILE") || a.value.starts_with("IMPORT"));
-        });
-        const bool placed = std::ranges::any_of(g.faults, [](const auto& fault) { return !fault.boxes.empty(); });
-        if (!placed && !follows)
-            return unreadable(
-                "F024", {input_->name()},
-                "neither SPECGRID nor DIMENS stands in the text: give the numbers of cells with --option dims=NX,NY,NZ, or read "
-                "the deck that includes this file");
-        dims_from_boxes();
-    }
-    std::deque<GridText>& texts = grids_;
-    for (std::size_t g = 0; g < texts.size(); ++g) {
-        GridText& text = texts[g];
-        if (text.geometry_file && text.depths.empty()) {
-            list_dropped(losses_, {LossClass::substance, text.grid.info.name, companion_loss("GDFILE", *text.geometry_file),
-                                   "convert that file, with this one as its properties", 1});
-        }
-        text.grid.unit_system = unit_system_;
-        auto& crs = text.grid.info.crs;
-        if (g > 0) crs.axis_units = std::get<CornerPointGrid>(dataset.objects[0]).info.crs.axis_units;
-        if (crs.axis_units[0].empty() && !unit_system_.empty()) crs.axis_units.fill(std::string(length_unit(unit_system_)));
-        if (!crs.axis_units[0].empty()) crs.stated = true;
-        const auto fine_cells = std::move(text.fine_cells);
-        const auto fine_widths = std::move(text.fine_widths);
-        auto built =
-            build_grid(std::move(text), *input_, g == 0 && porosity_ != CornerPointGrid::Porosity::single, room_, findings_, losses_);
+    if (auto good = need_dims(); !good) return std::move(good).why();
+    for (GridText& text : grids_) {
+        auto built = grid_of(text, dataset.objects);
         if (!built) return std::move(built).why();
-        built->porosity = porosity_;
-        if (built->host) {
-            const CornerPointGrid* host = nullptr;
-            for (const Object& object : dataset.objects) {
-                const auto& other = std::get<CornerPointGrid>(object);
-                if (built->host->grid.empty() ? !other.host.has_value() : other.info.name == built->host->grid) host = &other;
-            }
-            if (host == nullptr)
-                return unreadable("F007", {input_->name()}, "the host of local grid " + shown(built->info.name) + " is not there");
-            if (built->host->last[2] >= host->dims[2])
-                return unreadable("F012", {input_->name()},
-                                  "the local grid " + shown(built->info.name) + " lies in layers of the fracture");
-            if (auto failed = refine_host(*built, fine_cells, fine_widths, *host, *input_, room_)) return std::move(*failed);
-        }
         dataset.objects.emplace_back(std::move(*built));
     }
     for (auto& [section, text] : texts_)
         dataset.annotations.push_back({"grdecl.section", std::string(section_name(section)) + "\n" + text});
-    if (unknown_count_ > 0) {
-        std::string names;
-        for (const std::string& name : unknown_) names += (names.empty() ? "" : ", ") + name;
-        findings_.push_back(finding("F102", first_unknown_,
-                                    (unknown_.size() == 1 ? "a keyword that is not known is kept as it stands: "
-                                                          : "keywords that are not known are kept as they stand: ") +
-                                        names,
-                                    unknown_count_));
-    }
-    if (unread_count_ > 0) {
-        std::string names;
-        for (const std::string& name : unread_) names += (names.empty() ? "" : ", ") + name;
-        findings_.push_back(
-            finding("F149", first_unread_,
-                    (unread_.size() == 1 ? "OPM Flow does not know the keyword " : "OPM Flow does not know the keywords: ") + names,
-                    unread_count_));
-    }
-    if (remarks_ > 0)
-        findings_.push_back(finding("F144", first_remark_, "text behind a keyword on its line is taken as a remark", remarks_));
-    if (stray_slashes_ > 0) findings_.push_back(finding("F118", first_stray_slash_, "a '/' ends nothing", stray_slashes_));
-    if (not_applied_ > 0) {
-        findings_.push_back(finding("F142", first_not_applied_,
-                                    "operations on arrays that are not there (" + missing_array_ + ") are kept as they stand, not applied",
-                                    not_applied_));
-    }
+    add_findings(notes_, findings_);
     dataset.findings = std::move(findings_);
     dataset.losses = std::move(losses_);
     return dataset;

@@ -106,7 +106,7 @@ void DeckReader::take_line_remark() {
 }
 
 void DeckReader::note_remark(const char* at) {
-    if (!probing_ && remarks_++ == 0) first_remark_ = where(at);
+    if (!probing_) notes_.remarks.add([&] { return where(at); });
 }
 
 /// Goes to the line below the keyword that ends at `begin`; false where nothing stands beside it.

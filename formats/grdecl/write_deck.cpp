@@ -33,7 +33,9 @@ Result<Choices> choices_of(const FormatOptions& options) {
 }
 
 /// The grid that is written, its local grids after it; what else there is is lost.
-std::vector<const CornerPointGrid*> grids_of(const Dataset& dataset, std::vector<Loss>& losses) {
+using Grids = std::vector<const CornerPointGrid*>;
+
+Grids grids_of(const Dataset& dataset, std::vector<Loss>& losses) {
     std::vector<const CornerPointGrid*> grids;
     for (const Object& object : dataset.objects) {
         const auto* grid = std::get_if<CornerPointGrid>(&object);
@@ -195,59 +197,58 @@ void name_companion(DeckOutput& to) {
     if (to.further != nullptr) to.main << "-- Further properties, which simulators do not take: " << to.further_name << '\n';
 }
 
-bool was_stopped(const WriteOptions& options) { return options.monitor != nullptr && options.monitor->stopped(); }
+/// Opens the output, has its body written, and says what was lost.
+template <class Body>
+Result<std::vector<Loss>> write_by(const Dataset& dataset, OutputSet& outputs, const WriteOptions& options, const Body& body) {
+    auto choices = choices_of(options.options);
+    if (!choices) return std::move(choices).why();
+    std::vector<Loss> losses;
+    const Grids grids = grids_of(dataset, losses);
+    if (grids.empty()) return nothing_to_write(outputs);
+    DeckOutput to{dataset, outputs, outputs.main_file(), options.monitor};
+    to.losses = std::move(losses);
+    to.all_inside = choices->all_inside;
+    body(grids, *choices, to);
+    if (options.monitor != nullptr && options.monitor->stopped())
+        return failure(FailureKind::cancelled, "F022", {outputs.main_path().string()}, "writing was stopped");
+    return std::move(to.losses);
+}
 
 }  // namespace
 
 Result<std::vector<Loss>> write_include(const Dataset& dataset, OutputSet& outputs, const WriteOptions& options) {
-    auto choices = choices_of(options.options);
-    if (!choices) return std::move(choices).why();
-    std::vector<Loss> losses;
-    const auto grids = grids_of(dataset, losses);
-    if (grids.empty()) return nothing_to_write(outputs);
-    DeckOutput to{dataset, outputs, outputs.main_file(), options.monitor};
-    to.losses = std::move(losses);
-    to.all_inside = choices->all_inside;
-    write_remark(*grids[0], to, true);
-    write_grids(grids, choices->properties_only, Section::none, to);
-    for (const CornerPointGrid* grid : grids) write_records(*grid, ".regions", to);
-    write_edit_records(*grids[0], to);
-    name_companion(to);
-    write_other_sections_losses(to);
-    if (was_stopped(options)) return failure(FailureKind::cancelled, "F022", {outputs.main_path().string()}, "writing was stopped");
-    return std::move(to.losses);
+    return write_by(dataset, outputs, options, [&](const Grids& grids, const Choices& choices, DeckOutput& to) {
+        write_remark(*grids[0], to, true);
+        write_grids(grids, choices.properties_only, Section::none, to);
+        for (const CornerPointGrid* grid : grids) write_records(*grid, ".regions", to);
+        write_edit_records(*grids[0], to);
+        name_companion(to);
+        write_other_sections_losses(to);
+    });
 }
 
 Result<std::vector<Loss>> write_whole_deck(const Dataset& dataset, OutputSet& outputs, const WriteOptions& options) {
-    auto choices = choices_of(options.options);
-    if (!choices) return std::move(choices).why();
-    std::vector<Loss> losses;
-    const auto grids = grids_of(dataset, losses);
-    if (grids.empty()) return nothing_to_write(outputs);
-    DeckOutput to{dataset, outputs, outputs.main_file(), options.monitor};
-    to.losses = std::move(losses);
-    to.all_inside = choices->all_inside;
-    to.deck = true;
-    write_remark(*grids[0], to, false);
-    write_runspec(*grids[0], to);
-    to.main << "GRID\n\n";
-    write_grids(grids, choices->properties_only, Section::grid, to);
-    to.main << "EDIT\n\n";
-    write_edit_operations(*grids[0], to.main);
-    write_properties(*grids[0], Section::edit, to);
-    write_records(*grids[0], ".edit", to);
-    write_section(Section::props, to);
-    to.main << "REGIONS\n\n";
-    write_properties(*grids[0], Section::regions, to);
-    write_records(*grids[0], ".regions", to);
-    for (const Section section : {Section::solution, Section::summary, Section::schedule}) write_section(section, to);
-    name_companion(to);
-    to.main << "END\n";
-    const auto sections = std::ranges::count(dataset.annotations, "grdecl.section", &Annotation::key);
-    for (auto others = kept_records(dataset) - static_cast<std::size_t>(sections); others > 0; --others)
-        add_loss(to.losses, {LossClass::style, {}, "header lines of the file", "decks have no place for them"});
-    if (was_stopped(options)) return failure(FailureKind::cancelled, "F022", {outputs.main_path().string()}, "writing was stopped");
-    return std::move(to.losses);
+    return write_by(dataset, outputs, options, [&](const Grids& grids, const Choices& choices, DeckOutput& to) {
+        to.deck = true;
+        write_remark(*grids[0], to, false);
+        write_runspec(*grids[0], to);
+        to.main << "GRID\n\n";
+        write_grids(grids, choices.properties_only, Section::grid, to);
+        to.main << "EDIT\n\n";
+        write_edit_operations(*grids[0], to.main);
+        write_properties(*grids[0], Section::edit, to);
+        write_records(*grids[0], ".edit", to);
+        write_section(Section::props, to);
+        to.main << "REGIONS\n\n";
+        write_properties(*grids[0], Section::regions, to);
+        write_records(*grids[0], ".regions", to);
+        for (const Section section : {Section::solution, Section::summary, Section::schedule}) write_section(section, to);
+        name_companion(to);
+        to.main << "END\n";
+        const auto sections = std::ranges::count(dataset.annotations, "grdecl.section", &Annotation::key);
+        for (auto others = kept_records(dataset) - static_cast<std::size_t>(sections); others > 0; --others)
+            add_loss(to.losses, {LossClass::style, {}, "header lines of the file", "decks have no place for them"});
+    });
 }
 
 }  // namespace geomend::grdecl

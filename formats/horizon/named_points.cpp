@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/table_fields.h"
 #include "formats/drop.h"
 #include "formats/horizon/common.h"
 #include "formats/horizon/ijxyz_map.h"
@@ -59,40 +60,6 @@ Meaning meaning_of(std::string_view name) {
     }
     const auto found = std::ranges::find(known_names, plain, &KnownName::name);
     return found == known_names.end() ? Meaning::attribute : found->meaning;
-}
-
-std::string_view bare(std::string_view field) {
-    field = trimmed(field);
-    if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = trimmed(field.substr(1, field.size() - 2));
-    return field;
-}
-
-/// The fields of a line. A separator within double quotes is none.
-std::vector<std::string_view> fields_of(std::string_view line, char separator) {
-    std::vector<std::string_view> fields;
-    if (separator == ' ') {
-        TextCursor cursor(line);
-        cursor.next_line();
-        bool quoted = false;
-        for (std::string_view t = cursor.quoted_token(&quoted); !t.empty() || quoted; t = cursor.quoted_token(&quoted)) fields.push_back(t);
-        return fields;
-    }
-    std::size_t begin = 0;
-    bool quoted = false;
-    for (std::size_t at = 0; at <= line.size(); ++at) {
-        if (at < line.size() && line[at] == '"') quoted = !quoted;
-        if (at < line.size() && (quoted || line[at] != separator)) continue;
-        fields.push_back(bare(line.substr(begin, at - begin)));
-        begin = at + 1;
-    }
-    return fields;
-}
-
-char separator_of(std::string_view line) {
-    for (const char c : {';', ',', '\t'}) {
-        if (line.find(c) != std::string_view::npos) return c;
-    }
-    return ' ';
 }
 
 bool is_remark(std::string_view line) { return line.empty() || line.starts_with('#') || line.starts_with('!'); }

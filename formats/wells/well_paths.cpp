@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/table_fields.h"
 #include "base/wording.h"
 #include "formats/drop.h"
 #include "formats/text_reading.h"
@@ -76,35 +77,17 @@ Column column_of(std::string_view name) {
     return found == known_names.end() ? Column::other : found->column;
 }
 
+// Some write names in single quotes.
 std::string_view unquoted(std::string_view text) {
-    text = trimmed(text);
-    const bool quotes = text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+    text = without_quotes(text);
+    const bool quotes = text.size() >= 2 && text.front() == '\'' && text.back() == '\'';
     return quotes ? trimmed(text.substr(1, text.size() - 2)) : text;
 }
 
-/// The fields of a line: between separators, or, where that is a blank, words.
-std::vector<std::string_view> fields_of(std::string_view line, char separator) {
-    std::vector<std::string_view> fields;
-    if (separator == ' ') {
-        TextCursor cursor(line);
-        cursor.next_line();
-        bool quoted = false;
-        for (std::string_view t = cursor.quoted_token(&quoted); !t.empty() || quoted; t = cursor.quoted_token(&quoted)) fields.push_back(t);
-        return fields;
-    }
-    for (;;) {
-        const std::size_t end = line.find(separator);
-        fields.push_back(unquoted(line.substr(0, end)));
-        if (end == std::string_view::npos) return fields;
-        line.remove_prefix(end + 1);
-    }
-}
-
-char separator_of(std::string_view names) {
-    for (const char c : {';', ',', '\t'}) {
-        if (names.find(c) != std::string_view::npos) return c;
-    }
-    return ' ';
+std::vector<std::string_view> path_fields(std::string_view line, char separator) {
+    std::vector<std::string_view> fields = fields_of(line, separator);
+    for (std::string_view& field : fields) field = unquoted(field);
+    return fields;
 }
 
 struct Table {
@@ -124,7 +107,7 @@ std::optional<Table> table_of(std::string_view line) {
     line = trimmed(line);
     Table table;
     table.separator = separator_of(line);
-    for (const std::string_view name : fields_of(line, table.separator)) {
+    for (const std::string_view name : path_fields(line, table.separator)) {
         double value = 0;
         if (parse_real(name, value) == NumberStatus::ok) return std::nullopt;
         if (table.separator == ' ' && (name.starts_with('(') || name.starts_with('['))) continue;  // a unit behind its name
@@ -307,7 +290,7 @@ private:
     }
 
     std::optional<Failure> take_row(std::string_view line) {
-        const auto fields = fields_of(line, table_.separator);
+        const auto fields = path_fields(line, table_.separator);
         if (fields.size() != table_.columns.size()) return malformed(std::to_string(table_.columns.size()) + " columns", line);
         auto row = row_of(fields);
         if (!row) return std::move(row).why();

@@ -19,7 +19,6 @@
 #include "gridding/map_volumes.h"
 #include "pipeline/command_options.h"
 #include "pipeline/flow_deck.h"
-#include "pipeline/json_parts.h"
 #include "topology/brep_from_dataset.h"
 
 namespace geomend {
@@ -221,34 +220,70 @@ Failure without_active_cells(const gridding::GridReport& made, const GridRequest
     return failed;
 }
 
+/// The lines of --area, as the structure and the options want them.
+Result<void> take_area(const Dataset& dataset, GridRequest& request) {
+    if (request.area.empty()) return {};
+    const auto lines = lines_called(dataset, request.area, "--area");
+    if (!lines) return lines.why();
+    request.structure.area = *lines;
+    for (const Vec3& p : std::get<PolylineSet>(dataset.objects[*lines]).points) request.options.area.push_back({p[0], p[1]});
+    return {};
+}
+
+/// Pillars like those of another grid, or upright ones in a frame.
+Result<Net> pillars_for(GridRequest& request, const FoundStructure& found, GridMade& report) {
+    if (!request.pillars_of.empty()) {
+        request.options.follow_faults = false;  // the pillars are as they are wanted
+        return net_like(request);
+    }
+    auto frame = frame_of(request, found, request.options.area);
+    if (!frame) return std::move(frame).why();
+    report.rotation = frame->rotation;
+    const double level = gridding::mid_level(found.structure);
+    return gridding::net_of(*frame, level, level + 1);
+}
+
+/// What the cells of the grid get besides their corners: regions of the model, properties, a coordinate system.
+Result<void> give_values(const Dataset& dataset, const FoundStructure& found, const GridRequest& request, CornerPointGrid& grid,
+                         GridMade& report) {
+    if (dataset.breps.size() == 1 && !dataset.breps[0]->regions.empty()) {
+        grid.info.attributes.push_back(gridding::brep_regions(grid, *dataset.breps[0]));
+        for (const auto& region : dataset.breps[0]->regions) report.regions.push_back(region.name);
+    }
+    grid.info.crs = system_of(dataset, found);
+    auto sampled = add_properties(request.properties, request.files.load, grid);
+    if (!sampled) return std::move(sampled).why();
+    report.properties = std::move(sampled->report);
+    report.notes.insert(report.notes.end(), sampled->notes.begin(), sampled->notes.end());
+    return {};
+}
+
+/// The deck beside the grid, where one is asked for, and the number of connections as its reader counts them.
+Result<void> add_deck(const Format& target, const GridRequest& request, CornerPointGrid& grid, GridMade& report, Beside& beside) {
+    if (request.count_connections) report.nnc = grid::connections(grid).others.size();
+    if (option_value(request.files.load.options, "deck") != "yes") return {};
+    if (target.name != std::string_view("grdecl") || request.files.output == "-")
+        return failure(FailureKind::usage, "F018", {}, "--option deck=yes: the grid must go into a GRDECL file");
+    beside.deck = deck_of(grid, report.made, request.files.output, report.notes);
+    if (!request.count_connections) return {};
+    const auto in_deck = connections_in_deck(grid);
+    if (!in_deck) return in_deck.why();
+    report.nnc = *in_deck;
+    return {};
+}
+
 Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest& request, GridMade& report, Beside& beside) {
     const bool has_cells = std::ranges::any_of(dataset.objects, [](const Object& o) { return std::holds_alternative<CellMesh>(o); });
     if (has_cells || !dataset.models.empty()) topology::build_breps(dataset);
-    if (!request.area.empty()) {
-        const auto lines = lines_called(dataset, request.area, "--area");
-        if (!lines) return lines.why();
-        request.structure.area = *lines;
-        for (const Vec3& p : std::get<PolylineSet>(dataset.objects[*lines]).points) request.options.area.push_back({p[0], p[1]});
-    }
+    if (auto taken = take_area(dataset, request); !taken) return taken.why();
     auto found = gridding::structure_of(dataset, request.structure);
     if (!found) return std::move(found).why();
     auto zones = zones_of(request, *found);
     if (!zones) return std::move(zones).why();
     request.options.zones = std::move(*zones);
-    const double level = gridding::mid_level(found->structure);
-    Net net;
-    if (!request.pillars_of.empty()) {
-        auto like = net_like(request);
-        if (!like) return std::move(like).why();
-        net = std::move(*like);
-        request.options.follow_faults = false;  // the pillars are as they are wanted
-    } else {
-        auto frame = frame_of(request, *found, request.options.area);
-        if (!frame) return std::move(frame).why();
-        report.rotation = frame->rotation;
-        net = gridding::net_of(*frame, level, level + 1);
-    }
-    auto made = gridding::build_grid(found->structure, net, request.options);
+    const auto net = pillars_for(request, *found, report);
+    if (!net) return net.why();
+    auto made = gridding::build_grid(found->structure, *net, request.options);
     if (!made) return std::move(made).why();
     if (made->report.active == 0) return without_active_cells(made->report, request, made->grid);
     report.map_volumes = gridding::map_volumes(found->structure, made->grid, made->report.zones);
@@ -256,26 +291,8 @@ Result<void> replace_by_grid(Dataset& dataset, const Format& target, GridRequest
     report.dims = made->grid.dims;
     report.left_out = std::move(found->left_out);
     report.notes = std::move(found->notes);
-    if (dataset.breps.size() == 1 && !dataset.breps[0]->regions.empty()) {
-        made->grid.info.attributes.push_back(gridding::brep_regions(made->grid, *dataset.breps[0]));
-        for (const auto& region : dataset.breps[0]->regions) report.regions.push_back(region.name);
-    }
-    made->grid.info.crs = system_of(dataset, *found);
-    auto sampled = add_properties(request.properties, request.files.load, made->grid);
-    if (!sampled) return std::move(sampled).why();
-    report.properties = std::move(sampled->report);
-    report.notes.insert(report.notes.end(), sampled->notes.begin(), sampled->notes.end());
-    if (request.count_connections) report.nnc = grid::connections(made->grid).others.size();
-    if (option_value(request.files.load.options, "deck") == "yes") {
-        if (target.name != std::string_view("grdecl") || request.files.output == "-")
-            return failure(FailureKind::usage, "F018", {}, "--option deck=yes: the grid must go into a GRDECL file");
-        beside.deck = deck_of(made->grid, report.made, request.files.output, report.notes);
-        if (request.count_connections) {
-            const auto in_deck = connections_in_deck(made->grid);
-            if (!in_deck) return in_deck.why();
-            report.nnc = *in_deck;
-        }
-    }
+    if (auto given = give_values(dataset, *found, request, made->grid, report); !given) return given.why();
+    if (auto done = add_deck(target, request, made->grid, report, beside); !done) return done.why();
     if (request.keep_made) {
         report.grid = made->grid;
         report.structure = std::move(found->structure);
@@ -308,79 +325,6 @@ Result<GridMade> make_grid(GridRequest request) {
     if (auto done = write_beside(std::move(beside.grid), request, made); !done) return std::move(done).why();
     if (auto done = write_deck(beside.deck, request, made); !done) return std::move(done).why();
     return made;
-}
-
-std::string grid_json(const GridMade& made) {
-    Json zones = Json::array(), faults = Json::array(), horizons = Json::array(), out = Json::array(), made_upright = Json::array();
-    for (std::size_t z = 0; z < made.made.zones.size(); ++z) {
-        const auto& r = made.made.zones[z];
-        Json zone{{"name", r.name},     {"number", z + 1},    {"first_layer", r.first_layer + 1},        {"last_layer", r.last_layer + 1},
-                  {"volume", r.volume}, {"active", r.active}, {"without_thickness", r.without_thickness}};
-        if (z < made.map_volumes.size()) {
-            zone["map_volume"] = made.map_volumes[z].maps;
-            zone["volume_where_maps"] = made.map_volumes[z].grid;
-        }
-        zones.push_back(std::move(zone));
-    }
-    for (const auto& r : made.made.faults) {
-        if (!r.why_not.empty()) {
-            out.push_back({{"name", r.name}, {"why", r.why_not}});
-            continue;
-        }
-        faults.push_back({{"name", r.name},
-                          {"faces", r.faces},
-                          {"boxes", r.boxes},
-                          {"max_deviation", r.max_deviation},
-                          {"mean_deviation", r.mean_deviation},
-                          {"max_deviation_cells", r.max_deviation_cells},
-                          {"mean_deviation_cells", r.mean_deviation_cells},
-                          {"max_throw", r.max_throw},
-                          {"max_lean", r.max_lean},
-                          {"shared_faces", r.shared},
-                          {"ends_on", r.ends_on}});
-    }
-    for (const auto& r : made.made.faults) {
-        if (!r.why_upright.empty()) made_upright.push_back({{"name", r.name}, {"why", r.why_upright}});
-    }
-    for (const auto& r : made.made.horizons) {
-        horizons.push_back({{"name", r.name},
-                            {"read", r.read},
-                            {"extended", r.extended},
-                            {"without_value", r.filled},
-                            {"unfaulted_pillars", r.unfaulted},
-                            {"max_difference", r.max_difference},
-                            {"gave_way", r.moved},
-                            {"max_gave_way", r.max_moved}});
-    }
-    for (const auto& l : made.left_out) out.push_back({{"name", l.name}, {"why", l.why}});
-    Json properties = Json::array();
-    for (const auto& p : made.properties)
-        properties.push_back({{"name", p.name}, {"method", to_string(p.how)}, {"with_value", p.with}, {"without_value", p.without}});
-    Json all{{"dims", made.dims},
-             {"active_cells", made.made.active},
-             {"rotation", made.rotation},
-             {"spacing", made.made.cell},
-             {"blocks", made.made.blocks},
-             {"joined_cells", made.made.joined_cells},
-             {"zones", std::move(zones)},
-             {"horizons", std::move(horizons)},
-             {"faults", std::move(faults)},
-             {"upright_pillars", std::move(made_upright)},
-             {"right_angledness",
-              {{"mean", made.made.mean_angles_after},
-               {"least", made.made.least_angles_after},
-               {"mean_before", made.made.mean_angles_before},
-               {"least_before", made.made.least_angles_before},
-               {"border_relaxed", made.made.border_relaxed}}},
-             {"properties", std::move(properties)},
-             {"left_out", std::move(out)},
-             {"notes", made.notes},
-             {"loss", losses_json(made.written.losses)}};
-    if (!made.regions.empty()) all["regions"] = made.regions;
-    if (made.nnc) all["nnc"] = *made.nnc;
-    if (!made.beside.empty()) all["include"] = made.beside;
-    if (!made.deck.empty()) all["deck"] = made.deck;
-    return json_text(all);
 }
 
 }  // namespace geomend

@@ -42,6 +42,14 @@ TEST(WellPaths, ATableOfSeveralWellsByTheNamesOfItsColumns) {
     EXPECT_TRUE(is_no_data(b.curves.at(0).values, -999.25));
 }
 
+TEST(WellPaths, ACommaInQuotesPartsNoColumns) {
+    const Dataset data = good_wells("well-path", "Well,MD,X,Y,Z\n\"A, north\",0,1,2,3\n\"A, north\",10,1,2,-7\n'B',0,5,6,7\n");
+    ASSERT_EQ(data.objects.size(), 2u);
+    EXPECT_EQ(well_at(data, 0).info.name, "A, north");
+    EXPECT_EQ(well_at(data, 0).path.size(), 2u);
+    EXPECT_EQ(well_at(data, 1).info.name, "B");
+}
+
 TEST(WellPaths, AColumnOfNamesIsNoNameOfAWell) {
     const Dataset data = good_wells("well-path", "Name X Y Z MD\nA 1 2 3 0\nA 1 2 -7 10\n");
     ASSERT_EQ(data.objects.size(), 1u);
