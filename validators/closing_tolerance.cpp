@@ -40,11 +40,12 @@ struct Rest {
     double ratio() const { return up_to / from; }
 };
 
-std::vector<Rest> rests_of(const BorderPoints& model) {
+/// \param count_at how many are apart still at a length  \param before at the first one
+template <class CountAt>
+std::vector<Rest> rests_between(double tolerance, double near, std::size_t before, const CountAt& count_at) {
     std::vector<Rest> rests;
-    std::size_t before = model.positions.size();
-    for (const double length : one_digit_between(model.tolerance, model.near)) {
-        const std::size_t count = count_within(model.positions, length);
+    for (const double length : one_digit_between(tolerance, near)) {
+        const std::size_t count = count_at(length);
         if (count < before) rests.push_back({length, length});
         else if (!rests.empty()) rests.back().up_to = length;
         before = count;
@@ -53,6 +54,22 @@ std::vector<Rest> rests_of(const BorderPoints& model) {
     if (!rests.empty() && rests.back().up_to > rests.back().from) rests.back().up_to = std::max(rests.back().up_to, 2 * rests.back().from);
     std::erase_if(rests, [](const Rest& rest) { return rest.ratio() < 2; });
     return rests;
+}
+
+std::vector<Rest> rests_of(const BorderPoints& model) {
+    return rests_between(model.tolerance, model.near, model.positions.size(),
+                         [&](double length) { return count_within(model.positions, length); });
+}
+
+/// The lengths at which the longest rests begin, ascending.
+std::vector<double> longest_of(std::vector<Rest> rests) {
+    std::ranges::stable_sort(rests, [](const Rest& a, const Rest& b) { return a.ratio() > b.ratio(); });
+    if (rests.size() > most_tries) rests.resize(most_tries);
+    std::vector<double> tolerances;
+    tolerances.reserve(rests.size());
+    for (const Rest& rest : rests) tolerances.push_back(rest.from);
+    std::ranges::sort(tolerances);
+    return tolerances;
 }
 
 }  // namespace
@@ -84,13 +101,14 @@ std::vector<double> tolerances_to_try(std::span<const BorderPoints> models) {
             else same->up_to = std::max(same->up_to, rest.up_to);
         }
     }
-    std::ranges::stable_sort(rests, [](const Rest& a, const Rest& b) { return a.ratio() > b.ratio(); });
-    if (rests.size() > most_tries) rests.resize(most_tries);
-    std::vector<double> tolerances;
-    tolerances.reserve(rests.size());
-    for (const Rest& rest : rests) tolerances.push_back(rest.from);
-    std::ranges::sort(tolerances);
-    return tolerances;
+    return longest_of(std::move(rests));
+}
+
+std::vector<double> tolerances_to_try(std::span<const double> lengths, double tolerance, double near) {
+    std::vector<double> sorted(lengths.begin(), lengths.end());
+    std::ranges::sort(sorted);
+    const auto above = [&](double length) { return static_cast<std::size_t>(sorted.end() - std::ranges::upper_bound(sorted, length)); };
+    return longest_of(rests_between(tolerance, near, above(tolerance), above));
 }
 
 Result<std::optional<ClosingTolerance>> closing_tolerance(std::span<const double> tolerances, std::uint64_t errors,

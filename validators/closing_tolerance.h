@@ -37,6 +37,9 @@ BorderPoints border_points(const ModelScope& scope);
 /// tolerance and near.
 std::vector<double> tolerances_to_try(std::span<const BorderPoints> models);
 
+/// The same for lengths that are measured already: where the next larger ones are twice as long or longer.
+std::vector<double> tolerances_to_try(std::span<const double> lengths, double tolerance, double near);
+
 /// The smallest of these tolerances at which no error is left, or else, where there are ten errors or more, the one that leaves
 /// fewest, if that is a tenth of them at most. Each is tried by judging everything again.
 /// \param errors_at the errors that are left at a tolerance; its failures end the search

@@ -9,8 +9,10 @@
 #include <string_view>
 #include <utility>
 
+#include "base/length.h"
 #include "base/vectors.h"
 #include "base/wording.h"
+#include "repair/facing_sheets.h"
 #include "repair/soup_edges.h"
 #include "repair/surviving_regions.h"
 #include "topology/lengths.h"
@@ -172,9 +174,83 @@ Result<WiderTolerances> wider_tolerances(const Dataset& dataset, const SurfaceDr
     return wider;
 }
 
+/// Tolerances by which sheets that face each other in a model become one, ascending.
+struct WiderSheets {
+    struct Try {
+        double tolerance = 0;
+        bool taken = false;  ///< without being asked for: it is small, and no layer goes by it
+    };
+    std::vector<Try> tries;
+};
+
+Result<WiderSheets> wider_sheets(const Dataset& dataset, const SurfaceDriverOptions& options) {
+    constexpr double not_to_be_lost = 4;  // regions of so many tolerances, on average, are: the driver lets thinner ones go
+    auto model = surface_model_of(dataset, {options.checks.tolerance, options.checks.near});
+    if (!model) return std::move(model).why();
+    const TriangleSoup& soup = model->model.soup;
+    std::vector<double> lengths;
+    const SoupEdges edges = edges_of(soup);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        lengths.push_back(length(minus(soup.vertices[edges[e][0].high], soup.vertices[edges[e][0].low])));
+    WiderSheets wider;
+    if (lengths.empty()) return wider;
+    const std::size_t tenth = lengths.size() / 10;  // most edges are longer
+    std::ranges::nth_element(lengths, lengths.begin() + static_cast<std::ptrdiff_t>(tenth));
+    const double near = std::min(0.25 * lengths[tenth], 0.03 * model->lengths.diameter);
+    const auto sheets = sheet_tolerances(soup, model->lengths.tolerance, near);
+    if (sheets.empty()) return wider;
+    const auto read = result_of(*model);
+    if (!read) return read.why();
+    const double limit = gap_limit(*model, options.steps);
+    for (const SheetTolerance& sheet : sheets) {
+        for (const double factor : {1.0, 2.0}) {  // what bends may need more than what is measured at corners
+            const double tolerance = factor * sheet.tolerance;
+            const bool flattens = sheet.flattens || thin_regions(*read->brep, not_to_be_lost * tolerance) > 0;
+            wider.tries.push_back({tolerance, !flattens && tolerance <= limit});
+        }
+    }
+    std::ranges::stable_sort(wider.tries, {}, &WiderSheets::Try::tolerance);
+    return wider;
+}
+
 /// Whether a model came out sound and closed.
 bool is_mended(const SurfaceRepair& repair) {
     return left_by(repair).errors == 0 && repair.closed && (repair.should_close || is_sealed(*repair.result.brep));
+}
+
+/// Where sheets face each other, and what was done so far leaves errors or slivers between them: welds them by the smallest tolerance that
+/// mends all. What may not be taken unasked is named only.
+template <class Attempt>
+Result<void> weld_sheets(const Dataset& dataset, const SurfaceDriverOptions& options, const Attempt& attempt, PlannedRepair& best) {
+    const auto wider = wider_sheets(dataset, options);
+    if (!wider) return wider.why();
+    // Slivers between any of the sheets are left to weld, not only those between the nearest.
+    double largest = 0;
+    for (const WiderSheets::Try& sheet : wider->tries) {
+        if (sheet.taken) largest = std::max(largest, sheet.tolerance);
+    }
+    const auto left_of = [&](const SurfaceRepair& repair) {
+        return std::pair(is_mended(repair) ? std::uint64_t{0} : std::max<std::uint64_t>(left_by(repair).errors, 1),
+                         thin_regions(*repair.result.brep, largest));
+    };
+    auto left = left_of(best.repair);
+    for (const WiderSheets::Try& sheet : wider->tries) {
+        if (!sheet.taken && left.first == 0) continue;
+        SurfacePlan plan{in_order(without(best.plan.steps, of_gaps), weld_and_cut), sheet.tolerance,
+                         "common sides agree within " + rounded(sheet.tolerance) + ": that is the tolerance by which it is mended"};
+        auto repaired = attempt(plan, {});
+        if (!repaired) return std::move(repaired).why();
+        const auto left_of_this = left_of(*repaired);
+        if (left_of_this.first > 0 || !(left_of_this < left)) continue;
+        if (!sheet.taken) {
+            best.would_close = sheet.tolerance;
+            return {};
+        }
+        left = left_of_this;
+        best = PlannedRepair{std::move(*repaired), std::move(plan), {}, {}};
+        if (left.second == 0) return {};
+    }
+    return {};
 }
 
 /// The largest gap that was closed.
@@ -294,7 +370,12 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
     if (left.errors > 0) {
         if (auto tried = try_plan(by_finest(dataset, best->plan, options)); !tried) return std::move(tried).why();
     }
-    if (!search || (left.errors == 0 && best->repair.closed)) return std::move(*best);
+    if (!search) return std::move(*best);
+    if (has(best->plan.steps, "cut") && (left.errors > 0 || thin_regions(*best->repair.result.brep, best->repair.lengths.near) > 0)) {
+        if (auto tried = weld_sheets(dataset, options, attempt, *best); !tried) return std::move(tried).why();
+        left = left_by(best->repair);
+    }
+    if ((left.errors == 0 && best->repair.closed) || best->would_close) return std::move(*best);
     // What is left of a closed model where nearly all is mended is no matter of a larger tolerance, and a try takes as long as the repair.
     constexpr std::uint64_t nearly_all = 10;
     const auto had = static_cast<std::uint64_t>(std::ranges::count(before, Severity::error, &Finding::severity));

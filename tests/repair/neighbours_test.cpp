@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
+#include <vector>
 
 #include "base/number_text.h"
 #include "base/vec3.h"
 #include "support/program.h"
 
-// Closed bodies beside each other, each in a file of its own in single precision: their common side is not the same in both.
+// Closed bodies beside each other, in single precision or rounded in text: their common side is not the same in both.
 
 namespace geomend {
 namespace {
@@ -71,6 +73,110 @@ TEST(Neighbours, WithACommonSideBecomeTwoRegionsInWhateverOrder) {
             EXPECT_NEAR(sum, 2.25e6, 100) << turn;  // a step of the coordinates is 0.5 mm
             EXPECT_NEAR(least, 1e6, 100) << turn;
         }
+    }
+}
+
+/// How a text rounds: to decimals, or to digits.
+struct Rounding {
+    char format;  ///< of printf: f or g
+    int digits;
+};
+
+/// The body between two tilted planes over a rectangle, each side with a grid of its own.
+struct Slab {
+    double low = 0, high = 0;  ///< where the planes pass the origin
+    bool tilted_low = false, tilted_high = false;
+    unsigned columns = 1, rows = 1;
+};
+
+constexpr double slab_x = 1000, slab_y = 800;
+
+double height(double at_origin, bool tilted, double x, double y) { return at_origin + (tilted ? 0.1 * x - 0.05 * y : 0); }
+
+/// A TSurf of the sides of a slab, turned, far from the origin where it is rounded to decimals.
+std::string slab_text(const std::string& name, const Slab& slab, const Rounding& rounding, double turn) {
+    std::string text = "GOCAD TSurf 1\nHEADER {\nname:" + name + "\n}\nTFACE\n", triangles;
+    unsigned count = 0;
+    const double c = std::cos(turn), s = std::sin(turn), d = std::cos(0.6 * turn), e = std::sin(0.6 * turn);
+    const Vec3 shift = rounding.format == 'f' ? Vec3{4e5, 6e6, -1000} : Vec3{};
+    const auto vertex = [&](double x, double y, double t) {
+        const double low = height(slab.low, slab.tilted_low, x, y), high = height(slab.high, slab.tilted_high, x, y);
+        const double z = low + t * (high - low), p = c * x - s * y, q = s * x + c * y;
+        std::array<char, 128> line{};
+        std::snprintf(line.data(), line.size(), rounding.format == 'f' ? "VRTX %u %.*f %.*f %.*f\n" : "VRTX %u %.*g %.*g %.*g\n", ++count,
+                      rounding.digits, shift[0] + p, rounding.digits, shift[1] + d * q - e * z, rounding.digits, shift[2] + e * q + d * z);
+        text += line.data();
+    };
+    const auto grid = [&](unsigned columns, unsigned rows, const auto& place) {
+        const unsigned first = count + 1;
+        for (unsigned j = 0; j <= rows; ++j) {
+            for (unsigned i = 0; i <= columns; ++i) place(static_cast<double>(i) / columns, static_cast<double>(j) / rows);
+        }
+        for (unsigned j = 0; j < rows; ++j) {
+            for (unsigned i = 0; i < columns; ++i) {
+                const unsigned a = first + j * (columns + 1) + i, b = a + columns + 1;
+                triangles += "TRGL " + std::to_string(a) + ' ' + std::to_string(a + 1) + ' ' + std::to_string(b + 1) + '\n';
+                triangles += "TRGL " + std::to_string(a) + ' ' + std::to_string(b + 1) + ' ' + std::to_string(b) + '\n';
+            }
+        }
+    };
+    grid(slab.columns, slab.rows, [&](double u, double v) { vertex(slab_x * (1 - u), slab_y * v, 0); });
+    grid(slab.columns, slab.rows, [&](double u, double v) { vertex(slab_x * u, slab_y * v, 1); });
+    grid(slab.columns, 1, [&](double u, double t) { vertex(slab_x * u, 0, t); });
+    grid(slab.rows, 1, [&](double u, double t) { vertex(slab_x, slab_y * u, t); });
+    grid(slab.columns, 1, [&](double u, double t) { vertex(slab_x * (1 - u), slab_y, t); });
+    grid(slab.rows, 1, [&](double u, double t) { vertex(0, slab_y * (1 - u), t); });
+    return text + triangles + "END\n";
+}
+
+double volume(const Slab& slab) {
+    const double middle =
+        height(slab.high, slab.tilted_high, slab_x / 2, slab_y / 2) - height(slab.low, slab.tilted_low, slab_x / 2, slab_y / 2);
+    return slab_x * slab_y * middle;
+}
+
+/// The volumes of the regions of a model, ascending.
+std::vector<double> region_volumes(const std::string& path) {
+    std::vector<double> volumes;
+    const auto told = info(path)["brep"]["region_volumes"];
+    for (const auto& region : told) volumes.push_back(region["volume"].get<double>());
+    std::ranges::sort(volumes);
+    return volumes;
+}
+
+TEST(Neighbours, RoundedInTextBecomeTwoRegionsByTheLengthWithinWhichTheirSidesAgree) {
+    const TemporaryFolder folder;
+    const std::array<Rounding, 5> roundings{{{'f', 1}, {'f', 2}, {'f', 3}, {'g', 6}, {'g', 7}}};
+    unsigned i = 0;
+    for (const Rounding& rounding : roundings) {
+        for (unsigned k = 0; k < 3; ++k) {
+            const double turn = 0.41 * ++i;
+            const Slab low{-500, -200, false, true, 2 + i % 5, 2 + i % 4}, high{-200, 0, true, false, 2 + i % 6, 3 + i % 7};
+            write_file(folder / "in.ts", slab_text("low", low, rounding, turn) + slab_text("high", high, rounding, turn));
+            const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml"});
+            ASSERT_EQ(run.status, 0) << rounding.format << rounding.digits << ' ' << turn << '\n' << run.out << run.err;
+            const auto volumes = region_volumes(folder / "out.ml");
+            ASSERT_EQ(volumes.size(), 2u) << rounding.format << rounding.digits << ' ' << turn << '\n' << run.out;
+            EXPECT_NEAR(volumes[0], volume(high), 1e-3 * volume(high)) << turn;
+            EXPECT_NEAR(volumes[1], volume(low), 1e-3 * volume(low)) << turn;
+        }
+    }
+}
+
+// A layer between the two that is three steps of the coordinates thick is no error of rounding: it stays, or nothing is written.
+TEST(Neighbours, RoundedInTextKeepAThinLayerBetweenThem) {
+    const TemporaryFolder folder;
+    const Rounding rounding{'f', 3};
+    for (const unsigned i : {1u, 3u}) {
+        const double turn = 0.41 * i;
+        const Slab low{-500, -200, false, true, 2 + i, 3 + i}, thin{-200, -199.997, true, true, 3 + i, 2},
+            high{-199.997, 0, true, false, 2, 2 + i};
+        write_file(folder / "in.ts", slab_text("low", low, rounding, turn) + slab_text("thin", thin, rounding, turn) +
+                                         slab_text("high", high, rounding, turn));
+        const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml"});
+        if (run.status == 6) continue;
+        ASSERT_EQ(run.status, 0) << turn << '\n' << run.out << run.err;
+        EXPECT_GE(region_volumes(folder / "out.ml").size(), 3u) << turn << '\n' << run.out;
     }
 }
 
