@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstddef>
 #include <string>
 
 namespace geomend::meshes {
@@ -33,6 +34,18 @@ constexpr std::array rows = {
     AbaqusElement{CellType::quadratic_edge, "B32", {middle_last, 3}, {}},
 };
 
+// C3D8 with a side that is an edge, and with an upper face that is a point.
+constexpr std::uint8_t collapsed_wedge[] = {0, 2, 1, 1, 3, 5, 4, 4}, collapsed_pyramid[] = {0, 1, 2, 3, 4, 4, 4, 4},
+                       collapsed_tetrahedron[] = {0, 1, 2, 2, 3, 3, 3, 3};
+constexpr std::uint8_t collapsed_wedge_faces[] = {1, 2, 6, 4, 3}, collapsed_pyramid_faces[] = {1, 3, 4, 5, 6},
+                       collapsed_tetrahedron_faces[] = {1, 3, 4, 6};
+
+constexpr std::array collapsed = {
+    AbaqusElement{CellType::pyramid, "C3D8", collapsed_pyramid, collapsed_pyramid_faces},
+    AbaqusElement{CellType::wedge, "C3D8", collapsed_wedge, collapsed_wedge_faces},
+    AbaqusElement{CellType::tetrahedron, "C3D8", collapsed_tetrahedron, collapsed_tetrahedron_faces},
+};
+
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 /// The row of a name, where nothing but letters follow it: "C3D8" of "C3D8RH", not "C3D2" of "C3D20".
@@ -50,6 +63,23 @@ std::span<const AbaqusElement> abaqus_elements() { return rows; }
 const AbaqusElement* abaqus_element_of(CellType type) {
     const auto* found = std::ranges::find(rows, type, &AbaqusElement::type);
     return found == rows.end() ? nullptr : found;
+}
+
+const AbaqusElement* abaqus_element_written(CellType type) {
+    return type == CellType::pyramid ? collapsed.data() : abaqus_element_of(type);
+}
+
+const AbaqusElement* abaqus_collapsed(std::span<const std::int64_t> nodes) {
+    const auto is_so = [&](const AbaqusElement& row) {
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                if ((nodes[i] == nodes[j]) != (row.order[i] == row.order[j])) return false;
+            }
+        }
+        return true;
+    };
+    const auto* found = std::ranges::find_if(collapsed, is_so);
+    return found == collapsed.end() ? nullptr : found;
 }
 
 const AbaqusElement* abaqus_element_called(std::string_view name) {

@@ -90,6 +90,7 @@ private:
     std::map<std::string, Members> node_sets_, element_sets_;             // by name in upper case: either case is the same
     std::map<std::pair<std::size_t, std::string>, std::int64_t> tag_of_;  // of entities, by part and name
     std::set<std::string> is_entity_;
+    std::unordered_map<std::uint32_t, const AbaqusElement*> collapsed_;  // what elements are that name nodes several times
     std::vector<WaitingFace> faces_;
     std::set<std::vector<std::uint32_t>> faces_taken_;  // by their nodes: a surface that was there from its other side
     std::uint64_t faces_again_ = 0;
@@ -253,6 +254,7 @@ private:
                 const auto tag = tag_of_.try_emplace({key, upper_case(set)}, static_cast<std::int64_t>(tag_of_.size()) + 1).first;
                 entity->second = grown_.entity(dimension, tag->second, set);
             }
+            if (const auto at = collapsed_.find(cell); at != collapsed_.end()) collapsed_[cell_count()] = at->second;
             grown_.add(mesh_.types[cell], nodes, entity->second);
         }
         const auto add = [](Members& list, std::uint32_t first, std::uint32_t end, std::uint32_t shift) {
@@ -365,8 +367,10 @@ private:
         return std::nullopt;
     }
 
-    std::optional<Failure> element(const Input& input, const DeckKeyword& keyword, const AbaqusElement& row, std::uint64_t line,
+    std::optional<Failure> element(const Input& input, const DeckKeyword& keyword, const AbaqusElement& stated, std::uint64_t line,
                                    std::span<const std::int64_t> numbers) {
+        const AbaqusElement* collapsed = stated.type == CellType::hexahedron ? abaqus_collapsed(numbers.subspan(1)) : nullptr;
+        const AbaqusElement& row = collapsed != nullptr ? *collapsed : stated;
         std::array<std::uint32_t, 20> cell{};
         for (std::size_t k = 0; k < row.order.size(); ++k) {
             const auto at = nodes_[part_].find(numbers[k + 1]);
@@ -379,7 +383,9 @@ private:
         const auto number = static_cast<std::uint32_t>(mesh_.types.size());
         const auto [at, is_new] = elements_[part_].try_emplace(numbers[0], number);
         if (!is_new) return replace(input, at->second, numbers[0], row, line, cell);
-        grown_.add(row.type, std::span(cell).first(row.order.size()), entity_of(dimension(row.type), std::string(keyword.value("ELSET"))));
+        if (collapsed != nullptr) collapsed_[number] = collapsed;
+        grown_.add(row.type, std::span(cell).first(node_count(row.type)),
+                   entity_of(dimension(row.type), std::string(keyword.value("ELSET"))));
         if (keyword.has("ELSET")) element_sets_[upper_case(keyword.value("ELSET"))].push_back(number);
         return std::nullopt;
     }
@@ -389,7 +395,7 @@ private:
                                    const std::array<std::uint32_t, 20>& cell) {
         if (mesh_.types[number] != row.type)
             return unreadable("F009", {input.name(), line}, "element " + std::to_string(id) + " is there twice, with two types");
-        std::copy_n(cell.begin(), row.order.size(), mesh_.nodes.begin() + static_cast<std::ptrdiff_t>(mesh_.offsets[number]));
+        std::copy_n(cell.begin(), node_count(row.type), mesh_.nodes.begin() + static_cast<std::ptrdiff_t>(mesh_.offsets[number]));
         drop(data_.findings, data_.losses,
              {.what = "the first statement of an element that is there twice", .why = "the last one holds", .where = {input.name(), line}});
         return std::nullopt;
@@ -529,7 +535,8 @@ private:
     }
 
     bool add_face(std::uint32_t element, const WaitingFace& waiting) {
-        const AbaqusElement* row = abaqus_element_of(mesh_.types[element]);
+        const auto collapsed = collapsed_.find(element);
+        const AbaqusElement* row = collapsed != collapsed_.end() ? collapsed->second : abaqus_element_of(mesh_.types[element]);
         std::int64_t wanted = 0;
         if (row == nullptr || !waiting.face.starts_with('S') ||
             parse_integer(std::string_view(waiting.face).substr(1), wanted) != NumberStatus::ok)

@@ -77,7 +77,7 @@ private:
 void write_elements(const VolumeMesh& mesh, OutputFile& file) {
     NumberLines line(file, 11);
     for (const VolumeMeshData::Block& block : mesh->blocks) {
-        const AbaqusElement& element = *abaqus_element_of(block.type);
+        const AbaqusElement& element = *abaqus_element_written(block.type);
         file << "*ELEMENT, TYPE=" << element.name << ", ELSET=" << mesh->regions[block.region] << '\n';
         for (std::uint32_t c = block.first; c < block.first + block.count && file.good(); ++c) {
             const auto nodes = mesh->nodes_of(c);
@@ -93,7 +93,7 @@ void write_surfaces(const VolumeMesh& mesh, OutputFile& file) {
         file << "*SURFACE, NAME=" << set.name << ", TYPE=ELEMENT\n";
         for (const CellFaceRef& face : set.faces) {
             file.number(face.cell + 1) << ", S";
-            file.number(std::uint32_t{abaqus_element_of(mesh.block_of(face.cell).type)->faces[face.face]}) << '\n';
+            file.number(std::uint32_t{abaqus_element_written(mesh.block_of(face.cell).type)->faces[face.face]}) << '\n';
         }
     }
 }

@@ -15,7 +15,7 @@ constexpr auto no_pyramid = static_cast<CellKinds>(tetrahedra | wedges | hexahed
 // Columns: target, cells, order, sorted, splitting, winding, middle nodes, names, face sets, face sides, edge sets, node sets, values
 // at points, values of cells, longest name, network, faces once, one name space.
 constexpr std::array<MeshNeeds, 20> rows{{
-    {"abaqus", no_pyramid, 2, CellOrder::any, Splitting::as_given, CornerOrder::outward, false, Naming::words, true, true, true, true,
+    {"abaqus", simple_cells, 2, CellOrder::any, Splitting::as_given, CornerOrder::outward, false, Naming::words, true, true, true, true,
      false, false, 80},
     {"avs-ucd", simple_cells, 1, CellOrder::any, Splitting::as_given, CornerOrder::outward, false, Naming::numbers, false, false, false,
      false, true, true, 0},

@@ -298,6 +298,42 @@ TEST(Abaqus, InstancesThatCannotBePlacedAreToldOrRefused) {
     EXPECT_EQ(mesh_in(read_text("abaqus", many)).cell_count(), 3u);
 }
 
+// CalculiX has no pyramids, and other programs write all solids as hexahedra.
+TEST(Abaqus, HexahedraThatNameNodesSeveralTimesAreWhatTheyAre) {
+    const std::string points = "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n*ELEMENT,TYPE=C3D8,ELSET=a\n";
+    struct Case {
+        std::string element;
+        CellType type;
+        std::vector<std::uint32_t> own;
+        std::vector<std::pair<std::string, std::vector<std::uint32_t>>> faces;  ///< nodes, ascending
+    };
+    for (const Case& c : {Case{"1,2,3,4,5,5,5,5",
+                               CellType::pyramid,
+                               {0, 1, 2, 3, 4},
+                               {{"S1", {0, 1, 2, 3}}, {"S3", {0, 1, 4}}, {"S4", {1, 2, 4}}, {"S5", {2, 3, 4}}, {"S6", {0, 3, 4}}}},
+                          Case{"1,2,3,3,5,6,7,7",
+                               CellType::wedge,
+                               {0, 2, 1, 4, 6, 5},
+                               {{"S1", {0, 1, 2}}, {"S2", {4, 5, 6}}, {"S3", {0, 1, 4, 5}}, {"S4", {1, 2, 5, 6}}, {"S6", {0, 2, 4, 6}}}},
+                          Case{"1,2,3,3,5,5,5,5",
+                               CellType::tetrahedron,
+                               {0, 1, 2, 4},
+                               {{"S1", {0, 1, 2}}, {"S3", {0, 1, 4}}, {"S4", {1, 2, 4}}, {"S6", {0, 2, 4}}}}}) {
+        std::string text = points + "1," + c.element + "\n";
+        for (const auto& [face, corners] : c.faces) text += "*SURFACE, NAME=f" + face + "\n1," + face + "\n";
+        const Dataset data = read_text("abaqus", text);
+        const CellMesh& mesh = mesh_in(data);
+        ASSERT_EQ(mesh.cell_count(), 1 + c.faces.size()) << c.element;
+        EXPECT_EQ(mesh.types[0], c.type);
+        EXPECT_EQ(nodes(mesh, 0), c.own) << c.element;
+        for (std::uint32_t f = 0; f < c.faces.size(); ++f) {
+            std::vector<std::uint32_t> found = nodes(mesh, f + 1);
+            std::ranges::sort(found);
+            EXPECT_EQ(found, c.faces[f].second) << c.element << ' ' << c.faces[f].first;
+        }
+    }
+}
+
 TEST(Abaqus, SurfacesOfBothSidesAreOneAndAreCutWhereRegionsChange) {
     const Dataset data = read_text("abaqus",
                                    "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n6,-1,0,0\n*ELEMENT,TYPE=C3D4,ELSET=a\n1,1,2,3,4\n"
