@@ -127,7 +127,7 @@ private:
 
     bool open(std::uint32_t number) {
         const ApexPlace place = place_behind(quads_[number]);
-        if (!(place.quality > 1e-5)) return false;
+        if (!(place.quality > shape_wanted(fan_))) return false;
         const FrontQuad& q = quads_[number];
         const auto apex = static_cast<std::uint32_t>(positions_.size());
         positions_.push_back(place.position);

@@ -4,7 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hexes/jacobian.h"
+
 namespace geomend::hexes {
+
+double CavityFront::shape_wanted(std::span<const std::uint32_t> tets) const {
+    constexpr double least = 1e-5, most = 3e-3, share = 0.1;
+    double best = 0;
+    for (const std::uint32_t t : tets) {
+        const auto& c = tets_[t];
+        const std::array corners{positions_[c[0]], positions_[c[1]], positions_[c[2]], positions_[c[3]]};
+        best = std::max(best, scaled_jacobian(CellType::tetrahedron, corners));
+    }
+    return std::clamp(share * best, least, most);
+}
 
 bool CavityFront::open_cavity(std::uint32_t number) {
     constexpr std::size_t most_faces = 60;
@@ -15,7 +28,7 @@ bool CavityFront::open_cavity(std::uint32_t number) {
         const Room room = room_in(border);
         if (is_simple_ && room.depth > 1e-6 && !loses_something()) {
             const ApexPlace place = place_for_apex(border);
-            if (place.quality > 1e-5) {
+            if (place.quality > shape_wanted(cavity_)) {
                 fill_cavity(place.position);
                 return true;
             }

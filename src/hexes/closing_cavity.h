@@ -23,6 +23,9 @@ protected:
     /// that sees all around.
     bool open_cavity(std::uint32_t number);
 
+    /// The least shape of cells around a new vertex that come in the place of some tetrahedra; less where all of these are thin.
+    double shape_wanted(std::span<const std::uint32_t> tets) const;
+
     std::vector<HalfSpace> beside_;  ///< what other quadrangles need
 
 private:

@@ -20,6 +20,8 @@ namespace {
 using Tet = std::array<std::uint32_t, 4>;
 using Corners3 = std::array<std::uint32_t, 3>;
 
+constexpr double flat = 1e-10, nearly_flat = 1e-5;  // volumes over the cube of the longest edge
+
 Tet ascending(Tet t) {
     std::ranges::sort(t);
     return t;
@@ -56,12 +58,19 @@ public:
         replace_flats();
     }
 
-    /// Cells of other types beside those that are flat.
+    /// Cells of other types beside those that are nearly flat; where these are many, as in thin layers, beside those that are flat.
     std::vector<std::uint32_t> beside_flats() const {
+        constexpr std::size_t many = 50;  // one of so many
+        std::vector<std::uint32_t> found = beside_flats(nearly_flat);
+        if (many * found.size() > mesh_.cells.size()) found = beside_flats(flat);
+        return found;
+    }
+
+    std::vector<std::uint32_t> beside_flats(double least) const {
         std::vector<std::uint8_t> is_near(mesh_.positions.size(), 0);
         std::vector<Tet> flats;
         for (const Tet& t : left_.tets) {
-            if (!is_flat(t)) continue;
+            if (!is_flat(t, least)) continue;
             flats.push_back(t);
             for (const std::uint32_t v : t) is_near[v] = 1;
         }
@@ -105,7 +114,7 @@ public:
                 if (const WallSide* wall = wall_at(left_.facet(4 * t + k))) mesh_.facet_places[wall->facet] = {cell, face_opposite(k)};
             }
         }
-        counts_.flat = static_cast<std::uint64_t>(std::ranges::count_if(left_.tets, [&](const Tet& t) { return is_flat(t); }));
+        counts_.flat = static_cast<std::uint64_t>(std::ranges::count_if(left_.tets, [&](const Tet& t) { return is_flat(t, flat); }));
     }
 
 private:
@@ -152,8 +161,7 @@ private:
     std::array<Vec3, 4> corners(const Tet& t) const {
         return {mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]], mesh_.positions[t[3]]};
     }
-    bool is_flat(const Tet& t) const {
-        constexpr double least = 1e-10;
+    bool is_flat(const Tet& t, double least) const {
         const auto p = corners(t);
         double longest = 0;
         for (std::size_t i = 0; i < 4; ++i) {
