@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "validators/cell_findings.h"
 #include "validators/model_scope.h"
@@ -74,7 +75,7 @@ void check_property_values(const ObjectScope& scope, std::vector<Finding>& findi
         const auto usual = undeclared(values[i]);
         if (!usual) continue;
         if (++marked.count == 1) {
-            number = " is " + rounded(usual_no_data[*usual]) + " at " + counted(values[i].suspicious[*usual], "place", "places") +
+            number = " is " + number_text(usual_no_data[*usual]) + " at " + counted(values[i].suspicious[*usual], "place", "places") +
                      ", and from " + rounded(values[i].low) + " to " + rounded(values[i].high) + " elsewhere";
         }
         if (marked.entities.size() + 1 < listed_elements) marked.entities.push_back(property_ref(a));

@@ -205,8 +205,11 @@ void copy_in_box(Edit& e) {
 
 /// The array of region numbers that a letter (M, F, O) names.
 /// All cells are of region 1 of MULTNUM where that is not there, as OPM Flow takes it.
-CellArray* regions_of(Edit& e, std::size_t i, const char* usual = "MULTNUM") {
-    const std::string word = e.record.given(i) ? upper_case(trimmed(e.record.text(i))) : usual;
+/// \param usual of which they are where none is named; empty: see letter_of_regions()
+CellArray* regions_of(Edit& e, std::size_t i, const std::string& usual = {}) {
+    const std::string word = e.record.given(i) ? upper_case(trimmed(e.record.text(i)))
+                             : usual.empty()   ? std::string(1, letter_of_regions(e.g))
+                                               : usual;
     const std::string array = word == "F" ? "FLUXNUM" : word == "O" ? "OPERNUM" : word == "M" ? "MULTNUM" : word;
     CellArray* a = e.g.find(array);
     const auto keyword = cell_keyword(array);

@@ -55,6 +55,7 @@ struct GridText {
     std::array<std::vector<std::uint32_t>, 3> fine_cells;  ///< NXFIN ...: fine cells of each host cell
     std::array<std::vector<double>, 3> fine_widths;        ///< HXFIN ...: their relative widths
     std::optional<std::string> geometry_file;              ///< GDFILE
+    std::optional<char> usual_regions;                     ///< M or F, as RUNSPEC has it; see letter_of_regions()
 
     CellArray* find(std::string_view name) {
         for (CellArray& a : arrays) {
@@ -73,6 +74,13 @@ struct GridText {
         return {};
     }
 };
+
+/// Whose numbers count where a record names no kind of regions: those of MULTNUM (M) where GRIDOPTS has room for them, else of FLUXNUM (F),
+/// as in OPM Flow. Without RUNSPEC: those that are there.
+inline char letter_of_regions(GridText& g) {
+    if (g.usual_regions) return *g.usual_regions;
+    return g.find("MULTNUM") == nullptr && g.find("FLUXNUM") != nullptr ? 'F' : 'M';
+}
 
 /// Number of cells of a box of that size.
 inline std::uint64_t cells_of(const Dims& d) { return std::uint64_t{d[0]} * d[1] * d[2]; }

@@ -46,6 +46,8 @@ DeckReader::Handler DeckReader::handler_of(std::string_view name) {
                                         Row{"NNC", &DeckReader::nnc},
                                         Row{"EDITNNC", &DeckReader::editnnc},
                                         Row{"MULTREGT", &DeckReader::multregt},
+                                        Row{"GRIDOPTS", &DeckReader::gridopts},
+                                        Row{"JFUNC", &DeckReader::jfunc},
                                         Row{"MAPAXES", &DeckReader::header},
                                         Row{"MAPUNITS", &DeckReader::header},
                                         Row{"GRIDUNIT", &DeckReader::header},
@@ -202,7 +204,34 @@ OptionalFailure DeckReader::nnc() {
     return read_connections(in(), grid(), findings_, losses_);
 }
 
-OptionalFailure DeckReader::multregt() { return read_region_multipliers(in(), grid(), findings_); }
+OptionalFailure DeckReader::multregt() {
+    auto& rules = grid().grid.region_multipliers;
+    const std::size_t before = rules.size();
+    const char* at = word_at_;
+    auto failed = read_region_multipliers(in(), grid(), findings_);
+    for (std::size_t r = before; r < rules.size() && current_ == 0 && !probing_; ++r)
+        regions_of_multipliers_.emplace_back(rules[r].regions, where(at));
+    return failed;
+}
+
+/// Scaling by Leverett's function is a part of end-point scaling, which RUNSPEC has to ask for.
+OptionalFailure DeckReader::jfunc() {
+    const auto runspec = std::ranges::find(texts_, Section::runspec, &decltype(texts_)::value_type::first);
+    if (!probing_ && runspec != texts_.end() && runspec->second.find("ENDSCALE") == std::string::npos)
+        note_flow_stops(findings_, where(word_at_), "JFUNC needs ENDSCALE in RUNSPEC, which is not there");
+    return keep(word_at_, word_, true);
+}
+
+/// The second item of GRIDOPTS is how many regions of MULTNUM there are. The record stays as text.
+OptionalFailure DeckReader::gridopts() {
+    Scanner ahead = in();
+    Item item = ahead.item();
+    if (item.at != nullptr && item.text != "/") item = ahead.item();
+    std::int64_t regions = 0;
+    const bool some = item.at != nullptr && parse_integer(item.text, regions) == NumberStatus::ok && regions > 0;
+    grid().usual_regions = some ? 'M' : 'F';
+    return keep(word_at_, word_, true);
+}
 
 OptionalFailure DeckReader::header() {
     GridText& g = grid();
@@ -351,6 +380,7 @@ OptionalFailure DeckReader::carfin() {
     }
     grids_.emplace_back();
     current_ = grids_.size() - 1;
+    grid().usual_regions = grids_.front().usual_regions;
     grid().grid.info.name = name;
     grid().grid.host = std::move(box);
     grid().dims = dims;

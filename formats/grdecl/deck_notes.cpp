@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "formats/grdecl/deck_notes.h"
 
+#include <span>
+
 namespace geomend::grdecl {
 
 namespace {

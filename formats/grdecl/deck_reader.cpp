@@ -221,6 +221,7 @@ void DeckReader::enter(Section s) {
     box_.reset();
     if (s == Section::runspec && std::ranges::find(texts_, s, &decltype(texts_)::value_type::first) == texts_.end())
         texts_.emplace_back(s, std::string());
+    if (s == Section::runspec && !grid().usual_regions) grid().usual_regions = 'F';
     if (kept_as_text(s)) {
         if (in().at() != in().end() && in().at()[-1] != '\n') in().skip_line();
         texts_.emplace_back(s, std::string());

@@ -66,6 +66,8 @@ private:
     OptionalFailure nnc();
     OptionalFailure editnnc();
     OptionalFailure multregt();
+    OptionalFailure gridopts();
+    OptionalFailure jfunc();
     OptionalFailure header();
     OptionalFailure vector_of_widths();
     OptionalFailure corner_tops();
@@ -116,6 +118,7 @@ private:
     Result<const CornerPointGrid*> host_of(const CornerPointGrid& local, const std::vector<Object>& before) const;
     void dims_from_boxes();
     void look_up_scheduled_faults();
+    void look_up_regions();
 
     Scanner& in() { return frames_.back().scanner; }
     const Scanner& in() const { return frames_.back().scanner; }
@@ -150,6 +153,7 @@ private:
     std::vector<std::pair<Section, std::string>> texts_;  ///< of sections that are kept as they stand
     bool in_companion_ = false;                           ///< in the file of properties that simulators do not take
     DeckNotes notes_;
+    std::vector<std::pair<char, Location>> regions_of_multipliers_;   ///< of MULTREGT of the main grid
     std::vector<std::pair<std::string, Location>> scheduled_faults_;  ///< of MULTFLT in SCHEDULE
     std::vector<Finding> findings_;
     std::vector<Loss> losses_;

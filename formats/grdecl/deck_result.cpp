@@ -46,6 +46,15 @@ void DeckReader::look_up_scheduled_faults() {
     }
 }
 
+/// Flow stops where MULTREGT goes by numbers that the deck does not state.
+void DeckReader::look_up_regions() {
+    for (const auto& [letter, at] : regions_of_multipliers_) {
+        const std::string_view array = letter == 'F' ? "FLUXNUM" : letter == 'O' ? "OPERNUM" : "MULTNUM";
+        if (grid().usual_regions && grid().find(array) == nullptr)
+            note_flow_stops(findings_, at, "MULTREGT goes by the regions of " + std::string(array) + ", which is not there");
+    }
+}
+
 /// A text without dimensions is of a grid where its faults or the files that it names say so.
 Result<void> DeckReader::need_dims() {
     if (grid().dims) return {};
@@ -103,6 +112,7 @@ Result<CornerPointGrid> DeckReader::grid_of(GridText& text, const std::vector<Ob
 Result<Dataset> DeckReader::finish() {
     current_ = 0;
     look_up_scheduled_faults();
+    look_up_regions();
     Dataset dataset;
     dataset.format = "grdecl";
     const bool deck = std::ranges::any_of(texts_, [](const auto& t) { return t.first == Section::runspec; });

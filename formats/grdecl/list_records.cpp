@@ -190,6 +190,8 @@ OptionalFailure read_region_multipliers(Scanner& in, GridText& g, std::vector<Fi
             if (word != "M" && word != "F" && word != "O")
                 return unreadable("F012", in.location(record.items[5].at), "expected M, F or O, found " + shown(record.text(5)));
             m.regions = word[0];
+        } else {
+            m.regions = letter_of_regions(g);
         }
         g.grid.region_multipliers.push_back(std::move(m));
         return {};

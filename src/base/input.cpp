@@ -7,6 +7,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
@@ -79,6 +80,20 @@ Result<std::string> read_all(int fd, const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+/// A text whose lines end with a carriage return alone, as old programs of the Macintosh wrote them.
+bool ends_lines_by_returns(std::string_view bytes) {
+    constexpr std::size_t first = 4096;
+    const auto is_of_text = [](char c) { return static_cast<unsigned char>(c) >= ' ' || c == '\t' || c == '\r' || c == '\f'; };
+    return bytes.substr(0, first).find('\r') != std::string_view::npos && std::ranges::all_of(bytes.substr(0, first), is_of_text) &&
+           std::ranges::all_of(bytes, is_of_text);
+}
+
+bool is_utf_16(std::string_view bytes) { return bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"); }
+
+}  // namespace
+
 Result<Input> Input::open(const std::string& path) {
     Input input;
     input.opened_ = std::make_shared<Opened>();
@@ -114,6 +129,14 @@ Result<Input> Input::open(const std::string& path) {
         unpacked->buffer = std::move(*inflated);
         input.bytes_ = unpacked->buffer;
         storage = std::move(unpacked);
+    }
+    if (is_utf_16(input.bytes_)) return unreadable("F013", {input.name_}, "the text is UTF-16, of which nothing is read: save it as UTF-8");
+    if (ends_lines_by_returns(input.bytes_)) {
+        auto text = std::make_shared<Storage>();
+        text->buffer = input.bytes_;
+        std::ranges::replace(text->buffer, '\r', '\n');
+        input.bytes_ = text->buffer;
+        storage = std::move(text);
     }
     input.storage_ = std::move(storage);
     return input;

@@ -124,7 +124,7 @@ void add_sizes(CLI::App& command, MeshArguments& a) {
         .add_option("--method", a.method,
                     "What becomes of surfaces: keep (default) leaves them as they are; isotropic, frontal and cvt give them new triangles "
                     "of --size first; "
-                    "lattice (default for hex-dominant) makes halves of squares of them that agree with cells inside")
+                    "lattice (default for hex-dominant and hybrid) makes halves of squares of them that agree with cells inside")
         ->type_name("METHOD")
         ->check(CLI::IsMember({"keep", "isotropic", "frontal", "cvt", "lattice"}));
     command
@@ -167,7 +167,7 @@ void add_cells(CLI::App& command, MeshArguments& a) {
         ->type_name("WHICH");
     command
         .add_option("--wells", a.wells,
-                    "Wells that become chains of edges of cells: all (default), none, or names of wells and lines between commas")
+                    "Wells that become chains of edges of cells: all (default), none, or names between commas, of lines, too")
         ->type_name("WHICH");
     command.add_option("--max-cells", a.most_cells, "Most cells that sizes may make, by an estimate (default 20000000)")
         ->type_name("N")

@@ -160,13 +160,14 @@ std::optional<validators::CheckOptions> strict_options(const Dataset& dataset, c
     return strict;
 }
 
-std::vector<repair::SurfacePlan> plans_of(const FoundBefore& before, const repair::Recipe& recipe) {
+std::vector<repair::SurfacePlan> plans_of(const Dataset& dataset, const FoundBefore& before, const repair::Recipe& recipe) {
     if (!recipe.steps.empty()) return {{recipe.steps, -1, {}}};
     repair::PlanFacts facts;
     facts.findings = before.asked.findings;
     facts.strict = before.judged();
     facts.close_gaps = recipe.max_gap.has_value();
     facts.box = recipe.box.has_value() || recipe.automatic_box;
+    facts.several_models = dataset.models.size() > 1;
     if (before.asked.closing && !recipe.tolerance) {
         facts.closing = before.asked.closing->tolerance;
         facts.closes_whole = before.asked.closing->left == 0;
@@ -192,7 +193,7 @@ Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const Re
     repair::Recipe recipe = request.recipe;
     if (auto of_surfaces = are_of_surfaces(request); !of_surfaces) return of_surfaces;
     if (request.checks.tolerance >= 0) recipe.tolerance = request.checks.tolerance;
-    auto plans = plans_of(before, recipe);
+    auto plans = plans_of(dataset, before, recipe);
     auto edits = recipe.edits;
     if (auto read = read_edits(edits, request, dataset); !read) return read;
     for (repair::SurfacePlan& plan : plans) {

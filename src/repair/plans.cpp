@@ -311,7 +311,9 @@ Result<std::optional<double>> closing_gap(const Dataset& dataset, const SurfaceP
 }  // namespace
 
 std::vector<SurfacePlan> plans_for(const PlanFacts& facts) {
-    const auto usual = plan_for(facts.findings, facts.close_gaps, facts.box);
+    auto usual = plan_for(facts.findings, facts.close_gaps, facts.box);
+    constexpr std::array<std::string_view, 3> as_one{"cut", "tails", "rebuild"};
+    if (facts.several_models) usual = in_order(usual, as_one);
     std::vector<SurfacePlan> plans;
     if (facts.box && has(usual, "close") && has(usual, "weld")) {
         // All is cut then, whatever is welded before; what ends beside something is better told once it is cut.

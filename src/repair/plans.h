@@ -27,6 +27,8 @@ struct PlanFacts {
     bool closes_whole = false;
     bool close_gaps = false;  ///< borders that stop short are closed also where no check finds them near
     bool box = false;         ///< a box is added
+    /// Models that may be sound each by itself become one: where they meet they are cut along what they share.
+    bool several_models = false;
 };
 
 /// The plans that are worth a try, the most promising first; none where nothing was found that a step mends.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -15,6 +16,7 @@
 #include "repair/region_names.h"
 #include "repair/scars.h"
 #include "repair/self_joints.h"
+#include "repair/soup_measures.h"
 #include "repair/surface_values.h"
 #include "topology/assemble.h"
 
@@ -157,17 +159,28 @@ Result<PiecesOfModel> pieces_of(const SurfaceModel& model) {
     return PiecesOfModel{std::move(judged->brep), std::move(triangles)};
 }
 
-Result<std::vector<std::uint8_t>> parting_triangles(const SurfaceModel& model) {
+Result<TriangleRegions> triangle_regions(const SurfaceModel& model) {
     auto judged = assembled(model);
     if (!judged) return std::move(judged).why();
-    std::vector<std::uint8_t> parting(model.model.soup.triangles.size(), 0);
+    const BrepData& brep = *judged->brep;
+    TriangleRegions result;
+    result.sides.assign(model.model.soup.triangles.size(), {no_index, no_index});
+    std::vector<double> area(brep.regions.size(), 0);
     const auto triangles = soup_triangles(model, *judged);
     for (std::size_t s = 0; s < triangles.size(); ++s) {
-        const auto& regions = judged->brep->surfaces[s].regions;
-        if (regions[0] == regions[1]) continue;
-        for (const std::uint32_t t : triangles[s]) parting[t] = 1;
+        const auto& regions = brep.surfaces[s].regions;
+        for (const std::uint32_t t : triangles[s]) result.sides[t] = {regions[0].value, regions[1].value};
+        double of_surface = 0;
+        for (const std::uint32_t t : triangles[s]) of_surface += triangle_area(model.model.soup, t);
+        for (const RegionId region : regions) {
+            if (region.valid()) area[region.value] += of_surface;
+        }
     }
-    return parting;
+    for (std::size_t r = 0; r < brep.regions.size(); ++r) {
+        const bool known = brep.regions[r].volume_known && area[r] > 0;
+        result.thickness.push_back(known ? 2 * brep.regions[r].volume / area[r] : std::numeric_limits<double>::infinity());
+    }
+    return result;
 }
 
 Result<SurfaceResult> result_of(const SurfaceModel& model) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,15 @@ Result<PiecesOfModel> pieces_of(const SurfaceModel& model);
 /// Failure (internal) where the result is inconsistent. Cost: near-linear.
 Result<SurfaceResult> result_of(const SurfaceModel& model);
 
-/// Per triangle of the soup whether it parts two regions, or a region from the outside: what must stay for both to stay.
+/// What lies on both sides of the triangles of a soup.
+struct TriangleRegions {
+    std::vector<std::array<std::uint32_t, 2>> sides;  ///< per triangle; no_index: the outside, or nothing that is closed
+    std::vector<double> thickness;                    ///< per region: twice its volume by its area; infinite where it is not known
+
+    /// Whether both regions, or a region and the outside, stay only where this triangle stays.
+    bool parts(std::size_t triangle) const { return sides[triangle][0] != sides[triangle][1]; }
+};
 /// Failure (internal) where the model cannot be assembled. Cost: near-linear.
-Result<std::vector<std::uint8_t>> parting_triangles(const SurfaceModel& model);
+Result<TriangleRegions> triangle_regions(const SurfaceModel& model);
 
 }  // namespace geomend::repair

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
+#include "base/disjoint_sets.h"
 #include "base/wording.h"
 #include "geometry/box_tree.h"
 #include "geometry/closest_points.h"
@@ -21,18 +25,19 @@ class UncutBorders {
 public:
     explicit UncutBorders(const SurfaceModel& model) : segments_(model.uncut_borders), tree_(boxes(model.uncut_borders)) {}
 
-    bool near(const Vec3& p, std::uint32_t patch, double limit) const {
+    /// How far a point is from where its patch ended; infinite where that is beyond a limit.
+    double distance(const Vec3& p, std::uint32_t patch, double limit) const {
         BoxTree::Corners around{p, p};
         for (std::size_t k = 0; k < 3; ++k) {
             around[0][k] -= limit;
             around[1][k] += limit;
         }
-        bool found = false;
+        double least = std::numeric_limits<double>::infinity();
         tree_.visit(around, -1e-9 * limit, [&](std::uint32_t i) {
             const auto& s = segments_[i];
-            found = found || (s.patch == patch && closest_points(p, {s.from, s.to, s.to}).distance <= limit);
+            if (s.patch == patch) least = std::min(least, closest_points(p, {s.from, s.to, s.to}).distance);
         });
-        return found;
+        return least <= limit ? least : std::numeric_limits<double>::infinity();
     }
 
 private:
@@ -88,23 +93,60 @@ std::vector<Piece> gather(const TriangleSoup& soup, const SoupEdges& edges, cons
     return all;
 }
 
-bool is_near_border(const TriangleSoup& soup, const Piece& piece, std::uint32_t patch, const UncutBorders& borders, double limit) {
-    return std::ranges::all_of(piece.triangles, [&](std::uint32_t t) {
-        return std::ranges::all_of(soup.triangles[t], [&](std::uint32_t v) { return borders.near(soup.vertices[v], patch, limit); });
-    });
+/// How far a piece reaches from where its patch ended; infinite where that is beyond a limit.
+double reach_of(const TriangleSoup& soup, const Piece& piece, std::uint32_t patch, const UncutBorders& borders, double limit) {
+    double most = 0;
+    for (const std::uint32_t t : piece.triangles) {
+        for (const std::uint32_t v : soup.triangles[t]) {
+            most = std::max(most, borders.distance(soup.vertices[v], patch, limit));
+            if (most > limit) return most;
+        }
+    }
+    return most;
 }
+
+/// Regions that become one as what parts them is taken away. Two that are no mere slivers must not.
+class JoinedRegions {
+public:
+    /// \param thin what is no thicker is a sliver
+    JoinedRegions(const TriangleRegions& regions, double thin) : regions_(regions), sets_(regions.thickness.size() + 1) {
+        for (const double thickness : regions.thickness) is_large_.push_back(thickness > thin ? 1 : 0);
+        is_large_.push_back(1);  // the outside
+    }
+    bool may_join(std::uint32_t triangle) {
+        const auto [a, b] = roots(triangle);
+        return a == b || is_large_[a] == 0 || is_large_[b] == 0;
+    }
+    void join(std::uint32_t triangle) {
+        const auto [a, b] = roots(triangle);
+        const std::uint8_t large = is_large_[a] | is_large_[b];
+        sets_.join(a, b);
+        is_large_[sets_.root(a)] = large;
+    }
+
+private:
+    std::array<std::uint32_t, 2> roots(std::uint32_t triangle) {
+        const auto outside = static_cast<std::uint32_t>(regions_.thickness.size());
+        const auto [front, back] = regions_.sides[triangle];
+        return {sets_.root(std::min(front, outside)), sets_.root(std::min(back, outside))};
+    }
+
+    const TriangleRegions& regions_;
+    DisjointSets sets_;
+    std::vector<std::uint8_t> is_large_;
+};
 
 struct Removed {
     std::uint64_t pieces = 0, triangles = 0;
 };
 
 /// Per patch what it is measured by: its largest piece of those that part regions, or of all where none does.
-std::vector<double> main_areas(const std::vector<Piece>& all, const PatchPieces& pieces, const std::vector<std::uint8_t>& parting,
+std::vector<double> main_areas(const std::vector<Piece>& all, const PatchPieces& pieces, const TriangleRegions& regions,
                                std::size_t patches) {
     std::vector<double> main(patches, 0), largest(patches, 0);
     for (std::size_t p = 0; p < all.size(); ++p) {
         if (all[p].triangles.empty()) continue;
-        double& area = (parting[all[p].triangles[0]] != 0 ? main : largest)[pieces.patch[p]];
+        double& area = (regions.parts(all[p].triangles[0]) ? main : largest)[pieces.patch[p]];
         area = std::max(area, all[p].area);
     }
     for (std::size_t i = 0; i < patches; ++i) main[i] = main[i] > 0 ? main[i] : largest[i];
@@ -112,33 +154,38 @@ std::vector<double> main_areas(const std::vector<Piece>& all, const PatchPieces&
 }
 
 /// Takes pieces away that end freely and lie within the limit of their patch of where their patch ended before it was cut; then those
-/// behind them, until there are none. The main piece of a patch stays, and of what parts regions all that is no mere corner of it.
-Result<Removed> drop_narrow(const SurfaceModel& model, const std::vector<double>& limits, std::vector<std::uint8_t>& keep) {
-    constexpr double share_of_corner = 0.02;
+/// behind them, until there are none. The main piece of a patch stays. Of what parts regions only what is a mere corner of the patch goes,
+/// which reaches hardly farther than what ended freely there, and no two regions become one that are more than slivers.
+Result<Removed> drop_narrow(const SurfaceModel& model, const std::vector<double>& limits, double thin, std::vector<std::uint8_t>& keep) {
+    constexpr double share_of_corner = 0.02, hardly_farther = 1.2;
     const TriangleSoup& soup = model.model.soup;
     const SoupEdges edges = edges_of(soup);
     const PatchPieces pieces = pieces_between_lines(soup, edges);
     const UncutBorders borders(model);
-    std::vector<std::uint8_t> removed(soup.triangles.size(), 0), near(pieces.count(), 2);
+    std::vector<std::uint8_t> removed(soup.triangles.size(), 0);
     Removed sum;
     const auto first = gather(soup, edges, pieces, removed);
     if (std::ranges::none_of(first, [](const Piece& p) { return p.has_line && p.is_open; })) return sum;
-    const auto parting = parting_triangles(model);
-    if (!parting) return parting.why();
-    const auto main = main_areas(first, pieces, *parting, model.model.patches.size());
+    const auto regions = triangle_regions(model);
+    if (!regions) return regions.why();
+    const auto main = main_areas(first, pieces, *regions, model.model.patches.size());
+    JoinedRegions joined(*regions, thin);
+    std::vector<double> reach(pieces.count(), -1), reach_of_tails(model.model.patches.size(), 0);
     for (bool again = true; again;) {
         again = false;
         const auto all = gather(soup, edges, pieces, removed);
         for (std::size_t p = 0; p < all.size(); ++p) {
             const Piece& piece = all[p];
             if (piece.triangles.empty() || removed[piece.triangles[0]] != 0) continue;
-            const double whole = main[pieces.patch[p]];
-            const bool parts = !piece.is_open && (*parting)[piece.triangles[0]] != 0;
-            if (!piece.has_line || !(piece.is_open || piece.follows) || piece.area == whole) continue;
-            if (parts && piece.area > share_of_corner * whole) continue;
-            if (near[p] == 2) near[p] = is_near_border(soup, piece, pieces.patch[p], borders, limits[pieces.patch[p]]) ? 1 : 0;
-            if (near[p] == 0) continue;
+            const std::uint32_t patch = pieces.patch[p], one = piece.triangles[0];
+            const bool parts = !piece.is_open && regions->parts(one);
+            if (!piece.has_line || !(piece.is_open || piece.follows) || piece.area == main[patch]) continue;
+            if (parts && (piece.area > share_of_corner * main[patch] || !joined.may_join(one))) continue;
+            if (reach[p] < 0) reach[p] = reach_of(soup, piece, patch, borders, limits[patch]);
+            if (reach[p] > (parts ? std::min(limits[patch], hardly_farther * reach_of_tails[patch]) : limits[patch])) continue;
+            if (!parts) reach_of_tails[patch] = std::max(reach_of_tails[patch], reach[p]);
             for (const std::uint32_t t : piece.triangles) removed[t] = 1;
+            joined.join(one);
             ++sum.pieces;
             sum.triangles += piece.triangles.size();
             again = true;
@@ -153,7 +200,7 @@ Result<Removed> drop_narrow(const SurfaceModel& model, const std::vector<double>
 Result<StepOutcome> remove_tails(SurfaceModel& model, const SurfaceStepOptions& options) {
     const double limit = gap_limit(model, options);
     std::vector<std::uint8_t> keep(model.model.soup.triangles.size(), 1);
-    const auto narrow = drop_narrow(model, gap_limits(model, options), keep);
+    const auto narrow = drop_narrow(model, gap_limits(model, options), limit, keep);
     if (!narrow) return narrow.why();
     auto outside = outside_of_boundary(model, keep);
     if (!outside) return std::move(outside).why();

@@ -35,6 +35,49 @@ void each_edge(const std::array<std::uint32_t, 3>& t, const Visit& visit) {
     for (std::size_t i = 0; i < 3; ++i) visit(t[i], t[i == 2 ? 0 : i + 1]);
 }
 
+/// What vertices take up on the map.
+struct MapExtent {
+    std::array<double, 2> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    std::array<double, 2> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+    void add(const Vec3& p) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+    bool covers(const MapExtent& other) const {
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double little = 1e-6 * (other.high[k] - other.low[k]);
+            if (low[k] > other.low[k] + little || high[k] < other.high[k] - little) return false;
+        }
+        return true;
+    }
+};
+
+/// Whether vertices are the whole base, or the top, of a body or of a wall: each has an edge to another one of them, they lie below all of
+/// it, and some others stand upright on them.
+bool are_base(const UsedPoints& used, std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint8_t> usual,
+              std::size_t suspects) {
+    bool upright = false;
+    MapExtent base, all;
+    std::vector<std::uint32_t> linked;
+    for (const auto& t : triangles) {
+        for (const std::uint32_t v : t) {
+            all.add(used.positions[v]);
+            if (usual[v] != 0) base.add(used.positions[v]);
+        }
+        each_edge(t, [&](std::uint32_t a, std::uint32_t b) {
+            if (usual[a] != 0 && usual[b] != 0) linked.insert(linked.end(), {a, b});
+            const Vec3 d = minus(used.positions[a], used.positions[b]);
+            upright = upright || (usual[a] != usual[b] && std::hypot(d[0], d[1]) <= 1e-6 * std::abs(d[2]));
+        });
+    }
+    if (!upright || !base.covers(all)) return false;
+    std::ranges::sort(linked);
+    return static_cast<std::size_t>(std::unique(linked.begin(), linked.end()) - linked.begin()) == suspects;
+}
+
 /// The usual ones of one object.
 /// \param usual see usual_heights()
 void mark_usual(const UsedPoints& used, std::span<const std::uint8_t> usual, std::uint32_t object, std::vector<Outlying>& marks) {
@@ -52,6 +95,7 @@ void mark_usual(const UsedPoints& used, std::span<const std::uint8_t> usual, std
         std::ranges::sort(*list);
         list->erase(std::unique(list->begin(), list->end()), list->end());
     }
+    if (are_base(used, triangles, usual, suspects.size())) return;
     const auto suspected = [&](std::uint32_t v) { return std::ranges::binary_search(suspects, v); };
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const std::uint32_t v : vertices) {

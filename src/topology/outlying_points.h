@@ -23,7 +23,7 @@ enum class Outlying : std::uint8_t {
 /// these are less than a tenth of the vertices of the object (of 9999 and larger numbers: less than half). Where all edges from such
 /// vertices to others are at least four times as steep as those among the others, and none is upright, less than half is enough for
 /// 999 and 9999, at which some models end, too; and of numbers that are no depth of anything, such as -999.25, -32768 or -99999, there
-/// may be any number beside others.
+/// may be any number beside others. The whole base or top of a body, on which others stand upright, is at such a height rightly.
 ///
 /// Vertices are `far` where edges that are at least ten times as long as all the rest is wide are all that links them to the
 /// rest, and they are at most a twentieth of it (from a hundred times on: a quarter). So what tapers off through several

@@ -62,6 +62,27 @@ TEST(Input, InflatesGzipToldByItsBytes) {
     EXPECT_LT(input->stored_size(), text.size());
 }
 
+TEST(Input, EndsLinesOfOldTextsByLineFeeds) {
+    const TemporaryFolder folder;
+    const auto read = [&](const std::string& bytes) {
+        write_file(folder / "a", bytes);
+        return std::string(Input::open((folder / "a").string())->bytes());
+    };
+    EXPECT_EQ(read("a b\r\rc\r"), "a b\n\nc\n");
+    for (const std::string& other : {std::string("a\r\nb\r"), std::string("a\rb\0", 4), std::string("ab\r\x01")})
+        EXPECT_EQ(read(other), other);
+}
+
+TEST(Input, RefusesUtf16) {
+    const TemporaryFolder folder;
+    for (const std::string& bytes : {std::string("\xff\xfeS\0", 4), std::string("\xfe\xff\0S", 4)}) {
+        write_file(folder / "a", bytes);
+        const auto input = Input::open((folder / "a").string());
+        ASSERT_FALSE(input);
+        EXPECT_EQ(input.why().error.code, "F013");
+    }
+}
+
 TEST(Input, JoinsGzipMembers) {
     const TemporaryFolder folder;
     write_gzip(folder / "1", "one ");

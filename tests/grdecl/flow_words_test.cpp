@@ -9,18 +9,21 @@ namespace geomend::test {
 
 namespace {
 
-const std::string two_cells =
+const std::string geometry =
     "SPECGRID\n 2 1 2 1 F /\nCOORD\n 0 0 0 0 0 9 1 0 0 1 0 9 2 0 0 2 0 9 0 1 0 0 1 9 1 1 0 1 1 9 2 1 0 2 1 9 /\n"
-    "ZCORN\n 8*1 8*2 8*2 8*3 /\nPORO\n 4*0.2 /\nPERMX\n 4*100 /\nMULTNUM\n 2*1 2*2 /\nFAULTS\n A 1 1 1 1 1 2 X /\n/\n";
+    "ZCORN\n 8*1 8*2 8*2 8*3 /\n";
+const std::string two_cells = geometry + "PORO\n 4*0.2 /\nPERMX\n 4*100 /\nMULTNUM\n 2*1 2*2 /\nFAULTS\n A 1 1 1 1 1 2 X /\n/\n";
 
-std::string codes(const std::string& text) {
-    const auto d = read_text(two_cells + text);
+std::string codes_of(const std::string& text) {
+    const auto d = read_text(text);
     EXPECT_TRUE(d) << why(d) << text;
     std::string all;
     if (!d) return "unreadable";
     for (const Finding& f : d->findings) all += (all.empty() ? "" : " ") + f.code;
     return all;
 }
+
+std::string codes(const std::string& text) { return codes_of(two_cells + text); }
 
 }  // namespace
 
@@ -51,6 +54,33 @@ TEST(FlowWords, WhatFlowTakesIsNoFinding) {
                              "COPY\n PERMX PERMY /\n/\n", "permy\n 4*1 /\n", "EQUALREG\n FACIES 0.1 1 M /\n/\n", "FIPXYZ\n 4*1 /\n",
                              "SWL\n 4*0.1 /\n", "MULTX-\n 4*0.1 /\n", "AQUCT\n 1 /\n/\n"})
         EXPECT_EQ(codes(text).find("F14"), std::string::npos) << text << codes(text);
+}
+
+TEST(FlowWords, MultipliersGoByTheRegionsThatFlowTakes) {
+    const auto deck = [](const std::string& runspec, const std::string& grid) {
+        return "RUNSPEC\nDIMENS\n 2 1 2 /\n" + runspec + "GRID\n" + geometry + grid;
+    };
+    const std::string rule = "MULTREGT\n 1 2 0.5 /\n/\n", of_multnum = "MULTNUM\n 4*1 /\n", of_fluxnum = "FLUXNUM\n 4*1 /\n",
+                      room = "GRIDOPTS\n 'YES' 2 /\n";
+    const auto letter_of = [](const std::string& text) {
+        const auto d = read_text(text);
+        return d ? std::get<CornerPointGrid>(d->objects[0]).region_multipliers.at(0).regions : '?';
+    };
+    EXPECT_EQ(codes_of(deck("", of_fluxnum + rule)).find("F149"), std::string::npos);
+    EXPECT_EQ(letter_of(deck("", of_fluxnum + of_multnum + rule)), 'F');
+    EXPECT_NE(codes_of(deck("", of_multnum + rule)).find("F149"), std::string::npos);
+    EXPECT_NE(codes_of(deck("", rule)).find("F149"), std::string::npos);
+    EXPECT_EQ(codes_of(deck(room, of_multnum + rule)).find("F149"), std::string::npos);
+    EXPECT_EQ(letter_of(deck(room, of_fluxnum + of_multnum + rule)), 'M');
+    EXPECT_NE(codes_of(deck(room, of_fluxnum + rule)).find("F149"), std::string::npos);
+    EXPECT_EQ(letter_of(geometry + of_multnum + rule), 'M') << "without RUNSPEC";
+    EXPECT_EQ(letter_of(geometry + of_fluxnum + rule), 'F') << "without RUNSPEC";
+}
+
+TEST(FlowWords, LeverettScalingNeedsEndPointScaling) {
+    const std::string grid = "GRID\n" + geometry + "JFUNC\n WATER 20 /\n", runspec = "RUNSPEC\nDIMENS\n 2 1 2 /\n";
+    EXPECT_NE(codes_of(runspec + grid).find("F149"), std::string::npos);
+    EXPECT_EQ(codes_of(runspec + "ENDSCALE\n/\n" + grid).find("F149"), std::string::npos);
 }
 
 TEST(FlowWords, TheSameRecordsAreCounted) {

@@ -60,6 +60,7 @@ CornerPointGrid full() {
     g.least_pore_volume = 17.5;
     g.region_multipliers = {{1, {}, 0.5, "XY", "NNC", 'F'}};
     g.info.attributes = {cell_attribute<double>("PORO", {0.1, 0.2, 1.0 / 3, -0.0}),
+                         cell_attribute<std::int32_t>("FLUXNUM", {1, 1, 2, 2}),
                          cell_attribute<std::int32_t>("SATNUM", {1, 1, 2, 3}),
                          cell_attribute<std::int32_t>("FACIES", {4, 4, -4, 4}),
                          cell_attribute<double>("RHO", {1, 2, 3, 4}),

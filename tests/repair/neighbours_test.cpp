@@ -10,6 +10,7 @@
 
 #include "base/number_text.h"
 #include "base/vec3.h"
+#include "region_volumes.h"
 #include "support/program.h"
 
 // Closed bodies beside each other, in single precision or rounded in text: their common side is not the same in both.
@@ -18,6 +19,7 @@ namespace geomend {
 namespace {
 
 using test::info;
+using test::region_volumes;
 using test::run_geomend;
 using test::TemporaryFolder;
 using test::write_file;
@@ -133,15 +135,6 @@ double volume(const Slab& slab) {
     const double middle =
         height(slab.high, slab.tilted_high, slab_x / 2, slab_y / 2) - height(slab.low, slab.tilted_low, slab_x / 2, slab_y / 2);
     return slab_x * slab_y * middle;
-}
-
-/// The volumes of the regions of a model, ascending.
-std::vector<double> region_volumes(const std::string& path) {
-    std::vector<double> volumes;
-    const auto told = info(path)["brep"]["region_volumes"];
-    for (const auto& region : told) volumes.push_back(region["volume"].get<double>());
-    std::ranges::sort(volumes);
-    return volumes;
 }
 
 TEST(Neighbours, RoundedInTextBecomeTwoRegionsByTheLengthWithinWhichTheirSidesAgree) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace geomend {
 namespace {
@@ -189,6 +190,49 @@ TEST(Lengths, know_walls_that_end_at_a_usual_depth_from_no_data) {
         }
     }
     EXPECT_TRUE(lengths_of(with({wall({0, -99999}, 0)})).outlying.empty());
+}
+
+/// The closed surface of a box of four by four columns, with points of its sides at some heights, lowest first.
+Surface box(const std::vector<double>& heights) {
+    Surface surface;
+    surface.info.name = "box";
+    std::map<Vec3, std::uint32_t> known;
+    const auto point = [&](double x, double y, double z) {
+        const auto [at, added] = known.emplace(Vec3{2500 * x, 2500 * y, z}, static_cast<std::uint32_t>(surface.points.size()));
+        if (added) surface.points.push_back(at->first);
+        return at->second;
+    };
+    const auto square = [&](const std::array<std::uint32_t, 4>& q) {
+        surface.polygons.push_back(std::array<std::uint32_t, 3>{q[0], q[1], q[2]});
+        surface.polygons.push_back(std::array<std::uint32_t, 3>{q[0], q[2], q[3]});
+    };
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            for (const double z : {heights.front(), heights.back()})
+                square({point(i, j, z), point(i + 1, j, z), point(i + 1, j + 1, z), point(i, j + 1, z)});
+        }
+        for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+            const double low = heights[k], high = heights[k + 1];
+            for (const double end : {0.0, 4.0}) {
+                square({point(i, end, low), point(i + 1, end, low), point(i + 1, end, high), point(i, end, high)});
+                square({point(end, i, low), point(end, i + 1, low), point(end, i + 1, high), point(end, i, high)});
+            }
+        }
+    }
+    return surface;
+}
+
+TEST(Lengths, know_a_body_that_ends_at_a_usual_depth_from_no_data) {
+    for (const double base : {-999.25, -9999.0, -99999.0, -1e9}) {
+        EXPECT_TRUE(lengths_of(with({box({base, 0.4 * base, 0})})).outlying.empty()) << base;
+        EXPECT_TRUE(lengths_of(with({box({0, -0.4 * base, -base})})).outlying.empty()) << -base;
+        EXPECT_TRUE(lengths_of(with({wall({0, 0.4 * base, base}, 0)})).outlying.empty()) << base;
+    }
+    Surface pulled = box({-1500, -1000, -500});
+    for (Vec3& p : pulled.points) {
+        if (p == Vec3{5000, 5000, -1500} || p == Vec3{5000, 2500, -1500}) p[2] = -99999;
+    }
+    EXPECT_EQ(lengths_of(with({pulled})).outlying.size(), 2u) << "two points of the base are not all of it";
 }
 
 /// A closed cone of eight sides with a base that has a point in the middle, and with a collar, a narrower ring above the base, or without.
