@@ -339,8 +339,10 @@ std::vector<SurfacePlan> plans_for(const PlanFacts& facts) {
 Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Finding> before, std::span<const SurfacePlan> plans,
                                       const SurfaceDriverOptions& options, bool search) {
     std::optional<PlannedRepair> best;
+    UndoneSteps undone;
     const auto attempt = [&](const SurfacePlan& plan, std::optional<double> gap = {}) -> Result<SurfaceRepair> {
         SurfaceDriverOptions own = options;
+        own.undone = &undone;
         if (plan.tolerance >= 0) own.checks.tolerance = plan.tolerance;
         if (gap) own.steps.max_gap = *gap;
         auto repaired = repair_surfaces(dataset, before, plan.steps, own);

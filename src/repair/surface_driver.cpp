@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/number_text.h"
 #include "base/process_memory.h"
 #include "base/wording.h"
 #include "repair/contact_table.h"
@@ -34,6 +35,7 @@ struct State {
     ErrorCounts errors;
     std::uint64_t near_misses = 0;     ///< borders that nearly meet a surface
     std::shared_ptr<const Brep> read;  ///< as the model was before any step: its regions are those that should survive
+    std::string steps;                 ///< that have changed it, in words that tell one state from another
 };
 
 struct Judged {
@@ -127,10 +129,16 @@ void tell_names(std::span<const NameChange> before, std::span<const NameChange> 
     if (!made.empty()) done.outcome.what.message += "; regions made: " + made;
 }
 
+std::string names_of(std::span<const SurfaceStepRow* const> rows) {
+    std::string names;
+    for (const SurfaceStepRow* row : rows) names += std::string(row->name) + ' ';
+    return names;
+}
+
 /// Takes some steps one after the other and judges the model once, after the last of them; `state` is as it was where they are
 /// undone, all or none.
-Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRow* const> rows, const SurfaceDriverOptions& options,
-                                                   State& state) {
+Result<std::vector<SurfaceStepDone>> take_and_judge(std::span<const SurfaceStepRow* const> rows, const SurfaceDriverOptions& options,
+                                                    State& state) {
     std::vector<SurfaceStepDone> all;
     SurfaceModel next = state.model;
     std::string why;
@@ -159,7 +167,9 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
         if (why.empty()) {
             tell_names(state.result.changes, result->changes, all.back());
             auto read = changes_regions ? std::make_shared<const Brep>(result->brep) : state.read;
-            state = State{std::move(next), std::move(*result), std::move(judged->errors), judged->near_misses, std::move(read)};
+            std::string steps = state.steps + names_of(rows) + "| ";
+            state = State{std::move(next),     std::move(*result), std::move(judged->errors),
+                          judged->near_misses, std::move(read),    std::move(steps)};
             return all;
         }
     }
@@ -169,6 +179,18 @@ Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRo
         done.why = why;
     }
     return all;
+}
+
+/// The same; what is known to have been undone is not done again.
+Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRow* const> rows, const SurfaceDriverOptions& options,
+                                                   State& state) {
+    if (options.undone == nullptr) return take_and_judge(rows, options, state);
+    const std::string key =
+        number_text(options.checks.tolerance) + ' ' + number_text(options.steps.max_gap) + ": " + state.steps + names_of(rows);
+    if (const auto known = options.undone->find(key); known != options.undone->end()) return known->second;
+    auto done = take_and_judge(rows, options, state);
+    if (done && std::ranges::any_of(*done, [](const SurfaceStepDone& step) { return !step.kept; })) options.undone->emplace(key, *done);
+    return done;
 }
 
 /// Steps that are judged together: those that lead to a cut with what follows them, up to the removal of tails.
@@ -261,7 +283,7 @@ Result<SurfaceRepair> repair_surfaces(const Dataset& dataset, std::span<const Fi
     auto result = result_of(*model);
     if (!result) return std::move(result).why();
     auto read = std::make_shared<const Brep>(result->brep);
-    State state{std::move(*model), std::move(*result), errors_of(before), near_misses_in(before), std::move(read)};
+    State state{std::move(*model), std::move(*result), errors_of(before), near_misses_in(before), std::move(read), {}};
     const bool closing = should_close(state, before) || options.steps.box || options.steps.automatic_box;
     std::vector<SurfaceStepDone> steps;
     for (const auto& chain : chains_of(names)) {

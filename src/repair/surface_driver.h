@@ -13,12 +13,18 @@
 
 namespace geomend::repair {
 
+struct SurfaceStepDone;
+
+/// What was undone of plans that were tried, by the steps that were kept before it and the lengths: it is not done again.
+using UndoneSteps = std::map<std::string, std::vector<SurfaceStepDone>>;
+
 struct SurfaceDriverOptions {
     SurfaceStepOptions steps;
     double max_displacement = -1;     ///< a step that moves a vertex farther is undone; negative: no limit
     bool keep_model = false;          ///< what was mended is given back, too, so that changes_of() can compare it
     bool keep_worse = false;          ///< steps are kept also where the model is worse after them
     validators::CheckOptions checks;  ///< by which the model is judged between steps
+    UndoneSteps* undone = nullptr;    ///< of the same Dataset, and but for lengths the same options; nullptr: none are kept
 };
 
 /// What the driver did with a step.
