@@ -85,6 +85,12 @@ Result<StepOutcome> weld_borders(SurfaceModel& model, const SurfaceStepOptions& 
         LaidBorders laid = lay_borders(model.model.soup, model.lengths.tolerance);
         const std::uint64_t changed = laid.moved + laid.made + laid.dropped;
         if (round > 0 && changed == 0) break;
+        if (changed == 0) {  // it would be a cut alone
+            all.what.message =
+                "surfaces are so near each other that what lies within the tolerance would not settle as one, and no border "
+                "runs along another: nothing was done";
+            return all;
+        }
         auto cut = arranged(laid.soup, model, options, arrangement::ArrangeOptions().reach, true);
         if (!cut) return std::move(cut).why();
         const bool is_clean = cut->clean;

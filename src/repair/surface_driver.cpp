@@ -135,6 +135,19 @@ std::string names_of(std::span<const SurfaceStepRow* const> rows) {
     return names;
 }
 
+/// By which it is known what was undone: where, by which lengths, and what.
+std::string undone_key(const SurfaceDriverOptions& options, const State& state, const std::string& names) {
+    return number_text(options.checks.tolerance) + ' ' + number_text(options.steps.max_gap) + ": " + state.steps + names;
+}
+
+/// Where all but one of some steps that were undone together changed nothing, that one would be undone alone, too.
+void note_undone_alone(const std::vector<SurfaceStepDone>& all, const SurfaceDriverOptions& options, const State& state) {
+    const auto undone = [](const SurfaceStepDone& done) { return !done.kept; };
+    if (options.undone == nullptr || std::ranges::count_if(all, undone) != 1) return;
+    const SurfaceStepDone& alone = *std::ranges::find_if(all, undone);
+    options.undone->emplace(undone_key(options, state, alone.step + ' '), std::vector{alone});
+}
+
 /// Takes some steps one after the other and judges the model once, after the last of them; `state` is as it was where they are
 /// undone, all or none.
 Result<std::vector<SurfaceStepDone>> take_and_judge(std::span<const SurfaceStepRow* const> rows, const SurfaceDriverOptions& options,
@@ -178,6 +191,7 @@ Result<std::vector<SurfaceStepDone>> take_and_judge(std::span<const SurfaceStepR
         done.kept = false;
         done.why = why;
     }
+    note_undone_alone(all, options, state);
     return all;
 }
 
@@ -185,8 +199,7 @@ Result<std::vector<SurfaceStepDone>> take_and_judge(std::span<const SurfaceStepR
 Result<std::vector<SurfaceStepDone>> take_together(std::span<const SurfaceStepRow* const> rows, const SurfaceDriverOptions& options,
                                                    State& state) {
     if (options.undone == nullptr) return take_and_judge(rows, options, state);
-    const std::string key =
-        number_text(options.checks.tolerance) + ' ' + number_text(options.steps.max_gap) + ": " + state.steps + names_of(rows);
+    const std::string key = undone_key(options, state, names_of(rows));
     if (const auto known = options.undone->find(key); known != options.undone->end()) return known->second;
     auto done = take_and_judge(rows, options, state);
     if (done && std::ranges::any_of(*done, [](const SurfaceStepDone& step) { return !step.kept; })) options.undone->emplace(key, *done);
