@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "base/wording.h"
 #include "pipeline/command_options.h"
@@ -14,6 +15,7 @@
 #include "repair/plans.h"
 #include "topology/lengths.h"
 #include "topology/region_surfaces.h"
+#include "validators/check_selection.h"
 
 namespace geomend {
 
@@ -236,6 +238,30 @@ void keep_unclosed(const ReportedFile& before, ReportedFile& after) {
     after.valid = false;
 }
 
+// Whether a file says where regions are: in a model, by groups of a mesh, or by cells.
+bool states_regions(const Dataset& dataset) {
+    return !dataset.models.empty() ||
+           std::ranges::any_of(dataset.objects, [](const Object& object) { return std::holds_alternative<CellMesh>(object); });
+}
+
+// Regions that a repair has found are stated by what it writes, so that a surface with one of them on both sides is meant to be so. Whether
+// it was meant to part anything is as open as it was: what is said of that where nothing is stated is added.
+Result<void> add_undecided(const std::string& path, Dataset& dataset, validators::CheckOptions checks, ReportedFile& after) {
+    if (dataset.models.empty() || !validators::wanted(checks, "B29")) return {};
+    checks.only = {"B29"};
+    checks.closing_tolerance = false;
+    auto models = std::exchange(dataset.models, {});
+    auto found = validate(path, dataset, checks);
+    dataset.models = std::move(models);
+    if (!found) return std::move(found).why();
+    for (Finding& finding : found->findings) {
+        const bool known =
+            std::ranges::any_of(after.findings, [&](const Finding& f) { return f.code == "B29" && f.message == finding.message; });
+        if (finding.code == "B29" && !known) after.findings.push_back(std::move(finding));
+    }
+    return {};
+}
+
 // What is found in a result: at the tolerance that was asked for, and where it seems sound then, at the one by rule, too. What was
 // not welded is not one for those who read the result.
 Result<ReportedFile> validate_result(const std::string& path, const Dataset& dataset, const validators::CheckOptions& checks,
@@ -275,7 +301,7 @@ bool leaves_cells_behind(const Dataset& dataset, const Format& target) {
 Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& request, RepairReport& report) {
     const std::string& path = request.files.inputs.front();
     flatten_meshes(dataset);
-    const bool stated = !dataset.models.empty();
+    const bool stated = !dataset.models.empty(), regions_stated = states_regions(dataset);
     const bool grids = std::ranges::any_of(dataset.objects, is_grid);
     std::vector<Brep> judged;
     std::vector<Brep>* const wanted = request.inspect ? &judged : nullptr;
@@ -308,6 +334,9 @@ Result<void> mend(Dataset& dataset, const Format& target, const RepairRequest& r
     if (!stated && target.wants == WriterWants::objects) dataset.models.clear();
     auto after = validate_result(path, dataset, request.checks, wanted);
     if (!after) return std::move(after).why();
+    if (!grids && !cells_only && !regions_stated) {
+        if (auto added = add_undecided(path, dataset, request.checks, *after); !added) return added;
+    }
     if (report.open) keep_unclosed(before->asked, *after);
     else if (!report.closed && !report.valid_before && after->valid == true) {
         after->valid.reset();

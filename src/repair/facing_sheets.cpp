@@ -131,7 +131,8 @@ bool is_written_with(double value, int digits, std::chars_format format) {
     return written.ec == std::errc() && std::from_chars(text.data(), written.ptr, read).ec == std::errc() && read == value;
 }
 
-/// The step to which all coordinates are rounded: so many decimals, or so many digits of the largest. 0: they are not.
+/// The step to which all coordinates are rounded: so many decimals, or so many digits of the largest, where most have as many. Round
+/// numbers that somebody chose have fewer. 0: they are not rounded.
 double rounding_of(const TriangleSoup& soup) {
     constexpr int most_decimals = 6, most_digits = 8;
     double largest = 0;
@@ -144,9 +145,18 @@ double rounding_of(const TriangleSoup& soup) {
             if (decimals > most_decimals && digits > most_digits) return 0;
         }
     }
-    const double by_decimals = decimals <= most_decimals ? std::pow(10.0, -decimals) : 0;
-    const double by_digits = digits <= most_digits && largest > 0 ? std::pow(10.0, std::floor(std::log10(largest)) + 1 - digits) : 0;
-    return std::max(by_decimals, by_digits);
+    const auto most_need = [&](int count, std::chars_format format) {
+        std::size_t need = 0;
+        for (const Vec3& p : soup.vertices) {
+            need += static_cast<std::size_t>(std::ranges::count_if(p, [&](double x) { return !is_written_with(x, count - 1, format); }));
+        }
+        return 2 * need > 3 * soup.vertices.size();
+    };
+    double step = 0;
+    if (decimals >= 1 && decimals <= most_decimals && most_need(decimals, std::chars_format::fixed)) step = std::pow(10.0, -decimals);
+    if (digits >= 2 && digits <= most_digits && largest > 0 && most_need(digits - 1, std::chars_format::scientific))
+        step = std::max(step, std::pow(10.0, std::floor(std::log10(largest)) + 1 - digits));
+    return step;
 }
 
 /// Whether two pieces lie now on one side of each other and now on the other, as far as they are no farther apart than some length.
@@ -182,6 +192,7 @@ std::vector<SheetTolerance> sheet_tolerances(const TriangleSoup& soup, double to
     std::vector<double> lengths;
     lengths.reserve(distances.size());
     for (const SheetDistance& d : distances) lengths.push_back(d.distance);
+    constexpr double few_steps = 4;
     const double rounding = distances.empty() ? 0 : rounding_of(soup);
     std::vector<SheetTolerance> sheets;
     for (const double length : validators::tolerances_to_try(lengths, tolerance, near)) {
@@ -190,7 +201,8 @@ std::vector<SheetTolerance> sheet_tolerances(const TriangleSoup& soup, double to
         };
         const auto weaves = [&](const auto& pair) { return runs_through(pair, length, rounding); };
         if (std::ranges::none_of(pairs, weaves)) continue;
-        sheets.push_back({length, std::ranges::any_of(pairs, [&](const auto& pair) { return within(pair) && !weaves(pair); })});
+        const bool flattens = std::ranges::any_of(pairs, [&](const auto& pair) { return within(pair) && !weaves(pair); });
+        sheets.push_back({length, flattens, length <= few_steps * rounding});
     }
     return sheets;
 }

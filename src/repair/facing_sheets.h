@@ -16,6 +16,7 @@ struct SheetTolerance {
     double tolerance = 0;
     /// Something that always lies on one side of something else is no farther from it than that: it may be a thin layer, which would go.
     bool flattens = false;
+    bool rounded = false;  ///< it is no more than a few steps to which all coordinates were rounded
 };
 
 /// The lengths at which sheets that face each other become one, ascending, at most three of one digit: from each on no more come

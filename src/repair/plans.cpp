@@ -178,7 +178,8 @@ Result<WiderTolerances> wider_tolerances(const Dataset& dataset, const SurfaceDr
 struct WiderSheets {
     struct Try {
         double tolerance = 0;
-        bool taken = false;  ///< without being asked for: it is small, and no layer goes by it
+        bool taken = false;    ///< without being asked for: it is small, and no layer goes by it
+        bool rounded = false;  ///< that it is by rounding that the sheets differ is plain
     };
     std::vector<Try> tries;
 };
@@ -206,7 +207,7 @@ Result<WiderSheets> wider_sheets(const Dataset& dataset, const SurfaceDriverOpti
         for (const double factor : {1.0, 2.0}) {  // what bends may need more than what is measured at corners
             const double tolerance = factor * sheet.tolerance;
             const bool flattens = sheet.flattens || thin_regions(*read->brep, not_to_be_lost * tolerance) > 0;
-            wider.tries.push_back({tolerance, !flattens && tolerance <= limit});
+            wider.tries.push_back({tolerance, !flattens && tolerance <= limit, sheet.rounded});
         }
     }
     std::ranges::stable_sort(wider.tries, {}, &WiderSheets::Try::tolerance);
@@ -224,6 +225,7 @@ template <class Attempt>
 Result<void> weld_sheets(const Dataset& dataset, const SurfaceDriverOptions& options, const Attempt& attempt, PlannedRepair& best) {
     const auto wider = wider_sheets(dataset, options);
     if (!wider) return wider.why();
+    constexpr std::uint64_t many_slivers = 8;
     // Slivers between any of the sheets are left to weld, not only those between the nearest.
     double largest = 0;
     for (const WiderSheets::Try& sheet : wider->tries) {
@@ -235,7 +237,8 @@ Result<void> weld_sheets(const Dataset& dataset, const SurfaceDriverOptions& opt
     };
     auto left = left_of(best.repair);
     for (const WiderSheets::Try& sheet : wider->tries) {
-        if (!sheet.taken && left.first == 0) continue;
+        // A thin region or two of a sound model may be meant: surfaces that cross at a small angle.
+        if (left.first == 0 && (!sheet.taken || !(sheet.rounded || left.second >= many_slivers))) continue;
         SurfacePlan plan{in_order(without(best.plan.steps, of_gaps), weld_and_cut), sheet.tolerance,
                          "common sides agree within " + rounded(sheet.tolerance) + ": that is the tolerance by which it is mended"};
         auto repaired = attempt(plan, {});

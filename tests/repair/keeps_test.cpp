@@ -189,6 +189,23 @@ TEST(Close, ABorderThatIsLeftSaysWhatLiesNearIt) {
 
 // Faults far from each other are judged by the tolerance of the box when it is close around them, and so they must be mended by it:
 // vertices of F lie beside the line where H cuts it.
+// The result states the regions that were found: to a reader of it the horizon lies in one of them as it is meant to.
+TEST(Regions, ThatASurfaceWithoutARoleFailsToPartAreToldAlsoWhereTheResultStatesThem) {
+    const TemporaryFolder folder;
+    Sheet shorter = level("H", 5, 5);
+    shorter.role.clear();
+    shorter.corner = {0.5, 0, 5};
+    shorter.u = {9.5, 0, 0};
+    const auto j = repaired(folder, box_text(0, "") + tsurf_text(shorter), {}, 0);
+    const auto& findings = j["report"]["files"][0]["findings"];
+    const auto told = std::ranges::find_if(findings, [](const auto& finding) { return finding["code"] == "B29"; });
+    ASSERT_NE(told, findings.end()) << j;
+    EXPECT_NE((*told)["message"].dump().find("ends freely along"), std::string::npos) << *told;
+    // With the gap closed there is nothing to tell.
+    const auto closed = repaired(folder, box_text(0, "") + tsurf_text(shorter), {"--max-gap", "0.6"}, 0);
+    EXPECT_EQ(closed.dump().find("B29"), std::string::npos) << closed;
+}
+
 TEST(Box, WhatIsCutInItIsMendedByTheToleranceOfTheWhole) {
     const TemporaryFolder folder;
     Sheet far = fault;
