@@ -62,10 +62,13 @@ Left left_by(const SurfaceRepair& repair) {
     return left;
 }
 
-/// Whether each surface parts regions, or a region from the outside.
-bool is_sealed(const BrepData& brep) {
-    return std::ranges::none_of(brep.surfaces, [](const auto& s) { return s.regions[0] == s.regions[1]; });
+/// Surfaces that part nothing.
+std::uint64_t parting_nothing(const BrepData& brep) {
+    return static_cast<std::uint64_t>(std::ranges::count_if(brep.surfaces, [](const auto& s) { return s.regions[0] == s.regions[1]; }));
 }
+
+/// Whether each surface parts regions, or a region from the outside.
+bool is_sealed(const BrepData& brep) { return parting_nothing(brep) == 0; }
 
 /// The same steps and a weld before the cut; none where there is no cut, or it is there.
 std::optional<SurfacePlan> welded_before_cut(const SurfacePlan& plan) {
@@ -245,6 +248,9 @@ Result<void> weld_sheets(const Dataset& dataset, const SurfaceDriverOptions& opt
         if (!repaired) return std::move(repaired).why();
         const auto left_of_this = left_of(*repaired);
         if (left_of_this.first > 0 || !(left_of_this < left)) continue;
+        const BrepData &had = *best.repair.result.brep, &has = *repaired->result.brep;
+        const auto lost = lost_region(had, has, 4 * sheet.tolerance, [](const Vec3&) { return false; });
+        if (parting_nothing(has) > parting_nothing(had) || !lost.empty()) continue;
         if (!sheet.taken) {
             best.would_close = sheet.tolerance;
             return {};

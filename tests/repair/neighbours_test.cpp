@@ -142,7 +142,7 @@ TEST(Neighbours, RoundedInTextBecomeTwoRegionsByTheLengthWithinWhichTheirSidesAg
     const std::array<Rounding, 5> roundings{{{'f', 1}, {'f', 2}, {'f', 3}, {'g', 6}, {'g', 7}}};
     unsigned i = 0;
     for (const Rounding& rounding : roundings) {
-        for (unsigned k = 0; k < 3; ++k) {
+        for (unsigned k = 0; k < 2; ++k) {
             const double turn = 0.41 * ++i;
             const Slab low{-500, -200, false, true, 2 + i % 5, 2 + i % 4}, high{-200, 0, true, false, 2 + i % 6, 3 + i % 7};
             write_file(folder / "in.ts", slab_text("low", low, rounding, turn) + slab_text("high", high, rounding, turn));
