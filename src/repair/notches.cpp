@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -44,12 +45,13 @@ public:
         each([&](std::uint32_t v, std::uint32_t e) { at_[next[v]++] = e; });
     }
 
-    /// Calls visit(other end) for the edges at a vertex that a patch does not have.
+    /// Calls visit(other end) for the edges at a vertex that others have, and a patch on one side at most.
     template <class Visit>
     void visit_without(std::uint32_t v, std::uint32_t patch, const Visit& visit) const {
         for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
             const auto uses = edges_[at_[i]];
-            if (std::ranges::any_of(uses, [&](const auto& use) { return soup_.patches[use.triangle] == patch; })) continue;
+            const auto own = std::ranges::count_if(uses, [&](const auto& use) { return soup_.patches[use.triangle] == patch; });
+            if (own > 1 || static_cast<std::size_t>(own) == uses.size()) continue;
             visit(uses[0].low == v ? uses[0].high : uses[0].low);
         }
     }
@@ -94,15 +96,17 @@ public:
         notch.free_border.push_back(borders_.edges[chain.edges.back()].to);
         if (notch.free_border.front() == notch.free_border.back()) return std::nullopt;
         double best = least_facing;
-        const auto offer = [&](const std::vector<std::uint32_t>& back) {
-            auto loop = notch.free_border;
-            loop.insert(loop.end(), back.begin(), back.end());
-            std::ranges::reverse(loop);  // on the other side of its edges
-            auto triangles = filled_loop(soup_, loop);
+        const auto offer_triangles = [&](std::vector<Triangle> triangles) {
             const double facing = least_cosine(triangles, chain);
             if (!(facing > best)) return;
             best = facing;
             notch.triangles = std::move(triangles);
+        };
+        const auto offer = [&](const std::vector<std::uint32_t>& back) {
+            auto loop = notch.free_border;
+            loop.insert(loop.end(), back.begin(), back.end());
+            std::ranges::reverse(loop);  // on the other side of its edges
+            offer_triangles(filled_loop(soup_, loop));
         };
         const std::uint32_t from = notch.free_border.back(), to = notch.free_border.front();
         if (chain.edges.size() == 2 && are_joined(from, to, notch.patch)) offer({});
@@ -112,6 +116,7 @@ public:
         if (notch.triangles.empty()) {
             if (const auto way = shortest_way(from, to, notch.patch, 2 * limits_[notch.patch] - chain.length)) offer(*way);
         }
+        if (notch.triangles.empty()) offer_triangles(missing_triangle(notch));
         if (notch.triangles.empty()) return std::nullopt;
         return notch;
     }
@@ -137,7 +142,7 @@ private:
         return {common.begin(), common.end()};
     }
 
-    /// The vertices between on the shortest way along edges that the patch does not have, no longer than told.
+    /// The vertices between on the shortest way along edges where the patch may go on, no longer than told.
     std::optional<std::vector<std::uint32_t>> shortest_way(std::uint32_t from, std::uint32_t to, std::uint32_t patch,
                                                            double longest) const {
         struct Reached {
@@ -163,6 +168,55 @@ private:
         for (std::uint32_t v = reached.at(to).before; v != from && v != no_index; v = reached.at(v).before) way.push_back(v);
         std::ranges::reverse(way);
         return way;
+    }
+
+    double length_along(const std::vector<std::uint32_t>& way) const {
+        double sum = 0;
+        for (std::size_t i = 1; i < way.size(); ++i) sum += distance(soup_, way[i - 1], way[i]);
+        return sum;
+    }
+
+    bool is_straight(const std::vector<std::uint32_t>& way) const {
+        return length_along(way) <= (1 + 1e-6) * distance(soup_, way.front(), way.back());
+    }
+
+    /// What fills a single missing triangle whose neighbours have more points along its sides; empty: it is none.
+    std::vector<Triangle> missing_triangle(const Notch& notch) const {
+        const auto& free = notch.free_border;
+        if (free.size() > 3) return {};
+        constexpr double sides = 4;  // of a triangle with one free side, by that: at most
+        const std::uint32_t from = free.back(), to = free.front();
+        const auto between = shortest_way(from, to, notch.patch, (free.size() == 3 ? 1 + 1e-6 : sides) * distance(soup_, from, to));
+        if (!between) return {};
+        std::vector<std::uint32_t> way{from};
+        way.insert(way.end(), between->begin(), between->end());
+        way.push_back(to);
+        std::vector<Triangle> triangles;
+        if (free.size() == 3) {
+            for (std::size_t i = 1; i < way.size(); ++i) triangles.push_back({free[1], way[i], way[i - 1]});
+            return triangles;
+        }
+        for (std::size_t corner = 1; corner + 1 < way.size(); ++corner) {
+            const auto middle = way.begin() + static_cast<std::ptrdiff_t>(corner);
+            const std::vector<std::uint32_t> left(way.begin(), middle + 1),
+                right(std::make_reverse_iterator(way.end()), std::make_reverse_iterator(middle));
+            if (is_straight(left) && is_straight(right)) return between_sides(left, right);
+        }
+        return {};
+    }
+
+    /// Triangles between two ways to the same corner, the last of which alone has the corner.
+    std::vector<Triangle> between_sides(const std::vector<std::uint32_t>& left, const std::vector<std::uint32_t>& right) const {
+        std::vector<Triangle> triangles;
+        std::size_t i = 0, j = 0;
+        while (i + 2 < left.size() || j + 2 < right.size()) {
+            const bool on_left = j + 2 >= right.size() ||
+                                 (i + 2 < left.size() && distance(soup_, left[i + 1], right[j]) < distance(soup_, left[i], right[j + 1]));
+            triangles.push_back({right[j], on_left ? left[i + 1] : right[j + 1], left[i]});
+            ++(on_left ? i : j);
+        }
+        triangles.push_back({right[j], left.back(), left[i]});
+        return triangles;
     }
 
     /// Between each triangle that fills and each one beside the free border; -1 where one of them has no area.

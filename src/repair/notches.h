@@ -17,9 +17,10 @@ struct Notch {
     std::vector<std::uint32_t> free_border;  ///< vertices, in the order in which the patch is wound
 };
 
-/// Notches that edges of other patches close, found by their vertices alone: single missing triangles whatever their size, others
-/// where half the way around them is no longer than the limit of their patch. What fills one goes on in the direction of the triangles
-/// beside it, within 60 degrees. Cost: n log n in edges, and in the edges around small notches.
+/// Notches that edges of other patches close, found by their vertices alone: single missing triangles whatever their size, also where
+/// others have more points along their sides; others where half the way around them is no longer than the limit of their patch. What fills
+/// one goes on in the direction of the triangles beside it, within 60 degrees. Cost: n log n in edges, and in the edges around small
+/// notches.
 std::vector<Notch> notches_of(const TriangleSoup& soup, const SoupEdges& edges, const FreeBorders& borders,
                               const std::vector<double>& limits);
 

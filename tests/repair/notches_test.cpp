@@ -59,6 +59,22 @@ TEST(Notches, ATriangleMissingAnywhereInTheSideOfABoxIsFilled) {
     expect_each_filled(box.substr(0, box.size() - last.size()), top, {1000});
 }
 
+// The sides have points at the quarters of the edges of the top, which has its own at the thirds: only the cut joins them.
+TEST(Notches, ATriangleMissingBesideSurfacesWithOtherPointsIsFilled) {
+    const std::string box = box_text(), last = box.substr(box.rfind("GOCAD TSurf"));
+    const Sheet top{"side_5", {0, 0, 10}, {10, 0, 0}, {0, 10, 0}, 3, "boundary", {}};
+    expect_each_filled(box.substr(0, box.size() - last.size()), top, {1000});
+}
+
+// The horizon ends on the side of the box along an edge of the triangle that is missing there.
+TEST(Notches, ATriangleMissingInASideAtTheEndOfAHorizonIsFilled) {
+    const std::string box = box_text(), last = box.substr(box.rfind("GOCAD TSurf"));
+    const Sheet top{"side_5", {0, 0, 10}, {10, 0, 0}, {0, 10, 0}, 4, "boundary", {}};
+    Sheet wall = across_the_box;
+    wall.role = "top";
+    expect_each_filled(box.substr(0, box.size() - last.size()) + tsurf_text(wall), top, {500, 500});
+}
+
 TEST(Notches, ATriangleMissingInASteepHorizonThatPartsTheBoxIsFilled) {
     Sheet steep = across_the_box;
     steep.role = "top";
