@@ -39,11 +39,17 @@ inline DihedralCosines dihedral_cosines(const std::array<Vec3, 4>& p) {
 }
 
 /// The least sine of the angles between two faces: 0 for a flat tetrahedron, 0.94 for the regular one; small angles and those near
-/// 180 degrees count alike.
+/// 180 degrees count alike. That of an angle is 6 volumes by the edge between its faces by the lengths of their normals as cross products.
 inline double least_sine(const std::array<Vec3, 4>& p) {
-    const DihedralCosines c = dihedral_cosines(p);
-    const double worst = std::max(std::abs(c.of_least), std::abs(c.of_largest));
-    return std::sqrt(std::max(0.0, 1 - worst * worst));
+    const Vec3 a = minus(p[1], p[0]), b = minus(p[2], p[0]), c = minus(p[3], p[0]);
+    const Vec3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b), abc = plus(plus(bc, ca), ab);
+    const Vec3 ba = minus(b, a), cb = minus(c, b), ac = minus(a, c);
+    const double six = dot(a, bc);
+    if (six == 0) return 0;
+    const double of_a = six / dot(bc, bc), of_b = six / dot(ca, ca), of_c = six / dot(ab, ab), of_0 = six / dot(abc, abc);
+    const double squares = std::min({dot(a, a) * of_b * of_c, dot(b, b) * of_c * of_a, dot(c, c) * of_a * of_b, dot(ba, ba) * of_c * of_0,
+                                     dot(cb, cb) * of_a * of_0, dot(ac, ac) * of_b * of_0});
+    return squares > 0 ? std::min(1.0, std::sqrt(squares)) : 0;
 }
 
 /// Radius of the inscribed sphere by that of the circumscribed one, times 3: 1 for the regular tetrahedron, 0 for a flat one.

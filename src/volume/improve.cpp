@@ -4,156 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <unordered_set>
 #include <vector>
 
 #include "geometry/predicates.h"
+#include "volume/cavity.h"
 #include "volume/cell_quality.h"
+#include "volume/work_cells.h"
 
 namespace geomend::volumes {
 
 namespace {
 
-using Cell = std::array<std::uint32_t, 4>;
 constexpr double bad_sine = 0.17364817766693033;     // of 10 and 170 degrees
 constexpr double wanted_sine = 0.34202014332566871;  // of 20: cells below it are worked on
-constexpr double gain = 1e-6;                        // less is none
-
-/// Edges and faces of facets, and further edges, which stay.
-class FixedParts {
-public:
-    FixedParts(const RegionFacets& facets, std::span<const std::array<std::uint32_t, 2>> edges) {
-        for (const auto& e : facets.edges) edges_.insert(key(e[0], e[1]));
-        for (const auto& e : edges) edges_.insert(key(e[0], e[1]));
-        for (const Triangle& t : facets.triangles) {
-            Triangle sorted = t;
-            std::ranges::sort(sorted);
-            faces_.insert(key(sorted));
-            for (std::size_t k = 0; k < 3; ++k) edges_.insert(key(t[k], t[(k + 1) % 3]));
-        }
-    }
-    bool has_edge(std::uint32_t a, std::uint32_t b) const { return edges_.contains(key(a, b)); }
-    bool has_face(Triangle t) const {
-        std::ranges::sort(t);
-        return faces_.contains(key(t));
-    }
-
-private:
-    struct Hash {
-        std::size_t operator()(const Triangle& t) const {
-            return (std::size_t{t[0]} * 0x9e3779b97f4a7c15u ^ t[1]) * 0xbf58476d1ce4e5b9u ^ std::size_t{t[2]} * 0x94d049bb133111ebu;
-        }
-    };
-    static std::uint64_t key(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
-    static const Triangle& key(const Triangle& t) { return t; }
-    std::unordered_set<std::uint64_t> edges_;
-    std::unordered_set<Triangle, Hash> faces_;
-};
-
-/// Cells that change, with the cells around each vertex.
-class Cells {
-public:
-    Cells(const RegionFacets& facets, RegionCells& region) : cells_(region.cells), positions_(facets.positions) {
-        positions_.insert(positions_.end(), region.new_vertices.begin(), region.new_vertices.end());
-        around_.resize(positions_.size());
-        for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-            for (const std::uint32_t v : cells_[c]) around_[v].push_back(c);
-        }
-        sine_.resize(cells_.size());
-        settled_.resize(cells_.size(), 0);
-        for (std::uint32_t c = 0; c < cells_.size(); ++c) sine_[c] = sine(cells_[c]);
-    }
-
-    std::size_t size() const { return cells_.size(); }
-    bool is_there(std::uint32_t c) const { return sine_[c] >= 0; }
-    const Cell& at(std::uint32_t c) const { return cells_[c]; }
-    double sine_of(std::uint32_t c) const { return sine_[c]; }
-    const std::vector<std::uint32_t>& around(std::uint32_t v) const { return around_[v]; }
-    const Vec3& position(std::uint32_t v) const { return positions_[v]; }
-
-    std::array<Vec3, 4> corners(const Cell& c) const { return {positions_[c[0]], positions_[c[1]], positions_[c[2]], positions_[c[3]]}; }
-    double sine(const Cell& c) const { return least_sine(corners(c)); }
-    /// Of a cell that would be new: below 0 where it is flat or inside out.
-    double sine_of_new(const Cell& c) const {
-        if (orientation(positions_[c[0]], positions_[c[1]], positions_[c[2]], positions_[c[3]]) <= 0) return -1;
-        return sine(c);
-    }
-
-    /// Puts cells in the place of others.
-    void replace(std::span<const std::uint32_t> old, std::span<const Cell> made) {
-        for (const std::uint32_t c : old) {
-            for (const std::uint32_t v : cells_[c]) std::erase(around_[v], c);
-            sine_[c] = -1;
-        }
-        for (std::size_t i = 0; i < made.size(); ++i) {
-            const auto c = i < old.size() ? old[i] : static_cast<std::uint32_t>(cells_.size());
-            if (i >= old.size()) cells_.emplace_back(), sine_.emplace_back(), settled_.emplace_back();
-            cells_[c] = made[i];
-            sine_[c] = sine(made[i]);
-            for (const std::uint32_t v : made[i]) around_[v].push_back(c);
-        }
-        for (const Cell& cell : made) {
-            for (const std::uint32_t v : cell) wake(v);
-        }
-    }
-
-    /// Moves a vertex, if no cell around it turns over and the worst of them gets better.
-    bool move(std::uint32_t v, const Vec3& to) {
-        const std::uint32_t worst = worst_around(v);
-        const double least = sine_[worst] + gain;
-        const Vec3 from = positions_[v];
-        positions_[v] = to;
-        const auto is_better = [&](std::uint32_t c) { return sine_of_new(cells_[c]) > least; };
-        if (!is_better(worst) || !std::ranges::all_of(around_[v], is_better)) {  // the worst first: most moves fail there
-            positions_[v] = from;
-            return false;
-        }
-        for (const std::uint32_t c : around_[v]) sine_[c] = sine(cells_[c]);
-        wake(v);
-        return true;
-    }
-
-    /// A new vertex, which no cell has yet.
-    std::uint32_t add_vertex(const Vec3& place) {
-        positions_.push_back(place);
-        around_.emplace_back();
-        return static_cast<std::uint32_t>(positions_.size() - 1);
-    }
-
-    /// The worst cell at a vertex. \pre it has one
-    std::uint32_t worst_around(std::uint32_t v) const {
-        return *std::ranges::min_element(around_[v], {}, [&](std::uint32_t c) { return sine_[c]; });
-    }
-
-    /// Cells of which nothing helped are not tried again before something changes at one of their vertices.
-    bool is_settled(std::uint32_t c) const { return settled_[c] != 0; }
-    void settle(std::uint32_t c) { settled_[c] = 1; }
-
-    /// What is left, in the order in which it stands; positions of new vertices as they are now.
-    void put_back(const RegionFacets& facets, RegionCells& region) {
-        std::size_t next = 0;
-        for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-            if (is_there(c)) cells_[next++] = cells_[c];
-        }
-        cells_.resize(next);
-        region.cells = std::move(cells_);
-        region.new_vertices.resize(positions_.size() - facets.positions.size());
-        std::copy(positions_.begin() + static_cast<std::ptrdiff_t>(facets.positions.size()), positions_.end(), region.new_vertices.begin());
-    }
-
-private:
-    std::vector<Cell> cells_;
-    std::vector<Vec3> positions_;
-    std::vector<std::vector<std::uint32_t>> around_;
-    std::vector<double> sine_;  ///< of each cell; -1: it is gone
-    std::vector<std::uint8_t> settled_;
-
-    void wake(std::uint32_t v) {
-        for (const std::uint32_t c : around_[v]) settled_[c] = 0;
-    }
-};
-
-bool has(const Cell& c, std::uint32_t v) { return std::ranges::find(c, v) != c.end(); }
 
 /// The cells around an edge as a ring of vertices, seen from b with a behind it counter-clockwise; nothing where the ring is open or
 /// longer than so many.
@@ -171,7 +34,7 @@ std::array<std::uint32_t, 2> others_of(const Cell& cell, std::uint32_t a, std::u
     return {cell[ic], cell[6 - ia - ib - ic]};
 }
 
-std::optional<Ring> ring_around(const Cells& mesh, std::uint32_t a, std::uint32_t b, std::size_t longest) {
+std::optional<Ring> ring_around(const WorkCells& mesh, std::uint32_t a, std::uint32_t b, std::size_t longest) {
     std::vector<std::array<std::uint32_t, 2>> links;  // from one vertex of the ring to the next
     Ring ring;
     for (const std::uint32_t c : mesh.around(a)) {
@@ -193,7 +56,7 @@ std::optional<Ring> ring_around(const Cells& mesh, std::uint32_t a, std::uint32_
     return ring;
 }
 
-double worst_of(const Cells& mesh, std::span<const std::uint32_t> cells) {
+double worst_of(const WorkCells& mesh, std::span<const std::uint32_t> cells) {
     double worst = 2;
     for (const std::uint32_t c : cells) worst = std::min(worst, mesh.sine_of(c));
     return worst;
@@ -202,7 +65,8 @@ double worst_of(const Cells& mesh, std::span<const std::uint32_t> cells) {
 /// The best way to fill the ring around an edge with triangles, each joined to both of its ends: by the worst cell of it.
 class RingFilling {
 public:
-    RingFilling(const Cells& mesh, const Ring& ring, std::uint32_t a, std::uint32_t b) : mesh_(mesh), ring_(ring.vertices), a_(a), b_(b) {}
+    RingFilling(const WorkCells& mesh, const Ring& ring, std::uint32_t a, std::uint32_t b)
+        : mesh_(mesh), ring_(ring.vertices), a_(a), b_(b) {}
 
     /// Cells that are all better than `least`; empty where there are none.
     std::vector<Cell> better_than(double least) {
@@ -220,7 +84,7 @@ public:
     static constexpr std::size_t longest = 8;
 
 private:
-    const Cells& mesh_;
+    const WorkCells& mesh_;
     const std::vector<std::uint32_t>& ring_;
     const std::uint32_t a_, b_;
     std::array<std::array<double, longest>, longest> best_{};
@@ -257,23 +121,25 @@ public:
     Improver(const RegionFacets& facets, RegionCells& region, std::span<const std::array<std::uint32_t, 2>> kept = {})
         : first_free_(static_cast<std::uint32_t>(facets.positions.size())), fixed_(facets, kept), mesh_(facets, region) {}
 
-    /// \param inserts whether bad cells of which nothing else helps may get vertices beside them
+    /// \param inserts whether bad cells of which nothing else helps may give way to new vertices
     void run(const Monitor* monitor, bool inserts) {
+        constexpr int most_passes = 4;
         done.bad_before = count_bad();
-        run_rounds(monitor);
-        if (inserts && insert_vertices(monitor)) run_rounds(monitor);
+        run_rounds(wanted_sine, monitor);
+        for (int pass = 0; inserts && pass < most_passes && insert_vertices(monitor); ++pass) run_rounds(bad_sine, monitor);
         done.bad_after = count_bad();
     }
 
-    void run_rounds(const Monitor* monitor) {
+    /// \param wanted cells with a smaller sine are worked on
+    void run_rounds(double wanted, const Monitor* monitor) {
         constexpr int most_rounds = 8;
         for (int round = 0; round < most_rounds; ++round) {
             const std::uint64_t before = done.flips + done.moves;
             for (std::uint32_t c = 0; c < mesh_.size(); ++c) {
                 constexpr std::uint32_t often = 4096;
                 if (c % often == 0 && monitor != nullptr && monitor->stopped()) return;
-                if (!mesh_.is_there(c) || mesh_.is_settled(c) || mesh_.sine_of(c) >= wanted_sine) continue;
-                if (!better(c)) mesh_.settle(c);
+                if (!mesh_.is_there(c) || mesh_.sine_of(c) >= wanted || mesh_.is_tried(c, WorkCells::flips_and_moves)) continue;
+                if (!better(c)) mesh_.set_tried(c, WorkCells::flips_and_moves);
             }
             if (done.flips + done.moves == before) break;
         }
@@ -292,13 +158,13 @@ public:
         }
     }
 
-    Cells& cells() { return mesh_; }
+    WorkCells& cells() { return mesh_; }
     Improvement done;
 
 private:
     const std::uint32_t first_free_;
     const FixedParts fixed_;
-    Cells mesh_;
+    WorkCells mesh_;
 
     std::uint64_t count_bad() const {
         std::uint64_t count = 0;
@@ -308,69 +174,17 @@ private:
 
     /// \return whether any cell got a vertex
     bool insert_vertices(const Monitor* monitor) {
+        constexpr double narrow_sine = 0.09;                    // of 5.2 degrees
+        constexpr double factor_of_narrow = 1.2, factor = 1.5;  // a vertex is worth that
         const auto before = done.vertices;
         const auto size = static_cast<std::uint32_t>(mesh_.size());  // those that are made are better
         for (std::uint32_t c = 0; c < size; ++c) {
             if (monitor != nullptr && monitor->stopped()) break;
-            if (mesh_.is_there(c) && mesh_.sine_of(c) < bad_sine && insert_beside(mesh_.at(c))) ++done.vertices;
+            if (!mesh_.is_there(c) || mesh_.sine_of(c) >= bad_sine || mesh_.is_tried(c, WorkCells::new_vertex)) continue;
+            if (insert_vertex(mesh_, fixed_, c, mesh_.sine_of(c) < narrow_sine ? factor_of_narrow : factor)) ++done.vertices;
+            else mesh_.set_tried(c, WorkCells::new_vertex);
         }
         return done.vertices > before;
-    }
-
-    /// Parts an inner edge of a bad cell, and with it all cells around that edge, at the place by which the worst of them becomes the best:
-    /// what lies flat on two facets has the edge opposite to the one between them on the inside, and its middle may move away from them.
-    bool insert_beside(const Cell cell) {
-        constexpr std::size_t longest = 24;
-        constexpr double least_factor = 1.5;  // a vertex is worth that
-        std::optional<Ring> best_ring;
-        std::array<std::uint32_t, 2> best_edge{};
-        Vec3 best_place{};
-        double best_factor = least_factor;
-        for (std::size_t i = 0; i < 4; ++i) {
-            for (std::size_t j = i + 1; j < 4; ++j) {
-                if (fixed_.has_edge(cell[i], cell[j])) continue;
-                auto ring = ring_around(mesh_, cell[i], cell[j], longest);
-                if (!ring) continue;
-                const double worst = std::max(worst_of(mesh_, ring->cells), gain);
-                const Vec3 middle = times(0.5, plus(mesh_.position(cell[i]), mesh_.position(cell[j])));
-                Vec3 mean{};
-                for (const std::uint32_t v : ring->vertices)
-                    mean = plus(mean, times(1.0 / static_cast<double>(ring->vertices.size()), minus(mesh_.position(v), middle)));
-                for (const double share : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-                    const Vec3 place = plus(middle, times(share, mean));
-                    const double factor = worst_when_parted(*ring, cell[i], cell[j], place) / worst;
-                    if (factor <= best_factor) continue;
-                    best_factor = factor;
-                    best_place = place;
-                    best_edge = {cell[i], cell[j]};
-                    best_ring = *ring;
-                }
-            }
-        }
-        if (!best_ring) return false;
-        const std::uint32_t v = mesh_.add_vertex(best_place);
-        std::vector<Cell> made;
-        for (const std::uint32_t c : best_ring->cells) {
-            for (const std::uint32_t end : best_edge) {
-                made.push_back(mesh_.at(c));
-                *std::ranges::find(made.back(), end) = v;
-            }
-        }
-        mesh_.replace(best_ring->cells, made);
-        return true;
-    }
-
-    double worst_when_parted(const Ring& ring, std::uint32_t a, std::uint32_t b, const Vec3& place) const {
-        double worst = 2;
-        for (const std::uint32_t c : ring.cells) {
-            for (const std::uint32_t end : {a, b}) {
-                std::array<Vec3, 4> p = mesh_.corners(mesh_.at(c));
-                p[static_cast<std::size_t>(std::ranges::find(mesh_.at(c), end) - mesh_.at(c).begin())] = place;
-                if (orientation(p[0], p[1], p[2], p[3]) <= 0) return -1;
-                worst = std::min(worst, least_sine(p));
-            }
-        }
-        return worst;
     }
 
     void remove_inner_edge(const Cell cell) {
@@ -404,11 +218,11 @@ private:
         return false;
     }
 
-    bool remove_edge(std::uint32_t a, std::uint32_t b, double least_gain = gain) {
+    bool remove_edge(std::uint32_t a, std::uint32_t b, double gain = least_gain) {
         if (fixed_.has_edge(a, b)) return false;
         const auto ring = ring_around(mesh_, a, b, RingFilling::longest);
         if (!ring) return false;
-        const auto made = RingFilling(mesh_, *ring, a, b).better_than(worst_of(mesh_, ring->cells) + least_gain);
+        const auto made = RingFilling(mesh_, *ring, a, b).better_than(worst_of(mesh_, ring->cells) + gain);
         if (made.empty()) return false;
         // A triangle across the ring that is a face of other cells already would be there twice.
         mesh_.replace(ring->cells, made);
@@ -422,16 +236,13 @@ private:
         const std::uint32_t own = cell[k];
         const Triangle face{cell[(k + 1) % 4], cell[(k + 2) % 4], cell[(k + 3) % 4]};
         if (fixed_.has_face(face)) return false;
-        std::uint32_t other = no_index, tip = no_index;
-        for (const std::uint32_t d : mesh_.around(face[0])) {
-            if (d == c || !has(mesh_.at(d), face[1]) || !has(mesh_.at(d), face[2])) continue;
-            other = d;
-            for (const std::uint32_t v : mesh_.at(d)) {
-                if (v != face[0] && v != face[1] && v != face[2]) tip = v;
-            }
-        }
+        const std::uint32_t other = mesh_.across(c, face);
         if (other == no_index) return false;
-        const double before = std::min(mesh_.sine_of(c), mesh_.sine_of(other)) + gain;
+        std::uint32_t tip = no_index;
+        for (const std::uint32_t v : mesh_.at(other)) {
+            if (v != face[0] && v != face[1] && v != face[2]) tip = v;
+        }
+        const double before = std::min(mesh_.sine_of(c), mesh_.sine_of(other)) + least_gain;
         std::array<Cell, 3> made{};
         for (std::size_t i = 0; i < 3; ++i) {
             made[i] = {face[i], face[(i + 1) % 3], own, tip};

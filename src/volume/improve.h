@@ -24,8 +24,8 @@ struct Improvement {
 /// Source: L. Freitag, C. Ollivier-Gooch, Tetrahedral mesh improvement using swapping and smoothing (1997); the ring around an edge is
 /// filled as by G. Klincsek (1980); A. Botella (2016), 2.6.4, for moves that make no cell around worse.
 /// \param kept more edges that stay, over the same vertices
-/// \param inserts whether edges inside of bad cells that nothing else helps are parted by new vertices, where the worst cell around becomes
-/// half as good again by it
+/// \param inserts whether bad cells that nothing else helps give way to new vertices, where the worst of those that go is less than two
+/// thirds as good as those that come (five sixths where it has an angle of less than 5 degrees); new vertices may go, too
 Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor,
                     std::span<const std::array<std::uint32_t, 2>> kept = {}, bool inserts = false);
 

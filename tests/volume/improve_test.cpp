@@ -154,6 +154,60 @@ RC_GTEST_PROP(Improve, CellsFillTheSameRegionAroundTheSameFacetsAndTheWorstGetsN
     RC_ASSERT(again.cells.new_vertices == b.cells.new_vertices);
 }
 
+RC_GTEST_PROP(Improve, NewVerticesKeepTheRegionItsFacetsAndGivenEdges, (unsigned seed)) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> part(-0.45, 0.45);
+    Block b = block([&](Vec3 p) { return Vec3{p[0] + part(random), p[1] + part(random), p[2] + part(random)}; });
+    RC_PRE(cells_of_region(b.facets, {b.cells.new_vertices, b.cells.cells}).ok());
+    for (int k = 0; k < 4; ++k) {  // edges of cells that are to stay, which cells_of_region() looks for
+        const auto& cell = b.cells.cells[random() % b.cells.cells.size()];
+        const auto known = static_cast<std::uint32_t>(b.facets.positions.size());
+        if (cell[0] < known && cell[1] < known) b.facets.edges.push_back({cell[0], cell[1]});
+    }
+    const double before = worst_sine(b);
+    const Improvement done = improve(b.facets, b.cells, nullptr, {}, true);
+    RC_ASSERT(worst_sine(b) >= before);
+    RC_ASSERT(done.bad_after <= done.bad_before);
+    const auto proven = cells_of_region(b.facets, {b.cells.new_vertices, b.cells.cells});
+    if (!proven) RC_FAIL(proven.why().error.message);
+    RC_ASSERT(proven->cells.size() == b.cells.cells.size());
+    RC_ASSERT(proven->new_vertices.size() == b.cells.new_vertices.size());
+    RC_ASSERT(lie_apart(b.cells.cells));
+}
+
+/// A cube whose top has an edge of so much in its middle, so that two of its triangles are needles; all cells meet in its centre.
+Block cube_with_needles(double edge) {
+    Block b;
+    b.facets.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    b.facets.positions.push_back({0.5 - edge / 2, 0.5, 1});
+    b.facets.positions.push_back({0.5 + edge / 2, 0.5, 1});
+    b.facets.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6},
+                          {3, 0, 4}, {3, 4, 7}, {4, 5, 8}, {5, 9, 8}, {5, 6, 9}, {6, 7, 9}, {7, 8, 9}, {7, 4, 8}};
+    b.facets.vertices.resize(b.facets.positions.size());
+    std::iota(b.facets.vertices.begin(), b.facets.vertices.end(), 0u);
+    b.facets.sides.assign(b.facets.triangles.size(), behind);
+    b.facets.surfaces.assign(b.facets.triangles.size(), 0);
+    b.facets.volume = 1;
+    b.cells.new_vertices = {{0.5, 0.5, 0.5}};
+    for (const Triangle& t : b.facets.triangles) b.cells.cells.push_back({10, t[0], t[1], t[2]});
+    for (auto& c : b.cells.cells) {
+        const auto at = [&](std::size_t k) { return c[k] < 10 ? b.facets.positions[c[k]] : b.cells.new_vertices[0]; };
+        if (orientation(at(0), at(1), at(2), at(3)) < 0) std::swap(c[2], c[3]);
+    }
+    return b;
+}
+
+TEST(Improve, NeedlesOfASurfaceGetCellsThatAreNotFlat) {
+    for (const double edge : {0.1, 0.03, 0.01, 0.003}) {
+        Block b = cube_with_needles(edge);
+        ASSERT_TRUE(cells_of_region(b.facets, {b.cells.new_vertices, b.cells.cells}));
+        improve(b.facets, b.cells, nullptr, {}, true);
+        const auto proven = cells_of_region(b.facets, {b.cells.new_vertices, b.cells.cells});
+        ASSERT_TRUE(proven) << proven.why().error.message;
+        EXPECT_GT(proven->least_dihedral, 5) << edge;
+    }
+}
+
 // The top of a pyramid is even but for rounding, and a cell lies in it across the other diagonal.
 TEST(Improve, ACellThatLiesFlatOnTwoFacetsGoes) {
     RegionFacets facets;

@@ -345,6 +345,13 @@ TEST(Mesh, SealedRealModelsAreFilledToTheVolumesOfTheirSurfaces) {
         EXPECT_EQ(report["regions"].size(), before.size());
         for (const json& region : report["regions"])
             EXPECT_NEAR(region["volume"].get<double>(), before.at(region["name"]), 1e-9 * before.at(region["name"])) << name;
+        double cells = 0, narrow = 0;  // those below 5 degrees that no surfaces force
+        for (const json& region : report["regions"]) {
+            cells += region["cells"]["tetrahedron"].get<double>();
+            const json& below = region["below_5_degrees"];
+            narrow += below["cells"].get<double>() - below["forced_by_surfaces"].get<double>();
+        }
+        EXPECT_LE(narrow, 5e-4 * cells) << name;
         EXPECT_EQ(run_geomend({"validate", out}).status, 0) << name;
     }
 }
