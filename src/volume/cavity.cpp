@@ -37,15 +37,15 @@ struct Hole {
 
 class HoleSearch {
 public:
-    HoleSearch(const WorkCells& mesh, const FixedParts& fixed, std::uint32_t cell) : mesh_(mesh), fixed_(fixed), start_(cell) {}
+    HoleSearch(const WorkCells& mesh, const FixedParts& fixed, std::uint32_t cell, const VertexEffort& effort)
+        : mesh_(mesh), fixed_(fixed), start_(cell), effort_(effort) {}
 
     Hole best() {
         std::vector<Hole> found;
         for (const Vec3& place : places()) found.push_back(grown(place));
         std::ranges::stable_sort(found, std::greater{}, &Hole::worst);
-        constexpr std::size_t most = 3;
         Hole best;
-        for (std::size_t i = 0; i < std::min(most, found.size()); ++i) {
+        for (std::size_t i = 0; i < std::min(effort_.places, found.size()); ++i) {
             Hole hole = found[i];
             for (int round = 0; round < 2; ++round) {
                 improve_place(hole);
@@ -74,6 +74,7 @@ private:
     const WorkCells& mesh_;
     const FixedParts& fixed_;
     const std::uint32_t start_;
+    const VertexEffort& effort_;
 
     double sine_at(const Wall& wall, const Vec3& place) const {
         std::array<Vec3, 4> p = mesh_.corners(mesh_.at(wall.cell));
@@ -134,7 +135,7 @@ private:
         std::vector<std::uint32_t> cells;
         std::vector<Wall> walls;
         std::size_t best = 0;
-        for (std::uint32_t next = start_; next != no_index && cells.size() < most_cells;) {
+        for (std::uint32_t next = start_; next != no_index && cells.size() < std::min(most_cells, best + effort_.patience);) {
             add(next, cells, walls, place);
             const auto worst = std::ranges::min_element(walls, {}, &Wall::sine);
             if (worst->sine > hole.worst) {
@@ -239,13 +240,13 @@ bool keeps_edges(const WorkCells& mesh, const FixedParts& fixed, const Hole& hol
 
 }  // namespace
 
-bool insert_vertex(WorkCells& mesh, const FixedParts& fixed, std::uint32_t cell, double factor) {
-    HoleSearch search(mesh, fixed, cell);
+bool insert_vertex(WorkCells& mesh, const FixedParts& fixed, std::uint32_t cell, const VertexEffort& effort) {
+    HoleSearch search(mesh, fixed, cell, effort);
     const Hole hole = search.best();
     if (hole.cells.empty()) return false;
     double before = 2;
     for (const std::uint32_t c : hole.cells) before = std::min(before, mesh.sine_of(c));
-    if (!(hole.worst > factor * std::max(before, least_gain))) return false;
+    if (!(hole.worst > effort.factor * std::max(before, least_gain))) return false;
     const std::vector<Wall> walls = search.walls_of(hole);
     if (!keeps_edges(mesh, fixed, hole, walls)) return false;
     std::vector<Cell> made;

@@ -16,6 +16,7 @@ namespace geomend::volumes {
 namespace {
 
 constexpr double bad_sine = 0.17364817766693033;     // of 10 and 170 degrees
+constexpr double narrow_sine = 0.09;                 // of 5.2 degrees
 constexpr double wanted_sine = 0.34202014332566871;  // of 20: cells below it are worked on
 
 /// The cells around an edge as a ring of vertices, seen from b with a behind it counter-clockwise; nothing where the ring is open or
@@ -123,10 +124,13 @@ public:
 
     /// \param inserts whether bad cells of which nothing else helps may give way to new vertices
     void run(const Monitor* monitor, bool inserts) {
-        constexpr int most_passes = 4;
         done.bad_before = count_bad();
         run_rounds(wanted_sine, monitor);
-        for (int pass = 0; inserts && pass < most_passes && insert_vertices(monitor); ++pass) run_rounds(bad_sine, monitor);
+        if (inserts) {
+            insert_and_run({bad_sine, WorkCells::new_vertex, {1.5, 12, 3}, 1}, monitor);
+            insert_and_run({narrow_sine, WorkCells::new_vertex, {1.2, 12, 3}, 4}, monitor);
+            insert_and_run({narrow_sine, WorkCells::new_vertex_with_effort, {1.05, 64, 8}, 4}, monitor);
+        }
         done.bad_after = count_bad();
     }
 
@@ -172,17 +176,27 @@ private:
         return count;
     }
 
+    /// Which cells give way to new vertices, and how often they are gone through.
+    struct Insertions {
+        double below;  ///< cells with a smaller sine
+        WorkCells::Tried mark;
+        VertexEffort effort;
+        int passes;
+    };
+
+    void insert_and_run(const Insertions& how, const Monitor* monitor) {
+        for (int pass = 0; pass < how.passes && insert_vertices(how, monitor); ++pass) run_rounds(bad_sine, monitor);
+    }
+
     /// \return whether any cell got a vertex
-    bool insert_vertices(const Monitor* monitor) {
-        constexpr double narrow_sine = 0.09;                    // of 5.2 degrees
-        constexpr double factor_of_narrow = 1.2, factor = 1.5;  // a vertex is worth that
+    bool insert_vertices(const Insertions& how, const Monitor* monitor) {
         const auto before = done.vertices;
         const auto size = static_cast<std::uint32_t>(mesh_.size());  // those that are made are better
         for (std::uint32_t c = 0; c < size; ++c) {
             if (monitor != nullptr && monitor->stopped()) break;
-            if (!mesh_.is_there(c) || mesh_.sine_of(c) >= bad_sine || mesh_.is_tried(c, WorkCells::new_vertex)) continue;
-            if (insert_vertex(mesh_, fixed_, c, mesh_.sine_of(c) < narrow_sine ? factor_of_narrow : factor)) ++done.vertices;
-            else mesh_.set_tried(c, WorkCells::new_vertex);
+            if (!mesh_.is_there(c) || mesh_.sine_of(c) >= how.below || mesh_.is_tried(c, how.mark)) continue;
+            if (insert_vertex(mesh_, fixed_, c, how.effort)) ++done.vertices;
+            else mesh_.set_tried(c, how.mark);
         }
         return done.vertices > before;
     }

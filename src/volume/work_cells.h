@@ -71,7 +71,7 @@ public:
     std::uint32_t worst_around(std::uint32_t v) const;
 
     /// What was tried at a cell in vain is not tried again before something changes at one of its vertices.
-    enum Tried : std::uint8_t { flips_and_moves = 1, new_vertex = 2 };
+    enum Tried : std::uint8_t { flips_and_moves = 1, new_vertex = 2, new_vertex_with_effort = 4 };
     bool is_tried(std::uint32_t c, Tried what) const { return (tried_[c] & what) != 0; }
     void set_tried(std::uint32_t c, Tried what) { tried_[c] |= what; }
 
