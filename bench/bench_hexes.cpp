@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Hexahedra of tetrahedra: the search for candidates by candidate; what the local search selects against the greedy choice by quality,
-// by volume, in ten seconds of one thread. A mesh of tetrahedra may be given; else it is a real one, where it is at hand.
+// by volume, in ten seconds of one thread. A mesh of tetrahedra may be given; else they are real ones, where they are at hand: one as it
+// is, and a model with its surfaces as they are, filled with the points of a lattice.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,8 +12,10 @@
 #include "hexes/local_search.h"
 #include "hexes/recombine.h"
 #include "pipeline/load.h"
+#include "pipeline/mesh.h"
 #include "pipeline/mesh_output.h"
 #include "support/real_data.h"
+#include "support/temporary_folder.h"
 
 namespace {
 
@@ -31,6 +34,19 @@ double volume_of(const Candidates& all, const std::vector<std::uint32_t>& select
     double sum = 0;
     for (const std::uint32_t i : selected) sum += all.volume[i];
     return sum;
+}
+
+/// Tetrahedra between the points of a lattice in a model, as a file.
+bool write_lattice(const std::string& model, double size, const std::string& file) {
+    MeshRequest request;
+    request.files.inputs = {model};
+    request.files.output = file;
+    request.files.lossy = true;
+    request.fill.size = size;
+    request.on_lattice = true;
+    request.fill.limits.program = {GEOMEND_PROGRAM};
+    const auto made = mesh(request);
+    return made && made->is_written;
 }
 
 void ask(const std::string& file, double quality, double asked_gain) {
@@ -56,7 +72,7 @@ void ask(const std::string& file, double quality, double asked_gain) {
     std::vector<double> weights(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) weights[i] = all.volume[i] * (2 + all.quality[i]);
     hexes::LocalSearch how;
-    how.steps = std::min<std::uint64_t>(2000 * all.size(), 200'000'000);
+    how.steps = std::min<std::uint64_t>(2000 * all.size(), 120'000'000);
     local_time.take([&] { local = hexes::search_selection(conflicts, weights, greedy, how); });
     std::printf("  greedy by quality: %.2f %% of the volume (%.2f s); local search, %llu steps: %.2f %% (%.2f s)\n",
                 100 * volume_of(all, greedy) / whole, greedy_time.cpu, static_cast<unsigned long long>(how.steps),
@@ -73,5 +89,10 @@ int main(int argc, char** argv) {
     bench::run(argc, argv, [&] {
         if (!given.empty()) return ask(given, 0.5, 1.07);
         if (const auto file = test::real_data("gocad/modelA4.so")) ask(file->string(), 0.3, 1.40);
+        if (const auto model = test::real_data("ringmesh/corbieres.gm")) {
+            const test::TemporaryFolder folder;
+            const std::string lattice = folder / "corbieres_50m.vtu";
+            if (write_lattice(model->string(), 50, lattice)) ask(lattice, 0.5, 1.07);
+        }
     });
 }

@@ -91,8 +91,10 @@ def displace_the_outside(folder, mesh, points, sets, outside=None):
     low, high = box_of(points)
     size = max(b - a for a, b in zip(low, high))
     outside = outer(points) if outside is None else outside
-    shift = {n: [1e-3 * p[0] + 2e-4 * p[1] - 3e-4 * p[2], -5e-4 * p[0] + 1e-3 * p[2], 4e-4 * p[1] - 7e-4 * p[2]]
-             for n, p in points.items()}
+    shift = {}
+    for n, p in points.items():
+        x, y, z = (a - b for a, b in zip(p, low))
+        shift[n] = [1e-3 * x + 2e-4 * y - 3e-4 * z, -5e-4 * x + 1e-3 * z, 4e-4 * y - 7e-4 * z]
     boundary = "*BOUNDARY\n" + "".join(f"{n}, {k + 1}, {k + 1}, {shift[n][k]:.12g}\n" for n in sorted(outside) for k in range(3))
     step = ("*NSET, NSET=ALLPOINTS\n" + "".join(f"{n},\n" for n in points) +
             f"*STEP\n*STATIC\n{boundary}*NODE PRINT, NSET=ALLPOINTS\nU\n*END STEP\n")
@@ -108,7 +110,7 @@ def heat_the_outside(folder, mesh, points, sets, outside=None):
     low, high = box_of(points)
     size = max(b - a for a, b in zip(low, high))
     outside = outer(points) if outside is None else outside
-    value = {n: (2 * p[0] - p[1] + 0.5 * p[2]) / size for n, p in points.items()}
+    value = {n: (2 * (p[0] - low[0]) - (p[1] - low[1]) + 0.5 * (p[2] - low[2])) / size for n, p in points.items()}
     boundary = "*BOUNDARY\n" + "".join(f"{n}, 11, 11, {value[n]:.12g}\n" for n in sorted(outside))
     step = ("*NSET, NSET=ALLPOINTS\n" + "".join(f"{n},\n" for n in points) + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALLPOINTS, 0.\n" +
             f"*STEP\n*HEAT TRANSFER, STEADY STATE\n{boundary}*NODE PRINT, NSET=ALLPOINTS\nNT\n*END STEP\n")
