@@ -60,10 +60,9 @@ public:
 
     /// Cells of other types beside those that are nearly flat; where these are many, as in thin layers, beside those that are flat.
     std::vector<std::uint32_t> beside_flats() const {
-        constexpr std::size_t many = 50;  // one of so many
         std::vector<std::uint32_t> found = beside_flats(nearly_flat);
-        if (many * found.size() > mesh_.cells.size()) found = beside_flats(flat);
-        return found;
+        const std::size_t many = std::max<std::size_t>(20, mesh_.cells.size() / 500);
+        return found.size() > many ? beside_flats(flat) : found;
     }
 
     std::vector<std::uint32_t> beside_flats(double least) const {

@@ -101,34 +101,50 @@ double volume_of(const TetMesh& m) {
     return sum;
 }
 
-/// Of the tetrahedra that some candidate holds: between quadrangles that are not even there may be others.
-double volume_held(const TetMesh& m, const Candidates& candidates) {
-    std::vector<std::uint8_t> is_held(m.tets.size(), 0);
-    for (const std::uint32_t t : candidates.tets) is_held[t] = 1;
-    double sum = 0;
-    for (std::size_t t = 0; t < m.tets.size(); ++t) {
-        const auto& c = m.tets[t];
-        if (is_held[t] != 0) sum += tetrahedron_volume(m.positions[c[0]], m.positions[c[1]], m.positions[c[2]], m.positions[c[3]]);
-    }
-    return sum;
-}
-
 std::vector<std::uint32_t> without(const std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some) {
     std::vector<std::uint32_t> left;
     std::ranges::set_difference(all, some, std::back_inserter(left));
     return left;
 }
 
-/// The candidates that hold tetrahedra which nothing selected holds, those in their way, and those in the way of these.
-std::vector<std::uint32_t> around_gaps(const Conflicts& conflicts, std::span<const std::uint32_t> selected, std::size_t tets) {
-    const Candidates& all = conflicts.candidates();
-    std::vector<std::uint8_t> is_held(tets, 0), is_near(all.size(), 0);
+double volume_of(const TetMesh& m, std::uint32_t t) {
+    const auto& c = m.tets[t];
+    return tetrahedron_volume(m.positions[c[0]], m.positions[c[1]], m.positions[c[2]], m.positions[c[3]]);
+}
+
+/// Per tetrahedron whether it is one that a candidate may hold, and none of the selected does. What lies alone and flat between selected
+/// ones is none: it becomes a part of their common face. Between quadrangles that are not even there may be others that none can hold.
+std::vector<std::uint8_t> gaps_between(const TetMesh& m, const Candidates& all, std::span<const std::uint32_t> selected) {
+    constexpr double flat = 0.05;  // of the largest beside it
+    std::vector<std::uint8_t> is_gap(m.tets.size(), 0);
+    for (const std::uint32_t t : all.tets) is_gap[t] = 1;
     for (const std::uint32_t i : selected) {
-        for (const std::uint32_t t : all.tets_of(i)) is_held[t] = 1;
+        for (const std::uint32_t t : all.tets_of(i)) is_gap[t] = 0;
     }
+    std::vector<std::uint32_t> between;
+    for (std::uint32_t t = 0; t < m.tets.size(); ++t) {
+        if (is_gap[t] == 0) continue;
+        double largest = 0;
+        bool is_alone = true;
+        for (const std::uint32_t f : m.across[t]) {
+            if (f == no_index) continue;
+            is_alone = is_alone && is_gap[f / 4] == 0;
+            largest = std::max(largest, volume_of(m, f / 4));
+        }
+        if (is_alone && volume_of(m, t) < flat * largest) between.push_back(t);
+    }
+    for (const std::uint32_t t : between) is_gap[t] = 0;
+    return is_gap;
+}
+
+/// The candidates that hold tetrahedra in gaps, those in their way, and those in the way of these.
+std::vector<std::uint32_t> around_gaps(const TetMesh& tets, const Conflicts& conflicts, std::span<const std::uint32_t> selected) {
+    const Candidates& all = conflicts.candidates();
+    const std::vector<std::uint8_t> is_gap = gaps_between(tets, all, selected);
+    std::vector<std::uint8_t> is_near(all.size(), 0);
     std::vector<std::uint32_t> near, seen(all.size(), no_index);
     for (std::uint32_t i = 0; i < all.size(); ++i) {
-        if (std::ranges::any_of(all.tets_of(i), [&](std::uint32_t t) { return is_held[t] == 0; })) near.push_back(i);
+        if (std::ranges::any_of(all.tets_of(i), [&](std::uint32_t t) { return is_gap[t] != 0; })) near.push_back(i);
     }
     for (const std::uint32_t i : near) is_near[i] = 1;
     for (int ring = 0; ring < 2; ++ring) {
@@ -146,16 +162,15 @@ std::vector<std::uint32_t> around_gaps(const Conflicts& conflicts, std::span<con
 /// Looks for a selection that leaves no gap around the gaps that are left. \return whether there is one
 bool fill_gaps(const TetMesh& tets, const Conflicts& conflicts, LocalSearch search, std::vector<std::uint32_t>& selected) {
     const std::vector<double> weights = plain_weights(conflicts.candidates());
-    const double whole = volume_held(tets, conflicts.candidates());
     for (search.seed = 2; search.seed < 12; ++search.seed) {
-        if (volume_of(conflicts.candidates(), selected) > (1 - 1e-9) * whole) return true;
-        const std::vector<std::uint32_t> near = around_gaps(conflicts, selected, tets.tets.size());
-        if (near.empty() || near.size() > conflicts.size() / 5) return false;
+        const std::vector<std::uint32_t> near = around_gaps(tets, conflicts, selected);
+        if (near.empty()) return true;
+        if (near.size() > conflicts.size() / 5) return false;
         search.among = near;
         search.steps = 5000 * near.size();
         selected = search_selection(conflicts, weights, selected, search);
     }
-    return false;
+    return around_gaps(tets, conflicts, selected).empty();
 }
 
 /// Of what failed only the smallest third gives way at a time: the larger ones may have room then.

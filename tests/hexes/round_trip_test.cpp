@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <gtest/gtest.h>
+#include <vtkSmartPointer.h>
+#include <vtkStructuredGrid.h>
+#include <vtkXMLStructuredGridReader.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -226,13 +232,108 @@ TEST(RoundTrip, ARealMeshOfHexahedraComesBackWhole) {
     for (const std::uint32_t seed : {1u, 2u}) expect_whole(mesh, seed);
 }
 
-// Its cells are slices that lean: four others may stand in the place of six.
+// Its cells are slices that lean: four others may stand in the place of six. With flat cells between as well.
 TEST(RoundTrip, ARealMeshOfLeaningHexahedraComesBackWhole) {
     const auto file = test::real_data("vtk/faultMesh.vtu");
     if (!file) GTEST_SKIP() << "no real data";
     const HexMesh mesh = hexahedra_in(file->string());
     ASSERT_EQ(mesh.cells.size(), 17980u);
     for (const std::uint32_t seed : {1u, 2u, 3u}) expect_whole(mesh, cut_from_first_corners(mesh, seed), 0);
+    for (const std::uint32_t seed : {1u, 2u, 3u}) expect_whole(mesh, seed);
+}
+
+/// Cells between the points of a grid of n[0] by n[1] by n[2] cells, where they are taken.
+HexMesh grid_cells(
+    const std::array<std::uint32_t, 3>& n, const std::function<Vec3(const std::array<std::uint32_t, 3>&)>& place,
+    const std::function<bool(std::uint32_t, std::uint32_t, std::uint32_t)>& is_taken = [](auto, auto, auto) { return true; }) {
+    HexMesh mesh;
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> number;
+    const auto vertex = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+        const auto [at, is_new] = number.emplace(std::array{i, j, k}, static_cast<std::uint32_t>(mesh.points.size()));
+        if (is_new) mesh.points.push_back(place({i, j, k}));
+        return at->second;
+    };
+    for (std::uint32_t k = 0; k < n[2]; ++k) {
+        for (std::uint32_t j = 0; j < n[1]; ++j) {
+            for (std::uint32_t i = 0; i < n[0]; ++i) {
+                if (!is_taken(i, j, k)) continue;
+                mesh.cells.push_back({vertex(i, j, k), vertex(i + 1, j, k), vertex(i + 1, j + 1, k), vertex(i, j + 1, k),
+                                      vertex(i, j, k + 1), vertex(i + 1, j, k + 1), vertex(i + 1, j + 1, k + 1), vertex(i, j + 1, k + 1)});
+            }
+        }
+    }
+    return mesh;
+}
+
+// A simulation grid with thin layers between thick ones.
+TEST(RoundTrip, ARealGridOfThinAndThickLayersComesBackWhole) {
+    const auto file = test::real_data("vtk/egg_withBurdens_small.vts");
+    if (!file) GTEST_SKIP() << "no real data";
+    const auto reader = vtkSmartPointer<vtkXMLStructuredGridReader>::New();
+    reader->SetFileName(file->c_str());
+    reader->Update();
+    vtkStructuredGrid& grid = *reader->GetOutput();
+    std::array<int, 3> points{};
+    grid.GetDimensions(points.data());
+    std::array<std::uint32_t, 3> n{};
+    for (std::size_t k = 0; k < 3; ++k) n[k] = static_cast<std::uint32_t>(points[k] - 1);
+    const HexMesh mesh = grid_cells(n, [&](const std::array<std::uint32_t, 3>& at) {
+        Vec3 p{};
+        grid.GetPoint(static_cast<vtkIdType>(at[0] + (n[0] + 1) * (at[1] + (n[1] + 1) * at[2])), p.data());
+        return p;
+    });
+    ASSERT_FALSE(mesh.cells.empty());
+    expect_whole(mesh, 1);
+}
+
+TEST(RoundTrip, ATwistedColumnComesBackWhole) {
+    const HexMesh mesh = grid_cells({8, 8, 16}, [](const std::array<std::uint32_t, 3>& at) {
+        const double x = at[0] - 4.0, y = at[1] - 4.0, turn = 0.1 * at[2];
+        return Vec3{std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y, 1.0 * at[2]};
+    });
+    for (const std::uint32_t seed : {1u, 2u, 3u}) expect_whole(mesh, seed);
+}
+
+TEST(RoundTrip, CellsThatGrowByAQuarterEachComeBackWhole) {
+    const HexMesh mesh = grid_cells({10, 10, 10}, [](const std::array<std::uint32_t, 3>& at) {
+        Vec3 p{};
+        for (std::size_t k = 0; k < 3; ++k) p[k] = std::pow(1.25, at[k]);
+        return p;
+    });
+    for (const std::uint32_t seed : {1u, 2u, 3u}) expect_whole(mesh, seed);
+}
+
+TEST(RoundTrip, ARingAndABlockWithHolesComeBackWhole) {
+    // Around an axis: the last cell of a turn stands beside the first.
+    HexMesh ring;
+    constexpr std::uint32_t around = 24, across = 4, high = 5;
+    for (std::uint32_t k = 0; k <= high; ++k) {
+        for (std::uint32_t j = 0; j <= across; ++j) {
+            for (std::uint32_t i = 0; i < around; ++i) {
+                const double angle = 2 * std::numbers::pi * i / around, r = 3 + j;
+                ring.points.push_back({r * std::cos(angle), r * std::sin(angle), 1.0 * k});
+            }
+        }
+    }
+    const auto at = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) { return i % around + around * (j + (across + 1) * k); };
+    for (std::uint32_t k = 0; k < high; ++k) {
+        for (std::uint32_t j = 0; j < across; ++j) {
+            for (std::uint32_t i = 0; i < around; ++i) {
+                ring.cells.push_back({at(i, j, k), at(i, j + 1, k), at(i + 1, j + 1, k), at(i + 1, j, k), at(i, j, k + 1),
+                                      at(i, j + 1, k + 1), at(i + 1, j + 1, k + 1), at(i + 1, j, k + 1)});
+            }
+        }
+    }
+    const HexMesh block = grid_cells(
+        {9, 9, 5},
+        [](const std::array<std::uint32_t, 3>& at) {
+            return Vec3{1.0 * at[0], 1.0 * at[1] + 0.3 * std::sin(0.7 * at[0]), 0.5 * at[2] + 0.1 * at[0]};
+        },
+        [](std::uint32_t i, std::uint32_t j, std::uint32_t k) { return !(i % 3 == 1 && j % 3 == 1) && !(i == 4 && k == 2); });
+    for (const std::uint32_t seed : {1u, 2u, 3u}) {
+        expect_whole(ring, seed);
+        expect_whole(block, seed);
+    }
 }
 
 }  // namespace
