@@ -187,7 +187,7 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
     // In a small mesh a round costs little: what failed may be taken again then, where its neighbours have changed.
     const bool is_small = conflicts.size() < 300'000;
     const int rounds = is_small ? 40 : 24, searching_rounds = is_small ? 24 : 8, forgiving_rounds = is_small ? 6 : 0;
-    constexpr int most_flat_rounds = 4;
+    constexpr int most_nearly_flat_rounds = 4, most_flat_rounds = 16;
     int flat_rounds = 0;
     LocalSearch search;
     search.steps = options.steps != 0 ? options.steps : std::min<std::uint64_t>(1000 * conflicts.size(), 200'000'000);
@@ -224,7 +224,8 @@ MixedMesh closed(const TetMesh& tets, const Conflicts& conflicts, std::span<cons
         if (failed.empty() || is_last) {
             std::vector<std::uint32_t> beside;
             improve_leftovers(mesh, tets, options.monitor, report.leftovers, beside);
-            if (is_last || beside.empty() || ++flat_rounds > most_flat_rounds) return mesh;
+            const int most = report.leftovers.flat > 0 ? most_flat_rounds : most_nearly_flat_rounds;
+            if (is_last || beside.empty() || ++flat_rounds > most) return mesh;
             for (const std::uint32_t cell : beside) {
                 failed.push_back(selected[cell]);
                 weights[selected[cell]] = 0;
