@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "base/text_cursor.h"
 #include "base/wording.h"
 #include "formats/drop.h"
 #include "formats/gmsh/reading.h"
+#include "model/cut_surfaces.h"
 
 namespace geomend::gmsh {
 
@@ -273,7 +275,9 @@ void tell(Reading& r, const char* code, std::string message, std::uint64_t count
 
 // An entity whose elements are in different sets of groups cannot be in a group as a whole: each set makes an
 // entity of its own, the first with the stated tag, the others with new ones.
-void entities_of_sets(Reading& r, const Merged& merged) {
+// \return per entity whether it is a set of elements rather than one surface: writers without a model of surfaces give an element the
+// number of its group as that of its entity, 0, or one number for all
+std::vector<std::uint8_t> entities_of_sets(Reading& r, const Merged& merged) {
     CellMesh& mesh = r.mesh;
     std::array<std::int64_t, 4> next_tag{};
     for (const ElementClass& c : r.classes) {
@@ -283,15 +287,21 @@ void entities_of_sets(Reading& r, const Merged& merged) {
     std::map<std::vector<std::uint32_t>, std::uint32_t> entity_of_set;  // sorted classes -> entity
     std::vector<std::uint32_t> of_single(r.classes.size(), no_index);
     std::uint64_t splits = 0;
+    std::vector<std::uint8_t> is_set;
     const auto make = [&](const std::vector<std::uint32_t>& set) {
         const ElementClass& c = r.classes[set.front()];
         if (!c.tagged) return no_index;
         std::int64_t tag = c.elementary;
-        if (r.entity_of.contains({c.dimension, tag})) {
+        is_set.resize(mesh.entities.size(), 0);
+        const auto stated = r.entity_of.find({c.dimension, tag});
+        const bool is_split = stated != r.entity_of.end();
+        if (is_split) {
+            is_set[stated->second] = 1;
             tag = ++next_tag[static_cast<std::size_t>(c.dimension)];
             ++splits;
         }
         const std::uint32_t entity = entity_index(r, c.dimension, tag);
+        is_set.push_back(is_split || c.elementary == 0 || c.elementary == c.physical ? 1 : 0);
         for (const std::uint32_t k : set) add_group(r, mesh.entities[entity], r.classes[k].physical);
         return entity;
     };
@@ -316,6 +326,8 @@ void entities_of_sets(Reading& r, const Merged& merged) {
              "elements of one elementary entity are in different physical groups: each set of groups was made an entity of its own",
              splits);
     }
+    is_set.resize(mesh.entities.size(), 0);
+    return is_set;
 }
 
 // By dimension and tag, as MSH 4 has them, whatever the order of the elements.
@@ -330,6 +342,18 @@ void sort_entities(Reading& r) {
     }
     mesh.entities = std::move(sorted);
     for (std::uint32_t& e : mesh.cell_entity) e = e == no_index ? no_index : rank[e];
+}
+
+// A set of faces may lie on several volumes, but a surface has one on each side.
+void cut_sets(Reading& r, std::span<const std::uint8_t> is_set) {
+    if (std::ranges::find(is_set, std::uint8_t{1}) == is_set.end()) return;
+    const auto cut = cut_surfaces_by_regions(r.mesh, is_set);
+    if (cut.empty()) return;
+    for (const CutSurface& surface : cut) {
+        for (const std::uint32_t piece : surface.pieces) r.entity_of.try_emplace({2, r.mesh.entities[piece].tag}, piece);
+    }
+    tell(r, "F122", "surface entities lie between several pairs of volumes: the elements of each pair were made an entity of its own",
+         cut.size());
 }
 
 }  // namespace
@@ -355,10 +379,15 @@ Result<void> entities_from_classes(Reading& r) {
             tell(r, "F123", "elements are repeated because their entity is in several physical groups: each is kept once", dropped);
         }
     }
-    entities_of_sets(r, merged);
+    cut_sets(r, entities_of_sets(r, merged));
     sort_entities(r);
     if (mesh.entities.empty()) mesh.cell_entity.clear();
     return {};
+}
+
+void cut_unstated_entities(Reading& r) {
+    if (r.entities_stated || !r.partitioned.empty()) return;
+    cut_sets(r, std::vector<std::uint8_t>(r.mesh.entities.size(), 1));
 }
 
 }  // namespace geomend::gmsh

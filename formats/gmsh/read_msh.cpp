@@ -156,6 +156,7 @@ Result<void> read_mesh(Reading& r) {
         if (auto ok = entities_from_classes(r); !ok) return ok;
     } else {
         take_names_of_groups(r);
+        cut_unstated_entities(r);
         if (r.mesh.entities.empty()) r.mesh.cell_entity.clear();
     }
     if (auto ok = index_elements(r, {}); !ok) return ok;

@@ -93,6 +93,8 @@ Result<void> read_nodes(Reading& r, const Section& section);
 Result<void> read_elements(Reading& r, const Section& section);
 /// MSH 1 and 2: makes entities and groups of the elements' tags.
 Result<void> entities_from_classes(Reading& r);
+/// MSH 4 without $Entities: cuts surfaces that lie between several pairs of volumes, as no surface of a model does.
+void cut_unstated_entities(Reading& r);
 /// $NodeData, $ElementData and $ElementNodeData.
 Result<void> read_data(Reading& r, const Section& section);
 /// $Periodic, as annotations "gmsh.periodic" (text of MSH 4.1, one link each).

@@ -2,12 +2,11 @@
 #include "formats/meshes/mesh_reading.h"
 
 #include <algorithm>
-#include <array>
-#include <unordered_map>
+#include <cmath>
 #include <vector>
 
 #include "formats/text_reading.h"
-#include "model/cell_faces.h"
+#include "model/cut_surfaces.h"
 
 namespace geomend::meshes {
 
@@ -72,77 +71,12 @@ void GrowingMesh::finish() {
     mesh.cell_entity.clear();
 }
 
-namespace {
-
-using Corners = std::array<std::uint32_t, 4>;  // ascending; no_index in the place of a fourth one
-
-Corners corners_of(std::span<const std::uint32_t> nodes, std::size_t count) {
-    Corners corners{no_index, no_index, no_index, no_index};
-    std::copy_n(nodes.begin(), std::min<std::size_t>(count, 4), corners.begin());
-    std::ranges::sort(corners);
-    return corners;
-}
-
-struct CornersHash {
-    std::size_t operator()(const Corners& c) const {
-        std::size_t hash = 0;
-        for (const std::uint32_t v : c) hash = (hash ^ v) * 0x9e3779b97f4a7c15u;
-        return hash ^ hash >> 32;
-    }
-};
-using RegionsAt = std::unordered_map<Corners, std::array<std::uint32_t, 2>, CornersHash>;
-
-std::size_t corner_count(CellType type) { return linear_type(type) == CellType::triangle ? 3 : 4; }
-
-/// The regions of the cells at each face of a surface.
-RegionsAt regions_at_surfaces(const CellMesh& mesh) {
-    RegionsAt regions;
-    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-        if (dimension(mesh.types[c]) == 2) regions[corners_of(mesh.cell_nodes(c), corner_count(mesh.types[c]))] = {no_index, no_index};
-    }
-    std::vector<std::uint32_t> nodes;
-    for (std::size_t c = 0; c < mesh.cell_count() && !regions.empty(); ++c) {
-        for (const LocalFace& face : faces_of(mesh.types[c])) {
-            nodes.clear();
-            for (const std::uint8_t corner : face.corners()) nodes.push_back(mesh.cell_nodes(c)[corner]);
-            const auto at = regions.find(corners_of(nodes, nodes.size()));
-            if (at == regions.end()) continue;
-            at->second[at->second[0] == no_index ? 0 : 1] = mesh.cell_entity[c];
-        }
-    }
-    return regions;
-}
-
-}  // namespace
-
 void GrowingMesh::cut_surfaces() {
-    auto regions = regions_at_surfaces(mesh);
-    std::map<std::array<std::uint32_t, 3>, std::uint32_t> piece_of;  // of a surface and two regions
-    std::map<std::uint32_t, std::uint32_t> pieces;                   // how many a surface has
-    std::int64_t next_tag = 0;
-    for (const CellMesh::Entity& e : mesh.entities) next_tag = std::max(next_tag, e.tag);
-    const std::size_t stated = mesh.entities.size();
-    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-        if (dimension(mesh.types[c]) != 2) continue;
-        const std::uint32_t surface = mesh.cell_entity[c];
-        auto between = regions[corners_of(mesh.cell_nodes(c), corner_count(mesh.types[c]))];
-        std::ranges::sort(between);
-        const auto [at, is_new] = piece_of.try_emplace({surface, between[0], between[1]}, surface);
-        if (is_new && pieces[surface]++ > 0) {
-            at->second = static_cast<std::uint32_t>(mesh.entities.size());
-            mesh.entities.push_back(mesh.entities[surface]);
-            mesh.entities.back().tag = ++next_tag;
-        }
-        mesh.cell_entity[c] = at->second;
-    }
-    if (mesh.entities.size() == stated) return;
-    for (const auto& [surface, count] : pieces) {
-        if (count < 2) continue;
-        mesh.groups.push_back({2, mesh.entities[surface].tag, mesh.entities[surface].name});
-        const auto group = static_cast<std::uint32_t>(mesh.groups.size() - 1);
-        for (const auto& [key, piece] : piece_of) {
-            if (key[0] == surface) mesh.entities[piece].groups = {group};
-        }
+    for (const CutSurface& cut : cut_surfaces_by_regions(mesh, std::vector<std::uint8_t>(mesh.entities.size(), 1))) {
+        const CellMesh::Entity& surface = mesh.entities[cut.pieces.front()];
+        const auto group = static_cast<std::uint32_t>(mesh.groups.size());
+        mesh.groups.push_back({2, surface.tag, surface.name});
+        for (const std::uint32_t piece : cut.pieces) mesh.entities[piece].groups = {group};
     }
 }
 

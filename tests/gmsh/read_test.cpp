@@ -108,6 +108,41 @@ TEST(MshReading, AnEntityWhoseElementsAreInDifferentGroupsIsSplit) {
     EXPECT_TRUE(std::ranges::any_of(d->findings, [](const Finding& f) { return f.code == "F122"; }));
 }
 
+/// Two tetrahedra, and a group of boundary faces on both of them.
+std::string faces_on_two_volumes(const std::string& elementary_and_physical) {
+    return replaced(replaced(two_tets_22(), "$Elements\n5\n", "$Elements\n8\n"), "$EndElements",
+                    "6 2 2 " + elementary_and_physical + " 1 2 4\n7 2 2 " + elementary_and_physical + " 1 2 5\n8 2 2 " +
+                        elementary_and_physical + " 2 3 5\n$EndElements");
+}
+
+TEST(MshReading, SetsOfFacesOnSeveralVolumesAreASurfaceForEach) {
+    for (const std::string tags : {"9 9", "9 0", "0 0", "9 4"}) {  // physical, elementary; 4 is that of the fault, too
+        const auto d = read_text(faces_on_two_volumes(tags));
+        ASSERT_TRUE(d.ok()) << d.why().error.message;
+        const CellMesh& m = mesh_of(*d);
+        EXPECT_NE(m.cell_entity[5], m.cell_entity[6]) << tags;
+        EXPECT_EQ(m.cell_entity[6], m.cell_entity[7]) << tags;
+        EXPECT_EQ(m.entities[m.cell_entity[5]].groups, m.entities[m.cell_entity[6]].groups) << tags;
+        EXPECT_NE(m.entities[m.cell_entity[5]].tag, m.entities[m.cell_entity[6]].tag) << tags;
+        EXPECT_TRUE(std::ranges::any_of(d->findings, [](const Finding& f) { return f.code == "F122"; })) << tags;
+    }
+}
+
+TEST(MshReading, SurfacesWithNumbersOfTheirOwnStayWhole) {
+    const auto d = read_text(faces_on_two_volumes("9 5"));
+    ASSERT_TRUE(d.ok()) << d.why().error.message;
+    EXPECT_EQ(mesh_of(*d).cell_entity[5], mesh_of(*d).cell_entity[7]);
+    EXPECT_TRUE(d->findings.empty());
+}
+
+TEST(MshReading, WithoutEntitiesSetsOfFacesAreASurfaceForEachVolume) {
+    const auto d = read_text(
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 -1.5\n0 0 1\n$EndNodes\n"
+        "$Elements\n3 4 1 4\n2 9 2 2\n1 1 2 4\n2 1 2 5\n3 1 4 1\n3 1 3 2 4\n3 2 4 1\n4 1 2 3 5\n$EndElements\n");
+    ASSERT_TRUE(d.ok()) << d.why().error.message;
+    EXPECT_NE(mesh_of(*d).cell_entity[0], mesh_of(*d).cell_entity[1]);
+}
+
 TEST(MshReading, DataOfSomeElementsGetANoDataValueForTheOthers) {
     const auto d = read_text(std::string(two_tets_22()) +
                              "$ElementData\n1\n\"porosity\"\n1\n2.5\n3\n4\n1\n1\n5 0.25\n$EndElementData\n"

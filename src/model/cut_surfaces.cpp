@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "model/cut_surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "model/cell_faces.h"
+
+namespace geomend {
+
+namespace {
+
+using Corners = std::array<std::uint32_t, 4>;  // ascending; no_index in the place of a fourth one
+using Regions = std::array<std::uint32_t, 2>;  // entities, ascending; no_index where there is none
+
+struct CornersHash {
+    std::size_t operator()(const Corners& c) const {
+        std::size_t hash = 0;
+        for (const std::uint32_t v : c) hash = (hash ^ v) * 0x9e3779b97f4a7c15u;
+        return hash ^ hash >> 32;
+    }
+};
+
+Corners corners_of(std::span<const std::uint32_t> nodes, std::size_t count) {
+    Corners corners{no_index, no_index, no_index, no_index};
+    std::copy_n(nodes.begin(), std::min({count, nodes.size(), corners.size()}), corners.begin());
+    std::ranges::sort(corners);
+    return corners;
+}
+
+Corners corners_of_face(const CellMesh& mesh, std::size_t cell) {
+    return corners_of(mesh.cell_nodes(cell), linear_type(mesh.types[cell]) == CellType::triangle ? 3 : 4);
+}
+
+class Cutter {
+public:
+    Cutter(CellMesh& mesh, std::span<const std::uint8_t> may_be_cut) : mesh_(mesh), may_be_cut_(may_be_cut) {}
+
+    std::vector<CutSurface> cut() {
+        find_regions();
+        for (const CellMesh::Entity& e : mesh_.entities) {
+            if (e.tag < std::numeric_limits<std::int32_t>::max()) next_tag_ = std::max(next_tag_, e.tag);
+        }
+        std::map<std::pair<std::uint32_t, Regions>, std::uint32_t> piece_of;
+        std::map<std::uint32_t, CutSurface> surfaces;
+        for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
+            if (!is_of_a_set(c)) continue;
+            const std::uint32_t surface = mesh_.cell_entity[c];
+            Regions between = regions_[corners_of_face(mesh_, c)];
+            std::ranges::sort(between);
+            const auto [at, is_new] = piece_of.try_emplace({surface, between}, surface);
+            if (is_new) {
+                auto& pieces = surfaces[surface].pieces;
+                if (!pieces.empty()) at->second = copy_of(surface);
+                pieces.push_back(at->second);
+            }
+            mesh_.cell_entity[c] = at->second;
+        }
+        std::vector<CutSurface> result;
+        for (auto& [surface, cut] : surfaces) {
+            if (cut.pieces.size() > 1) result.push_back(std::move(cut));
+        }
+        return result;
+    }
+
+private:
+    bool is_of_a_set(std::size_t cell) const {
+        const std::uint32_t e = mesh_.cell_entity[cell];
+        return dimension(mesh_.types[cell]) == 2 && e < may_be_cut_.size() && may_be_cut_[e] != 0;
+    }
+
+    /// The regions of the cells at each face of a set. Most cells have no face all of whose corners are on one.
+    void find_regions() {
+        std::vector<std::uint8_t> is_on_a_set(mesh_.points.size(), 0);
+        for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
+            if (!is_of_a_set(c)) continue;
+            regions_[corners_of_face(mesh_, c)] = {no_index, no_index};
+            for (const std::uint32_t node : mesh_.cell_nodes(c)) is_on_a_set[node] = 1;
+        }
+        std::vector<std::uint32_t> nodes;
+        for (std::size_t c = 0; c < mesh_.cell_count() && !regions_.empty(); ++c) {
+            for (const LocalFace& face : faces_of(mesh_.types[c])) {
+                nodes.clear();
+                for (const std::uint8_t corner : face.corners()) nodes.push_back(mesh_.cell_nodes(c)[corner]);
+                if (!std::ranges::all_of(nodes, [&](std::uint32_t node) { return is_on_a_set[node] != 0; })) continue;
+                const auto at = regions_.find(corners_of(nodes, nodes.size()));
+                if (at != regions_.end()) at->second[at->second[0] == no_index ? 0 : 1] = mesh_.cell_entity[c];
+            }
+        }
+    }
+
+    std::uint32_t copy_of(std::uint32_t surface) {
+        CellMesh::Entity copy = mesh_.entities[surface];
+        copy.tag = ++next_tag_;
+        mesh_.entities.push_back(std::move(copy));
+        return static_cast<std::uint32_t>(mesh_.entities.size() - 1);
+    }
+
+    CellMesh& mesh_;
+    std::span<const std::uint8_t> may_be_cut_;
+    std::unordered_map<Corners, Regions, CornersHash> regions_;
+    std::int64_t next_tag_ = 0;
+};
+
+}  // namespace
+
+std::vector<CutSurface> cut_surfaces_by_regions(CellMesh& mesh, std::span<const std::uint8_t> may_be_cut) {
+    if (mesh.cell_entity.size() != mesh.cell_count()) return {};
+    return Cutter(mesh, may_be_cut).cut();
+}
+
+}  // namespace geomend
