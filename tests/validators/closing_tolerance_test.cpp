@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <vector>
 
+#include "validators/closing_tolerance.h"
 #include "validators/registry.h"
 #include "validators/zoo.h"
 
@@ -96,6 +98,14 @@ TEST(ClosingTolerance, IsNotAskedForWithoutErrors) {
     const auto result = validators::check_models(shaken(faulted().data), options);
     ASSERT_TRUE(result);
     EXPECT_FALSE(result->closing);
+}
+
+TEST(ClosingTolerance, OfMeasuredLengthsIsTheLargestBeforeTheNextIsTwiceAsLong) {
+    const std::vector<double> rounded{0.0012, 0.002, 0.0035, 0.006, 0.0087, 0.7};
+    EXPECT_EQ(validators::tolerances_to_try(rounded, 1e-4, 0.5), std::vector<double>({0.009}));
+    // What is within the tolerance already says nothing, and neither does what grows without a rest.
+    EXPECT_TRUE(validators::tolerances_to_try(std::vector<double>{1e-6, 5e-5}, 1e-4, 0.5).empty());
+    EXPECT_TRUE(validators::tolerances_to_try(std::vector<double>{0.1, 0.15, 0.25, 0.4, 0.65, 0.8}, 0.09, 0.8).empty());
 }
 
 }  // namespace
