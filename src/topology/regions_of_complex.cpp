@@ -9,6 +9,7 @@
 #include "topology/cell_regions.h"
 #include "topology/face_volume.h"
 #include "topology/keys.h"
+#include "topology/unsigned_lists.h"
 
 namespace geomend::topology {
 
@@ -193,9 +194,11 @@ void regions_from_volumes(const SurfaceComplex& complex, const std::vector<State
     if (!hollow.empty()) {
         std::vector<StatedRegion> lists;
         for (const std::uint32_t v : hollow) lists.push_back(complex.volumes[v].boundary);
-        const auto ids = add_stated_regions(a, lists);
         // Meshers are not strict about signs where nothing depends on them: some write none at all.
-        if (std::ranges::any_of(lists, has_a_sign)) report_wrong_sides(a);
+        const bool is_signed = std::ranges::any_of(lists, has_a_sign);
+        if (!is_signed) find_sides_of_lists(a, lists);
+        const auto ids = add_stated_regions(a, lists);
+        if (is_signed) report_wrong_sides(a);
         a.claims = {};
         for (std::size_t i = 0; i < hollow.size(); ++i) region_of[hollow[i]] = ids[i];
     }

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "topology/brep_from_dataset.h"
 #include "validators/registry.h"
 
 // Volumes that a mesh states without cells in them: where their surfaces are there they are regions, signs or none; where a mesher saved
@@ -92,6 +94,56 @@ TEST(VolumesWithoutCells, OfWhichSomeSurfacesAreNotSavedAreNotJudged) {
     const auto found = judged(two_cubes({3}, -1));
     EXPECT_TRUE(std::ranges::all_of(found, [](const Finding& f) { return f.code == "F121"; }))
         << "one side of a box, as conditions at a boundary need it";
+}
+
+/// A cube with another one inside of it, both hollow, and each with six surfaces. The list of the outer one names all of them, without
+/// any sign.
+/// \param turned whether the sides of the inner cube are wound inwards
+Dataset cube_in_cube(bool turned) {
+    CellMesh mesh;
+    mesh.info.name = "cubes";
+    CellMesh::Entity outer, inner;
+    outer.dimension = inner.dimension = 3;
+    outer.tag = 1;
+    inner.tag = 2;
+    std::int64_t tag = 0;
+    for (std::uint32_t cube = 0; cube < 2; ++cube) {
+        for (std::uint32_t n = 0; n < 8; ++n) {
+            const auto at = [&](std::uint32_t axis) { return (n >> axis & 1u) != 0 ? 10.0 - 3 * cube : 3.0 * cube; };
+            mesh.points.push_back({at(0), at(1), at(2)});
+        }
+        for (const auto& side : sides) {
+            CellMesh::Entity face;
+            face.dimension = 2;
+            face.tag = ++tag;
+            outer.boundary.push_back(tag);
+            if (cube == 1) inner.boundary.push_back(tag);
+            mesh.entities.push_back(face);
+            for (auto t : {std::array{side[0], side[1], side[2]}, std::array{side[0], side[2], side[3]}}) {
+                for (std::uint32_t& node : t) node += 8 * cube;
+                if (turned && cube == 1) std::swap(t[0], t[1]);
+                mesh.add_cell(CellType::triangle, t);
+                mesh.cell_entity.push_back(static_cast<std::uint32_t>(mesh.entities.size() - 1));
+            }
+        }
+    }
+    mesh.entities.push_back(outer);
+    mesh.entities.push_back(inner);
+    Dataset data;
+    data.objects.emplace_back(std::move(mesh));
+    return data;
+}
+
+TEST(VolumesWithoutCells, GoAroundBodiesOfSeveralSurfacesWithoutSigns) {
+    for (const bool turned : {false, true}) {
+        Dataset data = cube_in_cube(turned);
+        EXPECT_TRUE(judged(data).empty()) << turned;
+        topology::build_breps(data);
+        ASSERT_EQ(data.breps.size(), 1u);
+        ASSERT_EQ(data.breps[0]->regions.size(), 2u);
+        EXPECT_NEAR(data.breps[0]->regions[0].volume, 1000 - 64, 1e-9) << turned;
+        EXPECT_NEAR(data.breps[0]->regions[1].volume, 64, 1e-9) << turned;
+    }
 }
 
 }  // namespace
