@@ -135,6 +135,15 @@ std::vector<std::uint32_t> pieces_by_edges(const BrepData::Surface& surface, con
     return roots;
 }
 
+/// Whether a surface is a set of faces of cells in one mesh, which fill the regions beside it: these do not depend on it.
+bool is_set_of_cell_faces(const BrepData& brep, const BrepData::Surface& surface) {
+    return std::ranges::any_of(surface.regions, [&](RegionId r) {
+        if (!r.valid()) return false;
+        const auto& region = brep.regions[r.value];
+        return !region.cell_types.empty() && region.source_object == surface.source_object;
+    });
+}
+
 }  // namespace
 
 void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
@@ -148,6 +157,7 @@ void check_pieces(const ModelScope& scope, std::vector<Finding>& findings) {
                                         : surfaces_between_several(scope);
     judge_surfaces(scope, findings, [&](std::uint32_t s) -> std::optional<Finding> {
         const auto& surface = scope.brep().surfaces[s];
+        if (is_set_of_cell_faces(scope.brep(), surface)) return std::nullopt;
         auto polygons_of = sizes_of(pieces_by_edges(surface, scope.model().faces[s], {}, embedded));
         const bool is_cut = polygons_of.size() < 2;
         const auto& own_cuts = is_between_several[s] != 0 ? cuts.all : cuts.through;

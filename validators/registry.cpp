@@ -48,7 +48,7 @@ constexpr std::array table = {
              check_manifold),
     of_model("B04",
              "a surface of a stated model has parts that share no edge; where no regions are stated, parts between which another surface "
-             "passes do not count",
+             "passes do not count; sets of faces of cells that fill regions are excepted",
              check_pieces),
     of_model("B05", "along a line the sides stated for a region do not cancel out, so that the region is open there", check_region_closed),
     of_model("B06",

@@ -146,5 +146,36 @@ TEST(VolumesWithoutCells, GoAroundBodiesOfSeveralSurfacesWithoutSigns) {
     }
 }
 
+/// Three hexahedra in a row, and a set of faces on the tops of the first and the last.
+Dataset cells_with_a_set() {
+    CellMesh mesh;
+    mesh.info.name = "cells";
+    for (std::uint32_t k = 0; k < 2; ++k) {
+        for (std::uint32_t j = 0; j < 2; ++j) {
+            for (std::uint32_t i = 0; i < 4; ++i) mesh.points.push_back({100.0 * i, 100.0 * j, 100.0 * k});
+        }
+    }
+    mesh.entities.resize(2);
+    mesh.entities[0].dimension = 3;
+    mesh.entities[0].tag = 1;
+    mesh.entities[1].dimension = 2;
+    mesh.entities[1].tag = 2;
+    mesh.entities[1].name = "inflow";
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const auto at = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) { return i + x + 4 * y + 8 * z; };
+        const std::array hexahedron{at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)};
+        mesh.add_cell(CellType::hexahedron, hexahedron);
+        mesh.cell_entity.push_back(0);
+        if (i == 1) continue;
+        mesh.add_cell(CellType::quad, std::array{at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)});
+        mesh.cell_entity.push_back(1);
+    }
+    Dataset data;
+    data.objects.emplace_back(std::move(mesh));
+    return data;
+}
+
+TEST(SetsOfFacesOfCells, NeedNotHangTogether) { EXPECT_TRUE(judged(cells_with_a_set()).empty()); }
+
 }  // namespace
 }  // namespace geomend
