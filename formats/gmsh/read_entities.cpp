@@ -351,6 +351,8 @@ void cut_sets(Reading& r, std::span<const std::uint8_t> is_set) {
     if (cut.empty()) return;
     for (const CutSurface& surface : cut) {
         for (const std::uint32_t piece : surface.pieces) r.entity_of.try_emplace({2, r.mesh.entities[piece].tag}, piece);
+        const CellMesh::Entity& first = r.mesh.entities[surface.pieces.front()];
+        if (!first.name.empty() && first.groups.size() == 1) r.mesh.groups[first.groups[0]].name = first.name;
     }
     tell(r, "F122", "surface entities lie between several pairs of volumes: the elements of each pair were made an entity of its own",
          cut.size());

@@ -89,7 +89,8 @@ void add_partitions(Reading& r) {
 // An entity takes the name of its group where it has a single one.
 void name_entities(CellMesh& mesh) {
     for (CellMesh::Entity& entity : mesh.entities) {
-        if (entity.groups.size() == 1) entity.name = mesh.groups[entity.groups[0]].name;
+        if (entity.groups.size() != 1) continue;
+        if (const std::string& name = mesh.groups[entity.groups[0]].name; !name.empty()) entity.name = name;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -63,7 +64,9 @@ public:
         }
         std::vector<CutSurface> result;
         for (auto& [surface, cut] : surfaces) {
-            if (cut.pieces.size() > 1) result.push_back(std::move(cut));
+            if (cut.pieces.size() < 2) continue;
+            give_name(cut);
+            result.push_back(std::move(cut));
         }
         return result;
     }
@@ -99,6 +102,15 @@ private:
         copy.tag = ++next_tag_;
         mesh_.entities.push_back(std::move(copy));
         return static_cast<std::uint32_t>(mesh_.entities.size() - 1);
+    }
+
+    /// Without a name nothing would say that the pieces are one set.
+    void give_name(const CutSurface& cut) {
+        const CellMesh::Entity& whole = mesh_.entities[cut.pieces.front()];
+        const auto has_name = [&](std::uint32_t group) { return group < mesh_.groups.size() && !mesh_.groups[group].name.empty(); };
+        if (!whole.name.empty() || std::ranges::any_of(whole.groups, has_name)) return;
+        const std::string name = "Surface_" + std::to_string(whole.tag);
+        for (const std::uint32_t piece : cut.pieces) mesh_.entities[piece].name = name;
     }
 
     CellMesh& mesh_;

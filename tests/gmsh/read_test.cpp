@@ -124,6 +124,8 @@ TEST(MshReading, SetsOfFacesOnSeveralVolumesAreASurfaceForEach) {
         EXPECT_EQ(m.cell_entity[6], m.cell_entity[7]) << tags;
         EXPECT_EQ(m.entities[m.cell_entity[5]].groups, m.entities[m.cell_entity[6]].groups) << tags;
         EXPECT_NE(m.entities[m.cell_entity[5]].tag, m.entities[m.cell_entity[6]].tag) << tags;
+        EXPECT_EQ(m.entities[m.cell_entity[5]].name, m.entities[m.cell_entity[6]].name) << tags;
+        EXPECT_TRUE(m.entities[m.cell_entity[5]].name.starts_with("Surface_")) << tags;
         EXPECT_TRUE(std::ranges::any_of(d->findings, [](const Finding& f) { return f.code == "F122"; })) << tags;
     }
 }

@@ -111,6 +111,22 @@ TEST(Medit, IsReadWhateverTheOrderOfSectionsAndLines) {
     EXPECT_EQ(data.losses[0].loss_class, LossClass::style);
 }
 
+TEST(Medit, PiecesOfASurfaceOnSeveralRegionsHaveOneName) {
+    const Dataset data = read_text("medit",
+                                   "MeshVersionFormatted 2 Dimension 3 Vertices 5 0 0 0 0 1 0 0 0 0 1 0 0 0 0 -1 0 0 0 1 0\n"
+                                   "Tetrahedra 2 1 3 2 4 1 1 2 3 5 2 Triangles 2 1 2 4 9 1 2 5 9 End\n");
+    const CellMesh& mesh = mesh_in(data);
+    ASSERT_EQ(mesh.cell_count(), 4u);
+    std::vector<const CellMesh::Entity*> pieces;
+    for (const auto& entity : mesh.entities) {
+        if (entity.dimension == 2) pieces.push_back(&entity);
+    }
+    ASSERT_EQ(pieces.size(), 2u);
+    EXPECT_NE(pieces[0]->tag, pieces[1]->tag);
+    EXPECT_EQ(pieces[0]->name, "Surface_9");
+    EXPECT_EQ(pieces[1]->name, "Surface_9");
+}
+
 TEST(Medit, PrismsLookIntoTheCellWithTheirFirstTriangle) {
     const Dataset data = read_text("medit",
                                    "MeshVersionFormatted 2 Dimension 3 Vertices 6 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 1 0 1 0 0 1 1 0\n"
