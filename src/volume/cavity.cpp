@@ -245,7 +245,11 @@ bool insert_vertex(WorkCells& mesh, const FixedParts& fixed, std::uint32_t cell,
     const Hole hole = search.best();
     if (hole.cells.empty()) return false;
     double before = 2;
-    for (const std::uint32_t c : hole.cells) before = std::min(before, mesh.sine_of(c));
+    int more = 0;
+    for (const std::uint32_t c : hole.cells) {
+        before = std::min(before, mesh.sine_of(c));
+        more -= mesh.sine_of(c) < effort.bad ? 1 : 0;
+    }
     if (!(hole.worst > effort.factor * std::max(before, least_gain))) return false;
     const std::vector<Wall> walls = search.walls_of(hole);
     if (!keeps_edges(mesh, fixed, hole, walls)) return false;
@@ -254,8 +258,10 @@ bool insert_vertex(WorkCells& mesh, const FixedParts& fixed, std::uint32_t cell,
         std::array<Vec3, 4> p = mesh.corners(mesh.at(wall.cell));
         p[wall.corner] = hole.place;
         if (orientation(p[0], p[1], p[2], p[3]) <= 0) return false;
+        more += least_sine(p) < effort.bad ? 1 : 0;
         made.push_back(mesh.at(wall.cell));
     }
+    if (more > effort.more_bad) return false;
     const std::uint32_t v = mesh.add_vertex(hole.place);
     for (std::size_t i = 0; i < walls.size(); ++i) made[i][walls[i].corner] = v;
     mesh.replace(hole.cells, made);

@@ -11,6 +11,8 @@ namespace geomend::volumes {
 /// How much is tried.
 struct VertexEffort {
     double factor = 1.5;        ///< the worst of new cells is to be so many times as good, by its least sine, as the worst that goes
+    double bad = 0;             ///< cells with a smaller sine are bad,
+    int more_bad = 0;           ///< and by no more than so many there may be more of them
     std::size_t patience = 12;  ///< by so many cells a cavity may grow beyond what was best
     std::size_t places = 3;     ///< of so many, the best ones, the vertex is moved to where it is best
 };

@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
+#include "base/length.h"
 #include "geometry/predicates.h"
 #include "volume/cavity.h"
 #include "volume/cell_quality.h"
+#include "volume/sharp_edges.h"
 #include "volume/work_cells.h"
 
 namespace geomend::volumes {
@@ -17,6 +22,7 @@ namespace {
 
 constexpr double bad_sine = 0.17364817766693033;     // of 10 and 170 degrees
 constexpr double narrow_sine = 0.09;                 // of 5.2 degrees
+constexpr int most_more = 1000;                      // no limit
 constexpr double wanted_sine = 0.34202014332566871;  // of 20: cells below it are worked on
 
 /// The cells around an edge as a ring of vertices, seen from b with a behind it counter-clockwise; nothing where the ring is open or
@@ -122,14 +128,20 @@ public:
     Improver(const RegionFacets& facets, RegionCells& region, std::span<const std::array<std::uint32_t, 2>> kept = {})
         : first_free_(static_cast<std::uint32_t>(facets.positions.size())), fixed_(facets, kept), mesh_(facets, region) {}
 
+    /// Angles that cells need not be better than, from the sides of facets.
+    void heed_sharp_edges(const RegionFacets& facets) {
+        for (const SharpEdge& edge : sharp_edges(facets, std::asin(bad_sine)))
+            sine_between_.try_emplace(edge_key(edge.ends[0], edge.ends[1]), 1).first->second = std::sin(edge.angle);
+    }
+
     /// \param inserts whether bad cells of which nothing else helps may give way to new vertices
     void run(const Monitor* monitor, bool inserts) {
         done.bad_before = count_bad();
         run_rounds(wanted_sine, monitor);
         if (inserts) {
-            insert_and_run({bad_sine, WorkCells::new_vertex, {1.5, 12, 3}, 1}, monitor);
-            insert_and_run({narrow_sine, WorkCells::new_vertex, {1.2, 12, 3}, 4}, monitor);
-            insert_and_run({narrow_sine, WorkCells::new_vertex_with_effort, {1.05, 64, 8}, 4}, monitor);
+            insert_and_run({bad_sine, WorkCells::new_vertex, {1.5, bad_sine, 0, 12, 3}, 1}, monitor);
+            insert_and_run({narrow_sine, WorkCells::new_vertex, {1.2, narrow_sine, 1, 12, 3}, 4}, monitor);
+            insert_and_run({narrow_sine, WorkCells::new_vertex_with_effort, {1.05, narrow_sine, 1, 64, 8}, 4}, monitor);
         }
         done.bad_after = count_bad();
     }
@@ -142,7 +154,7 @@ public:
             for (std::uint32_t c = 0; c < mesh_.size(); ++c) {
                 constexpr std::uint32_t often = 4096;
                 if (c % often == 0 && monitor != nullptr && monitor->stopped()) return;
-                if (!mesh_.is_there(c) || mesh_.sine_of(c) >= wanted || mesh_.is_tried(c, WorkCells::flips_and_moves)) continue;
+                if (!mesh_.is_there(c) || !is_worse(c, wanted) || mesh_.is_tried(c, WorkCells::flips_and_moves)) continue;
                 if (!better(c)) mesh_.set_tried(c, WorkCells::flips_and_moves);
             }
             if (done.flips + done.moves == before) break;
@@ -168,7 +180,24 @@ public:
 private:
     const std::uint32_t first_free_;
     const FixedParts fixed_;
+    std::unordered_map<std::uint64_t, double> sine_between_;  ///< facets at edges where they meet sharply
     WorkCells mesh_;
+
+    /// Whether a cell is worse than so much, and worse than it must be for facets that meet sharply at one of its edges.
+    bool is_worse(std::uint32_t c, double wanted) const {
+        constexpr double share = 0.7;  // of the angle between them
+        const double sine = mesh_.sine_of(c);
+        if (sine >= wanted || sine_between_.empty()) return sine < wanted;
+        const Cell& cell = mesh_.at(c);
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = i + 1; j < 4; ++j) {
+                if (!fixed_.has_edge(cell[i], cell[j])) continue;
+                const auto between = sine_between_.find(edge_key(cell[i], cell[j]));
+                if (between != sine_between_.end() && sine >= share * between->second) return false;
+            }
+        }
+        return true;
+    }
 
     std::uint64_t count_bad() const {
         std::uint64_t count = 0;
@@ -188,14 +217,29 @@ private:
         for (int pass = 0; pass < how.passes && insert_vertices(how, monitor); ++pass) run_rounds(bad_sine, monitor);
     }
 
+    /// Whether a cell is flat for its shortest edge, as between facets that lie close to each other: what comes in its place is flat, too.
+    bool is_squeezed(const Cell& cell) const {
+        constexpr double share = 0.2;
+        const std::array<Vec3, 4> p = mesh_.corners(cell);
+        double shortest = HUGE_VAL, largest = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            for (std::size_t m = k + 1; m < 4; ++m) shortest = std::min(shortest, length(minus(p[m], p[k])));
+            const Vec3& from = p[(k + 1) % 4];
+            largest = std::max(largest, length(cross(minus(p[(k + 2) % 4], from), minus(p[(k + 3) % 4], from))));
+        }
+        return six_volumes(p[0], p[1], p[2], p[3]) < share * shortest * largest;
+    }
+
     /// \return whether any cell got a vertex
     bool insert_vertices(const Insertions& how, const Monitor* monitor) {
         const auto before = done.vertices;
         const auto size = static_cast<std::uint32_t>(mesh_.size());  // those that are made are better
         for (std::uint32_t c = 0; c < size; ++c) {
             if (monitor != nullptr && monitor->stopped()) break;
-            if (!mesh_.is_there(c) || mesh_.sine_of(c) >= how.below || mesh_.is_tried(c, how.mark)) continue;
-            if (insert_vertex(mesh_, fixed_, c, how.effort)) ++done.vertices;
+            if (!mesh_.is_there(c) || !is_worse(c, how.below) || mesh_.is_tried(c, how.mark)) continue;
+            VertexEffort effort = how.effort;
+            if (how.below < bad_sine && !is_squeezed(mesh_.at(c))) effort.more_bad = most_more;
+            if (insert_vertex(mesh_, fixed_, c, effort)) ++done.vertices;
             else mesh_.set_tried(c, how.mark);
         }
         return done.vertices > before;
@@ -330,6 +374,7 @@ Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region) {
 Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor,
                     std::span<const std::array<std::uint32_t, 2>> kept, bool inserts) {
     Improver improver(facets, region, kept);
+    if (inserts) improver.heed_sharp_edges(facets);
     improver.run(monitor, inserts);
     improver.cells().put_back(facets, region);
     return improver.done;

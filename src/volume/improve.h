@@ -25,7 +25,8 @@ struct Improvement {
 /// filled as by G. Klincsek (1980); A. Botella (2016), 2.6.4, for moves that make no cell around worse.
 /// \param kept more edges that stay, over the same vertices
 /// \param inserts whether bad cells that nothing else helps give way to new vertices, where the worst of those that go is less than two
-/// thirds as good as those that come (five sixths where it has an angle of less than 5 degrees); new vertices may go, too
+/// thirds as good as those that come (five sixths where it has an angle of less than 5 degrees); new vertices may go, too. Between facets
+/// that lie close to each other or meet sharply only what makes no more bad cells. \pre then facets have their sides
 Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor,
                     std::span<const std::array<std::uint32_t, 2>> kept = {}, bool inserts = false);
 

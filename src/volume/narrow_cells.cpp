@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "base/length.h"
@@ -14,6 +13,7 @@
 #include "geometry/closest_points.h"
 #include "geometry/triangle_tree.h"
 #include "volume/cell_quality.h"
+#include "volume/sharp_edges.h"
 
 namespace geomend::volumes {
 
@@ -36,7 +36,9 @@ public:
           tree_(facets.positions, facets.triangles),
           sharp_(facets.triangles.size()),
           facing_(facets.triangles.size()) {
-        find_sharp_edges();
+        for (const SharpEdge& edge : sharp_edges(facets, 10 * degree)) {
+            for (const std::uint32_t f : edge.facets) sharp_[f].push_back(edge.ends);
+        }
     }
 
     bool force(const std::array<Vec3, 4>& cell) {
@@ -54,45 +56,6 @@ private:
     std::array<Vec3, 3> corners(std::uint32_t f) const {
         const Triangle& t = facets_.triangles[f];
         return {facets_.positions[t[0]], facets_.positions[t[1]], facets_.positions[t[2]]};
-    }
-
-    void find_sharp_edges() {
-        std::vector<std::pair<Edge, std::uint32_t>> edges;
-        for (std::uint32_t f = 0; f < facets_.triangles.size(); ++f) {
-            const Triangle& t = facets_.triangles[f];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
-                edges.push_back({{low, high}, f});
-            }
-        }
-        std::ranges::sort(edges);
-        for (std::size_t i = 0; i < edges.size(); ++i) {
-            for (std::size_t j = i + 1; j < edges.size() && edges[j].first == edges[i].first; ++j) {
-                const auto& [edge, f] = edges[i];
-                if (!meet_sharply(f, edges[j].second, edge)) continue;
-                sharp_[f].push_back(edge);
-                sharp_[edges[j].second].push_back(edge);
-            }
-        }
-    }
-
-    /// Whether two facets meet along an edge at less than 10 degrees, with the region between them.
-    bool meet_sharply(std::uint32_t a, std::uint32_t b, const Edge& edge) const {
-        const auto apex = [&](std::uint32_t f) {
-            for (const std::uint32_t c : facets_.triangles[f]) {
-                if (c != edge[0] && c != edge[1]) return facets_.positions[c];
-            }
-            return facets_.positions[edge[0]];
-        };
-        const Vec3 along = minus(facets_.positions[edge[1]], facets_.positions[edge[0]]);
-        const auto across = [&](const Vec3& p) {
-            const Vec3 d = minus(p, facets_.positions[edge[0]]);
-            return minus(d, times(dot(d, along) / dot(along, along), along));
-        };
-        const Vec3 p = across(apex(a)), q = across(apex(b));
-        if (std::atan2(length(cross(p, q)), dot(p, q)) >= 10 * degree) return false;
-        const double side = dot(normal_of(corners(a)), q);
-        return side == 0 || (facets_.sides[a] & (side > 0 ? in_front : behind)) != 0;
     }
 
     /// The facets nearer than half the size that a facet faces.

@@ -9,13 +9,13 @@
 namespace geomend::volumes {
 
 FixedParts::FixedParts(const RegionFacets& facets, std::span<const std::array<std::uint32_t, 2>> edges) {
-    for (const auto& e : facets.edges) edges_.insert(key(e[0], e[1]));
-    for (const auto& e : edges) edges_.insert(key(e[0], e[1]));
+    for (const auto& e : facets.edges) edges_.insert(edge_key(e[0], e[1]));
+    for (const auto& e : edges) edges_.insert(edge_key(e[0], e[1]));
     for (const Triangle& t : facets.triangles) {
         Triangle ascending = t;
         std::ranges::sort(ascending);
         faces_.insert(ascending);
-        for (std::size_t k = 0; k < 3; ++k) edges_.insert(key(t[k], t[(k + 1) % 3]));
+        for (std::size_t k = 0; k < 3; ++k) edges_.insert(edge_key(t[k], t[(k + 1) % 3]));
     }
 }
 

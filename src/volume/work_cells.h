@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -21,11 +22,13 @@ using Cell = std::array<std::uint32_t, 4>;
 
 inline constexpr double least_gain = 1e-6;  ///< of a sine: less is none
 
+inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+
 /// Edges and faces of facets, and further edges, which stay.
 class FixedParts {
 public:
     FixedParts(const RegionFacets& facets, std::span<const std::array<std::uint32_t, 2>> edges);
-    bool has_edge(std::uint32_t a, std::uint32_t b) const { return edges_.contains(key(a, b)); }
+    bool has_edge(std::uint32_t a, std::uint32_t b) const { return edges_.contains(edge_key(a, b)); }
     bool has_face(Triangle t) const;
 
 private:
@@ -34,7 +37,6 @@ private:
             return (std::size_t{t[0]} * 0x9e3779b97f4a7c15u ^ t[1]) * 0xbf58476d1ce4e5b9u ^ std::size_t{t[2]} * 0x94d049bb133111ebu;
         }
     };
-    static std::uint64_t key(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
     std::unordered_set<std::uint64_t> edges_;
     std::unordered_set<Triangle, Hash> faces_;
 };
