@@ -116,8 +116,18 @@ Alone tetgen_alone(const std::vector<Vec3>& positions, const std::vector<Triangl
     return done;
 }
 
+/// The least of some rounds.
+Alone least_alone(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::string& switches) {
+    Alone least = tetgen_alone(positions, triangles, switches);
+    for (int round = 1; round < 3; ++round) {
+        const Alone again = tetgen_alone(positions, triangles, switches);
+        if (again.seconds < least.seconds) least = again;
+    }
+    return least;
+}
+
 /// All triangles of a model with all of its regions.
-Alone tetgen_alone(const BrepData& brep, const std::string& switches) {
+Alone least_alone(const BrepData& brep, const std::string& switches) {
     std::vector<Triangle> triangles;
     std::vector<Vec3> positions;
     std::map<std::uint32_t, std::uint32_t> number;
@@ -133,7 +143,7 @@ Alone tetgen_alone(const BrepData& brep, const std::string& switches) {
             triangles.push_back(t);
         }
     }
-    return tetgen_alone(positions, triangles, switches);
+    return least_alone(positions, triangles, switches);
 }
 
 /// A fortieth of the diagonal of the box around a dataset's surfaces.
@@ -196,9 +206,9 @@ Figures measure_stages(const std::string& file, double size, const std::filesyst
     for (const RegionFacets& region : *facets) {
         figures.cells += fill_by_stages(region, size, stages);
         const std::string switches = "QpYMT1e-14q1.4a" + number_text(size * size * size / (6 * std::sqrt(2.0)));
-        own_size += tetgen_alone(region.positions, region.triangles, switches).seconds;
+        own_size += least_alone(region.positions, region.triangles, switches).seconds;
     }
-    const Alone alone = tetgen_alone(*model.brep, "QpYAq1.4");
+    const Alone alone = least_alone(*model.brep, "QpYAq1.4");
     figures.tetgen = own_size;
     figures.alone = alone.seconds;
     FillOptions how;

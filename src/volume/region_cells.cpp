@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "base/disjoint_sets.h"
 #include "base/place_words.h"
@@ -21,7 +23,9 @@ namespace {
 Failure not_filled(const std::string& why) { return failure(FailureKind::limit, "F026", {}, why); }
 
 Triangle sorted(Triangle t) {
-    std::ranges::sort(t);
+    if (t[0] > t[1]) std::swap(t[0], t[1]);
+    if (t[1] > t[2]) std::swap(t[1], t[2]);
+    if (t[0] > t[1]) std::swap(t[0], t[1]);
     return t;
 }
 
@@ -31,17 +35,28 @@ struct CellFace {
     std::uint32_t cell, corner;
 };
 
+/// The faces of all cells, ascending by their vertices, then by cell: put in place by the lowest vertex, and sorted among those few that
+/// have it in common.
 std::vector<CellFace> faces_of(std::span<const std::array<std::uint32_t, 4>> cells) {
-    std::vector<CellFace> faces;
-    faces.reserve(4 * cells.size());
-    for (std::uint32_t c = 0; c < cells.size(); ++c) {
-        for (std::uint32_t k = 0; k < 4; ++k) {
+    std::uint32_t highest = 0;
+    for (const auto& c : cells) highest = std::max(highest, std::ranges::max(c));
+    const auto each = [&](const auto& visit) {
+        for (std::uint32_t c = 0; c < cells.size(); ++c) {
             const auto& v = cells[c];
-            faces.push_back({sorted({v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]}), c, k});
+            for (std::uint32_t k = 0; k < 4; ++k) visit(CellFace{sorted({v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]}), c, k});
         }
+    };
+    std::vector<std::size_t> begin(std::size_t{highest} + 2, 0);
+    each([&](const CellFace& face) { ++begin[face.vertices[0] + 1]; });
+    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    std::vector<CellFace> faces(4 * cells.size());
+    std::vector<std::size_t> next = begin;
+    each([&](const CellFace& face) { faces[next[face.vertices[0]]++] = face; });
+    for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
+        std::sort(
+            faces.begin() + static_cast<std::ptrdiff_t>(begin[v]), faces.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]),
+            [](const CellFace& a, const CellFace& b) { return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell; });
     }
-    std::ranges::sort(
-        faces, [](const CellFace& a, const CellFace& b) { return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell; });
     return faces;
 }
 
