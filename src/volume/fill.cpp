@@ -157,10 +157,11 @@ void make_smaller(const RegionFacets& facets, double edge, const FillOptions& op
                              " have that size, since triangles around the region stay as they are: --method isotropic gives it new ones");
 }
 
-/// Improves the cells of a region, and keeps that where they still fill it as they did.
+/// Improves the cells of a region, and keeps that where they still fill it as they did. Points that a caller wants inside stay.
 Improvement improve_proven(const RegionFacets& facets, RegionCells& region, const FillOptions& options) {
     RegionCells better = region;
-    const Improvement done = options.improve ? improve(facets, better, options.monitor, {}, true) : remove_flat_cells(facets, better);
+    const Improvement done =
+        options.improve ? improve(facets, better, options.monitor, {}, !options.points) : remove_flat_cells(facets, better);
     if (done.flips + done.moves + done.vertices == 0) return done;
     measure(facets, better);
     if ((options.improve && better.least_dihedral < region.least_dihedral) ||
