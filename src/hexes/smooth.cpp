@@ -27,8 +27,21 @@ public:
         for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
             for (const std::uint32_t v : corners_of(mesh.cells[c])) around_[next[v]++] = c;
         }
+        has_changed_.assign(mesh.positions.size(), 1);
     }
 
+    /// \return how many moves of a vertex there were; none where nothing around it has moved since it was tried in vain
+    std::uint64_t improve(std::uint32_t v) {
+        if (has_changed_[v] == 0) return 0;
+        const std::uint64_t moves = (move(v) ? 1u : 0u) + (grow_hexahedra(v) ? 1u : 0u);
+        has_changed_[v] = 0;
+        for (std::size_t k = 0; moves > 0 && k < cells_at(v).size(); ++k) {
+            for (const std::uint32_t w : corners_of(mesh_.cells[cells_at(v)[k]])) has_changed_[w] = 1;
+        }
+        return moves;
+    }
+
+private:
     /// Whether a move made the worst cell around a vertex better.
     bool move(std::uint32_t v) {
         const Vec3 before = mesh_.positions[v], goal = middle_of_neighbours(v);
@@ -54,7 +67,6 @@ public:
         return false;
     }
 
-private:
     /// By how much the volume of the hexahedra around a vertex grows with its place: it is linear in that.
     Vec3 growth_of_hexahedra(std::uint32_t v) const {
         Vec3 growth{};
@@ -127,6 +139,7 @@ private:
     MixedMesh& mesh_;
     double least_;
     std::vector<std::uint32_t> first_, around_, neighbours_;
+    std::vector<std::uint8_t> has_changed_;  ///< per vertex: it, or something around it, since it was tried
 };
 
 }  // namespace
@@ -150,8 +163,7 @@ std::uint64_t smooth(MixedMesh& mesh, const std::vector<std::uint8_t>& fixed, do
         const std::uint64_t before = moves;
         for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
             if (v < fixed.size() && fixed[v] != 0) continue;
-            if (smoother.move(v)) ++moves;
-            if (smoother.grow_hexahedra(v)) ++moves;
+            moves += smoother.improve(v);
         }
         if (moves == before) break;
     }
