@@ -6,6 +6,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "base/parallel.h"
 #include "base/vectors.h"
 #include "hexes/half_spaces.h"
 #include "hexes/open_diagonal.h"
@@ -113,17 +114,20 @@ void each_quad(const TetMesh& m, const Candidates& all, std::size_t i, const Vis
 
 std::vector<UnclosableCounts> count_unclosable(const TetMesh& mesh, const Candidates& candidates) {
     std::vector<UnclosableCounts> count(candidates.size());
-    std::unordered_map<std::uint64_t, Closable> known;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        each_quad(mesh, candidates, i, [&](const Behind& b) {
-            if (b.facets[0] == no_index || b.facets[1] == no_index) return;
-            const std::uint64_t key = (std::uint64_t{std::min(b.facets[0], b.facets[1])} << 32) | std::max(b.facets[0], b.facets[1]);
-            const auto found = known.find(key);
-            const Closable how = found != known.end() ? found->second : known.emplace(key, closable(mesh, b)).first->second;
-            if (how == Closable::with_more) ++count[i].in_fan;
-            if (how == Closable::no) ++count[i].at_all;
-        });
-    }
+    constexpr std::size_t grain = 20'000;  // candidates beside each other share quadrangles, which are judged once in a block
+    parallel_blocks(candidates.size(), grain, [&](std::size_t first, std::size_t end) {
+        std::unordered_map<std::uint64_t, Closable> known;
+        for (std::size_t i = first; i < end; ++i) {
+            each_quad(mesh, candidates, i, [&](const Behind& b) {
+                if (b.facets[0] == no_index || b.facets[1] == no_index) return;
+                const std::uint64_t key = (std::uint64_t{std::min(b.facets[0], b.facets[1])} << 32) | std::max(b.facets[0], b.facets[1]);
+                const auto found = known.find(key);
+                const Closable how = found != known.end() ? found->second : known.emplace(key, closable(mesh, b)).first->second;
+                if (how == Closable::with_more) ++count[i].in_fan;
+                if (how == Closable::no) ++count[i].at_all;
+            });
+        }
+    });
     return count;
 }
 

@@ -2,6 +2,7 @@
 #include "hexes/jacobian.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/corner_frames.h"
 
@@ -69,9 +70,20 @@ bool is_wedge_valid(std::span<const Vec3> p) {
     return true;
 }
 
+/// The determinant is the same at all corners of a tetrahedron: the least scaled one is that where edges are longest.
+double least_of_tetrahedron(std::span<const Vec3> p) {
+    const Vec3 u = minus(p[1], p[0]), v = minus(p[2], p[0]), w = minus(p[3], p[0]);
+    const Vec3 uv = minus(v, u), vw = minus(w, v), wu = minus(u, w);
+    const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w), a = dot(uv, uv), b = dot(vw, vw), c = dot(wu, wu);
+    const double determinant = dot(u, cross(v, w)), at_0 = uu * vv * ww, at_1 = uu * a * c, at_2 = vv * a * b, at_3 = ww * b * c;
+    const double product = determinant > 0 ? std::max({at_0, at_1, at_2, at_3}) : std::min({at_0, at_1, at_2, at_3});
+    return product > 0 ? determinant / std::sqrt(product) : 0;
+}
+
 }  // namespace
 
 double scaled_jacobian(CellType type, std::span<const Vec3> corners) {
+    if (type == CellType::tetrahedron) return scale_of(type) * least_of_tetrahedron(corners);
     double least = 1e30;
     for (const auto& f : corner_frames(type))
         least = std::min(least, scaled_determinant(corners[f[0]], corners[f[1]], corners[f[2]], corners[f[3]]));
