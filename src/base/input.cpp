@@ -86,8 +86,7 @@ namespace {
 bool ends_lines_by_returns(std::string_view bytes) {
     constexpr std::size_t first = 4096;
     const auto is_of_text = [](char c) { return static_cast<unsigned char>(c) >= ' ' || c == '\t' || c == '\r' || c == '\f'; };
-    return bytes.substr(0, first).find('\r') != std::string_view::npos && std::ranges::all_of(bytes.substr(0, first), is_of_text) &&
-           std::ranges::all_of(bytes, is_of_text);
+    return bytes.substr(0, first).find('\r') != std::string_view::npos && std::ranges::all_of(bytes, is_of_text);
 }
 
 bool is_utf_16(std::string_view bytes) { return bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"); }

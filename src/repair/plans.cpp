@@ -188,7 +188,6 @@ struct WiderSheets {
 };
 
 Result<WiderSheets> wider_sheets(const Dataset& dataset, const SurfaceDriverOptions& options) {
-    constexpr double not_to_be_lost = 4;  // regions of so many tolerances, on average, are: the driver lets thinner ones go
     auto model = surface_model_of(dataset, {options.checks.tolerance, options.checks.near});
     if (!model) return std::move(model).why();
     const TriangleSoup& soup = model->model.soup;
@@ -249,7 +248,7 @@ Result<void> weld_sheets(const Dataset& dataset, const SurfaceDriverOptions& opt
         const auto left_of_this = left_of(*repaired);
         if (left_of_this.first > 0 || !(left_of_this < left)) continue;
         const BrepData &had = *best.repair.result.brep, &has = *repaired->result.brep;
-        const auto lost = lost_region(had, has, 4 * sheet.tolerance, [](const Vec3&) { return false; });
+        const auto lost = lost_region(had, has, not_to_be_lost * sheet.tolerance, [](const Vec3&) { return false; });
         if (parting_nothing(has) > parting_nothing(had) || !lost.empty()) continue;
         if (!sheet.taken) {
             best.would_close = sheet.tolerance;

@@ -83,7 +83,7 @@ Result<std::string> region_lost_between(const Brep& before, const SurfaceModel& 
     std::optional<OuterBoundary> boundary;
     bool known = false;
     std::optional<Failure> failed;
-    const double thin = 4 * after.lengths.tolerance;
+    const double thin = not_to_be_lost * after.lengths.tolerance;
     auto why = repair::lost_region(*before, *result.brep, thin, [&](const Vec3& point) {
         if (!known) {
             auto found = OuterBoundary::of(after);

@@ -169,9 +169,11 @@ Result<TriangleRegions> triangle_regions(const SurfaceModel& model) {
     const auto triangles = soup_triangles(model, *judged);
     for (std::size_t s = 0; s < triangles.size(); ++s) {
         const auto& regions = brep.surfaces[s].regions;
-        for (const std::uint32_t t : triangles[s]) result.sides[t] = {regions[0].value, regions[1].value};
         double of_surface = 0;
-        for (const std::uint32_t t : triangles[s]) of_surface += triangle_area(model.model.soup, t);
+        for (const std::uint32_t t : triangles[s]) {
+            result.sides[t] = {regions[0].value, regions[1].value};
+            of_surface += triangle_area(model.model.soup, t);
+        }
         for (const RegionId region : regions) {
             if (region.valid()) area[region.value] += of_surface;
         }

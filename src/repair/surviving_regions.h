@@ -9,6 +9,9 @@
 
 namespace geomend::repair {
 
+/// Regions no thicker than so many tolerances, on average, need not survive a repair.
+constexpr double not_to_be_lost = 4;
+
 /// Whether the regions of a model are still there in another one made from it: each needs a closed region of its own around the
 /// points that were inside of it. Regions no thicker than `thin` (twice the volume by the area) need not survive, nor do those that
 /// `may_go` lets go: it is asked with a point inside of them.

@@ -11,6 +11,7 @@
 #include <map>
 #include <span>
 
+#include "base/bounds.h"
 #include "base/disjoint_sets.h"
 #include "base/usual_no_data.h"
 #include "topology/seen_inside.h"
@@ -35,32 +36,21 @@ void each_edge(const std::array<std::uint32_t, 3>& t, const Visit& visit) {
     for (std::size_t i = 0; i < 3; ++i) visit(t[i], t[i == 2 ? 0 : i + 1]);
 }
 
-/// What vertices take up on the map.
-struct MapExtent {
-    std::array<double, 2> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    std::array<double, 2> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-
-    void add(const Vec3& p) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
+/// Whether one box reaches as far as another one on the map, but for rounding.
+bool covers_on_map(const Bounds& one, const Bounds& other) {
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double little = 1e-6 * (other.high[k] - other.low[k]);
+        if (one.low[k] > other.low[k] + little || one.high[k] < other.high[k] - little) return false;
     }
-    bool covers(const MapExtent& other) const {
-        for (std::size_t k = 0; k < 2; ++k) {
-            const double little = 1e-6 * (other.high[k] - other.low[k]);
-            if (low[k] > other.low[k] + little || high[k] < other.high[k] - little) return false;
-        }
-        return true;
-    }
-};
+    return true;
+}
 
 /// Whether vertices are the whole base, or the top, of a body or of a wall: each has an edge to another one of them, they lie below all of
 /// it, and some others stand upright on them.
 bool are_base(const UsedPoints& used, std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint8_t> usual,
               std::size_t suspects) {
     bool upright = false;
-    MapExtent base, all;
+    Bounds base, all;
     std::vector<std::uint32_t> linked;
     for (const auto& t : triangles) {
         for (const std::uint32_t v : t) {
@@ -73,7 +63,7 @@ bool are_base(const UsedPoints& used, std::span<const std::array<std::uint32_t, 
             upright = upright || (usual[a] != usual[b] && std::hypot(d[0], d[1]) <= 1e-6 * std::abs(d[2]));
         });
     }
-    if (!upright || !base.covers(all)) return false;
+    if (!upright || !covers_on_map(base, all)) return false;
     std::ranges::sort(linked);
     return static_cast<std::size_t>(std::unique(linked.begin(), linked.end()) - linked.begin()) == suspects;
 }
