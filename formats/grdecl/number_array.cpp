@@ -18,7 +18,7 @@ namespace geomend::grdecl {
 
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 20;
+constexpr std::size_t piece_size = std::size_t{1} << 18;
 constexpr std::size_t pieces_at_once = 16;
 constexpr std::uint64_t short_run = 9;  // "9*0 ": values for four bytes, so that buffers stay below 3 values a byte
 constexpr std::uint64_t many = std::uint64_t{1} << 62;
@@ -190,6 +190,21 @@ ArrayStatus repeated(std::string_view item, std::uint64_t& count, T& value, Piec
     return ArrayStatus::ok;
 }
 
+/// N*value with a plain count of at most nine digits and a plain value; nullptr where the item is anything else.
+template <class T>
+const char* fast_repeated(const char* p, const char* end, std::uint64_t& count, T& value, bool& whole) {
+    count = 0;
+    const char* digits = p;
+    unsigned d;
+    while (p != end && (d = digit_of(*p)) < 10 && p - digits < 9) {
+        count = 10 * count + d;
+        ++p;
+    }
+    if (count == 0 || p == end || *p != '*' || ++p == end || separates(*p)) return nullptr;
+    whole = true;
+    return fast_value(p, end, value, whole);
+}
+
 template <class T>
 void add(Piece<T>& piece, std::uint64_t count, T value, bool store) {
     piece.scan.count = std::min(many, piece.scan.count + std::min(many, count));
@@ -215,6 +230,13 @@ void read_piece(Piece<T>& piece, bool store) {
             if (store) piece.values[piece.used++] = value;
             continue;
         }
+        std::uint64_t count = 0;
+        if (const char* next = fast_repeated(p, end, count, value, whole); next != nullptr) {
+            p = next;
+            piece.scan.whole &= whole;
+            add(piece, count, value, store);
+            continue;
+        }
         if (*p == '-' && p + 1 != end && p[1] == '-') {
             const void* newline = std::memchr(p, '\n', static_cast<std::size_t>(end - p));
             p = newline == nullptr ? end : static_cast<const char*>(newline);
@@ -222,7 +244,7 @@ void read_piece(Piece<T>& piece, bool store) {
         }
         const char* stop = item_end(p, end);
         const std::string_view item(p, static_cast<std::size_t>(stop - p));
-        std::uint64_t count = 0;
+        count = 0;
         ArrayStatus status = repeated(item, count, value, piece);
         if (status == ArrayStatus::ok && count == 0) {
             count = 1;
