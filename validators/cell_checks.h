@@ -17,6 +17,7 @@ void check_cell_repeats(const CellScope&, std::vector<Finding>&);    // M26
 void check_cell_points(const CellScope&, std::vector<Finding>&);     // M27 M28
 void check_cell_overlaps(const CellScope&, std::vector<Finding>&);   // M29
 void check_cell_gaps(const CellScope&, std::vector<Finding>&);       // M38
+void check_cell_surfaces(const CellScope&, std::vector<Finding>&);   // M39
 void check_face_planes(const CellScope&, std::vector<Finding>&);     // Q10
 
 }  // namespace geomend::validators

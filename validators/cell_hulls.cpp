@@ -57,6 +57,34 @@ bool tetrahedra_overlap(const std::array<Vec3, 4>& a, const std::array<Vec3, 4>&
     return true;
 }
 
+/// What of a flat polygon lies farther than a distance inside of a plane; the normal points inside.
+std::vector<Vec3> part_inside(std::span<const Vec3> polygon, const Vec3& on_plane, const Vec3& normal, double distance) {
+    const double length = std::sqrt(dot(normal, normal));
+    std::vector<Vec3> part;
+    if (!(length > 0)) return part;
+    const auto height = [&](const Vec3& p) { return dot(minus(p, on_plane), normal) / length - distance; };
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Vec3 &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+        const double a = height(p), b = height(q);
+        if (a > 0) part.push_back(p);
+        if ((a > 0) != (b > 0)) part.push_back(plus(p, times(a / (a - b), minus(q, p))));
+    }
+    return part;
+}
+
+/// Whether a part of a triangle lies farther than a distance from all faces inside a tetrahedron, however that is wound.
+bool holds_part(const std::array<Vec3, 4>& t, std::span<const Vec3> triangle, double distance) {
+    constexpr std::array<std::array<unsigned, 4>, 4> faces{{{0, 1, 2, 3}, {0, 1, 3, 2}, {1, 2, 3, 0}, {0, 2, 3, 1}}};  // the last: across
+    std::vector<Vec3> part(triangle.begin(), triangle.end());
+    for (const auto& f : faces) {
+        Vec3 normal = cross(minus(t[f[1]], t[f[0]]), minus(t[f[2]], t[f[0]]));
+        if (dot(normal, minus(t[f[3]], t[f[0]])) < 0) normal = times(-1, normal);
+        part = part_inside(part, t[f[0]], normal, distance);
+        if (part.empty()) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 CellHulls::CellHulls(const CellScope& scope) : scope_(scope) {
@@ -179,6 +207,13 @@ bool CellHulls::overlap(std::uint32_t i, std::uint32_t j, double tolerance, Scra
         }
     }
     return false;
+}
+
+bool CellHulls::holds_part_of(std::uint32_t i, const std::array<Vec3, 3>& triangle, double tolerance) const {
+    const Vec3 origin = scope_.mesh().points[scope_.mesh().cell_nodes(scope_.volume_cells()[i])[0]];
+    const std::array near{minus(triangle[0], origin), minus(triangle[1], origin), minus(triangle[2], origin)};
+    const double distance = tolerance + bend_of(i);
+    return std::ranges::any_of(tetrahedra_of(i, origin), [&](const Tetrahedron& t) { return holds_part(t, near, distance); });
 }
 
 }  // namespace geomend::validators

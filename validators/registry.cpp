@@ -250,6 +250,11 @@ constexpr std::array table = {
         "longest edges or diagonals of both, where they share no node; above and below hexahedra and wedges, between which layers of "
         "inactive cells may have been left out, up to the search length only",
         check_cell_gaps),
+    of_cells(
+        "M39",
+        "triangles or quadrangles of a mesh of cells that are no faces of cells, nor halves of these, and lie deeper than the tolerance "
+        "in cells or on their faces; what keeps clear of all cells does not count",
+        check_cell_surfaces),
     of_object("M40", "a step is zero, the steps lie in one plane or line, or coordinates along an axis do not all grow or all shrink",
               check_raster_axes),
     of_object("M41", "the axes U, V, W turn as those of a left hand; of a map, U and V turn clockwise seen from above", check_raster_axes),

@@ -217,6 +217,7 @@ constexpr std::array catalogue = {
     CodeInfo{"M37", error, "the cells of a region are not connected: it is several volumes",
              OtherSeverity{warning, "an array of numbers divides the cells, and the file states no regions"}},
     CodeInfo{"M38", warning, "cells face each other across a narrow gap that no cell fills: nothing flows through it"},
+    CodeInfo{"M39", warning, "surfaces in a mesh of cells are no faces of its cells: what is set on them reaches no cell"},
     CodeInfo{"M40", error, "the axes of a raster do not span it"},
     CodeInfo{"M41", info, "the axes of a raster are left-handed"},
     CodeInfo{"M42", warning, "a property has no values"},

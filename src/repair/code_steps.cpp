@@ -163,6 +163,7 @@ constexpr std::array unmended = {
     Unmended{"M36", cells_meant},
     Unmended{"M37", cells_meant},
     Unmended{"M38", cells_meant},
+    Unmended{"M39", "cells are made anew along the surface: mesh"},
     Unmended{"M40", source},
     Unmended{"M41", no_defect},
     Unmended{"M42", source},

@@ -208,6 +208,7 @@ constexpr std::array advice = {
     Advice{"M36", "join them by cells, or give each its own nodes"},
     Advice{"M37", "make each part a region of its own"},
     Advice{"M38", "join the faces node by node, or fill the gap with cells"},
+    Advice{"M39", "mesh again with the surface among the inputs, or take it out of the mesh"},
     Advice{"M40", "correct its axes"},
     Advice{"M42", "remove it, or export it again"},
     Advice{"M43", "declare the value that stands for missing"},

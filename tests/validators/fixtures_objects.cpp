@@ -39,6 +39,15 @@ Dataset changed_cubes(const Change& change) {
     change(mesh);
     return of(mesh);
 }
+/// Three cubes and a square with nodes of its own across the row: at 1 it is the face of two of them.
+Dataset cubes_with_square(double x) {
+    return changed_cubes([&](CellMesh& m) {
+        const auto first = static_cast<std::uint32_t>(m.points.size());
+        for (const Vec3& p : {Vec3{x, 0, 0}, Vec3{x, 1, 0}, Vec3{x, 1, 1}, Vec3{x, 0, 1}}) m.points.push_back(p);
+        m.add_cell(CellType::quad, std::array{first, first + 1, first + 2, first + 3});
+    });
+}
+
 /// A row of three cubes with an array of regions.
 Dataset cubes_of_regions(std::vector<std::int32_t> regions) {
     return changed_cubes([&](CellMesh& m) {
@@ -287,6 +296,7 @@ constexpr Fixture fixtures[] = {
          return cubes_of_regions({1, 1, 2});
      }},
     {"M38", [] { return two_rows(3.02, 0.3); }, [] { return two_rows(3, 0.3); }},
+    {"M39", [] { return cubes_with_square(0.5); }, [] { return cubes_with_square(1); }},
     {"M40",
      [] {
          return raster({50, 0, 0}, {1, 2, 3, 4});
