@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "formats/drop.h"
-#include "formats/vtk/vtk_model.h"
+#include "formats/vtk/vtk_models.h"
 #include "formats/vtk/xml_read.h"
 
 namespace geomend::vtk {
@@ -83,8 +83,10 @@ Result<Dataset> read_multiblock(const XmlDocument& document, const Input& input,
     dataset.format = "vtk";
     dataset.variant = "XML multi-block";
     if (dataset.objects.empty()) return unreadable("F017", document.where(*blocks), "the file names no blocks with data");
-    if (is_model_text(own.structure)) {
-        if (auto model = model_from_blocks(own.structure, own.dataset, dataset)) return std::move(*model);
+    const bool of_several = is_models_text(own.structure);
+    if (of_several || is_model_text(own.structure)) {
+        auto model = of_several ? models_from_blocks(own.structure, dataset) : model_from_blocks(own.structure, own.dataset, dataset);
+        if (model) return std::move(*model);
         Finding finding = make_finding("F113", "the blocks do not fit the model that the file states: they are read as single objects",
                                        {document.file}, 0);
         dataset.findings.push_back(std::move(finding));

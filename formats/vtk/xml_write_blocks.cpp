@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "base/xml_text.h"
 #include "formats/vtk/vtk_merge.h"
-#include "formats/vtk/vtk_model.h"
+#include "formats/vtk/vtk_models.h"
 #include "formats/vtk/vtk_structure.h"
 #include "formats/vtk/xml_names.h"
 #include "formats/vtk/xml_write.h"
@@ -150,12 +150,14 @@ Result<std::vector<Loss>> write_vtm(const Dataset& dataset, OutputSet& out, cons
     const std::vector<bool> used = objects_in_breps(dataset);
     std::vector<ModelBlocks> models;
     for (const Brep& brep : dataset.breps) models.push_back(blocks_of_brep(*brep));
+    std::vector<std::string> names;
+    for (const Brep& brep : dataset.breps) names.push_back(xml_name(brep->name));
+    const auto model_groups = groups_of_models(names);
     BlockWriter writer(out, options, *settings);
     for (std::size_t m = 0; m < models.size(); ++m) {
         for (const ModelBlock& block : models[m].blocks) {
             std::vector<std::string> groups{block.group};
-            if (models.size() > 1)
-                groups.insert(groups.begin(), dataset.breps[m]->name.empty() ? "model " + std::to_string(m + 1) : dataset.breps[m]->name);
+            if (models.size() > 1) groups.insert(groups.begin(), model_groups[m]);
             writer.add(std::move(groups), block.name, block.object);
         }
     }
@@ -170,17 +172,9 @@ Result<std::vector<Loss>> write_vtm(const Dataset& dataset, OutputSet& out, cons
     if (models.empty() && others.empty())
         return failure(FailureKind::cannot_hold, "F021", {out.main_path().string()}, "the input holds nothing to write");
     if (auto done = writer.write_blocks(losses); !done) return std::move(done).why();
-    if (models.size() == 1) {
-        writer.write_index(models.front().dataset, models.front().structure);
-    } else {
-        if (models.size() > 1)
-            add_loss(losses, {LossClass::identity,
-                              {},
-                              "which surfaces and regions make which model",
-                              "a .vtm of several models comes back as single blocks",
-                              models.size()});
-        writer.write_index(models.empty() ? dataset_text(text_only(dataset, others, source)) : std::string("{}"), {});
-    }
+    if (models.empty()) writer.write_index(dataset_text(text_only(dataset, others, source)), {});
+    else if (models.size() == 1) writer.write_index(models.front().dataset, models.front().structure);
+    else writer.write_index("{}", models_text(models, model_groups));
     return losses;
 }
 

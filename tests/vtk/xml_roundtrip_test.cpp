@@ -527,6 +527,37 @@ TEST(XmlModel, ComesBackAsATaggedMeshWhereRegionsHoldCells) {
     EXPECT_TRUE(back.losses.empty());
 }
 
+TEST(XmlModel, SeveralComeBackEachByItselfAlsoWithOneName) {
+    Dataset data;
+    for (const double x : {0.0, 5.0, 9.0}) {
+        BrepData moved = tetrahedron_model(x == 9);  // the last one holds a cell
+        for (Vec3& v : moved.vertices) v[0] += x;
+        auto brep = Brep::make(std::move(moved));
+        ASSERT_TRUE(brep.ok());
+        data.breps.push_back(std::move(brep).value());
+    }
+    PointSet beside;
+    beside.info.name = "beside";
+    beside.points = {{1, 2, 3}};
+    data.objects.emplace_back(beside);
+    const Dataset back = through_xml(data, "vtm");
+    EXPECT_TRUE(back.losses.empty());
+    EXPECT_TRUE(back.findings.empty());
+    ASSERT_EQ(back.models.size(), 3u);
+    ASSERT_EQ(back.objects.size(), 6u);
+    for (std::size_t m = 0; m < 3; ++m) {
+        EXPECT_EQ(back.models[m].name, "one tet");
+        ASSERT_EQ(back.models[m].faces.size(), 4u);
+        EXPECT_EQ(back.models[m].faces[3].object, m == 2 ? 4u : 2 * m + 1);
+        ASSERT_EQ(back.models[m].regions.size(), 2u);
+    }
+    const auto& second_walls = std::get<Surface>(back.objects[2]);
+    EXPECT_EQ(second_walls.info.name, "walls");
+    EXPECT_EQ(second_walls.points[0], (Vec3{5, 0, 0}));
+    EXPECT_EQ(std::get<CellMesh>(back.objects[4]).points[0], (Vec3{9, 0, 0}));
+    EXPECT_EQ(std::get<PointSet>(back.objects[5]).points, beside.points);
+}
+
 TEST(XmlModel, IsReadBlockByBlockWhereOneIsGone) {
     const TemporaryFolder folder;
     const auto path = write_xml(model_dataset(false), folder, "vtm");

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "formats/vtk/vtk_models.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace geomend::vtk {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What one model is made of: its group, the words of its dataset, and its structure.
+struct ModelWords {
+    std::string group, dataset, structure;
+};
+
+std::optional<std::vector<ModelWords>> words_of_models(std::string_view structure) {
+    const Json j = Json::parse(structure, nullptr, false);
+    std::vector<ModelWords> all;
+    try {
+        for (const Json& one : j.at("models"))
+            all.push_back(
+                {one.at("group").get<std::string>(), one.at("dataset").get<std::string>(), one.at("structure").get<std::string>()});
+    } catch (const Json::exception&) {
+        return std::nullopt;
+    }
+    return all;
+}
+
+/// Takes the blocks of a group out of all, and the group off their paths.
+Dataset take_group(Dataset& blocks, const std::string& group) {
+    Dataset own;
+    std::vector<Object> rest;
+    for (Object& object : blocks.objects) {
+        auto& path = info_of(object).groups;
+        if (path.empty() || path.front() != group) {
+            rest.push_back(std::move(object));
+            continue;
+        }
+        path.erase(path.begin());
+        own.objects.push_back(std::move(object));
+    }
+    blocks.objects = std::move(rest);
+    return own;
+}
+
+void append(Dataset& into, Dataset more) {
+    const auto shift = static_cast<std::uint32_t>(into.objects.size());
+    for (StatedModel& model : more.models) {
+        for (StatedModel::Face& face : model.faces) {
+            if (face.object != no_index) face.object += shift;
+        }
+        into.models.push_back(std::move(model));
+    }
+    std::ranges::move(more.objects, std::back_inserter(into.objects));
+    std::ranges::move(more.annotations, std::back_inserter(into.annotations));
+    for (Loss& loss : more.losses) add_loss(into.losses, std::move(loss));
+}
+
+}  // namespace
+
+std::vector<std::string> groups_of_models(std::span<const std::string> names) {
+    std::vector<std::string> groups;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        std::string group = names[i].empty() ? "model " + std::to_string(i + 1) : names[i];
+        const std::string own = group;
+        for (std::size_t n = 2; std::ranges::find(groups, group) != groups.end(); ++n) group = own + " (" + std::to_string(n) + ")";
+        groups.push_back(std::move(group));
+    }
+    return groups;
+}
+
+std::string models_text(std::span<const ModelBlocks> models, std::span<const std::string> groups) {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < models.size(); ++i)
+        all.push_back(Json{{"group", groups[i]}, {"dataset", models[i].dataset}, {"structure", models[i].structure}});
+    return Json{{"models", std::move(all)}}.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+bool is_models_text(std::string_view structure) {
+    const auto words = words_of_models(structure);
+    return words && std::ranges::all_of(*words, [](const ModelWords& one) { return is_model_text(one.structure); });
+}
+
+std::optional<Dataset> models_from_blocks(std::string_view structure, Dataset blocks) {
+    const auto words = words_of_models(structure);
+    if (!words) return std::nullopt;
+    Dataset all = std::move(blocks);
+    Dataset rest;
+    std::swap(all.objects, rest.objects);
+    for (const ModelWords& one : *words) {
+        auto model = model_from_blocks(one.structure, one.dataset, take_group(rest, one.group));
+        if (!model) return std::nullopt;
+        append(all, std::move(*model));
+    }
+    std::ranges::move(rest.objects, std::back_inserter(all.objects));
+    return all;
+}
+
+}  // namespace geomend::vtk

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/vtk/vtk_model.h"
+
+// Several boundary representations in one .vtm: each has its blocks in a group of its own, and a text that tells them apart.
+
+namespace geomend::vtk {
+
+/// A name for the group of each model, all different: its own, or its number. `names` may repeat and be empty.
+std::vector<std::string> groups_of_models(std::span<const std::string> names);
+
+/// The text that brings several models back; the i-th has its blocks in the i-th group.
+std::string models_text(std::span<const ModelBlocks> models, std::span<const std::string> groups);
+
+bool is_models_text(std::string_view structure);
+
+/// The Dataset behind blocks that were read: that of each model (see model_from_blocks), one after the other, and then what is in no
+/// group of one. Nothing where a model does not fit its blocks (the blocks are used up either way).
+std::optional<Dataset> models_from_blocks(std::string_view structure, Dataset blocks);
+
+}  // namespace geomend::vtk
