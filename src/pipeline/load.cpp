@@ -70,6 +70,7 @@ Result<Dataset> load(const OpenedInput& opened, const LoadOptions& options, std:
         if (dataset && format->deck) {
             if (auto followed = follow_deck_companions(*dataset, input, options); !followed) return std::move(followed).why();
         }
+        if (dataset) topology::find_parts_by_keys(*dataset);
         if (dataset) topology::report_stated_keys(input.name(), *dataset);
         if (dataset) report_empty_objects(input.name(), *dataset);
         if (companions != nullptr) *companions = input.companions();

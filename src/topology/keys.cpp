@@ -2,6 +2,7 @@
 #include "topology/keys.h"
 
 #include <algorithm>
+#include <map>
 
 #include "base/parallel.h"
 
@@ -41,6 +42,30 @@ KeyMatch match_part(const Surface& surface, std::uint32_t part, const std::array
     return match_among(surface.polygons, first, last, [&](std::uint32_t node, std::size_t k) { return surface.points[node] == key[k]; });
 }
 
+/// The only part of a surface that has a key triangle; no_index where none has it, or several.
+std::uint32_t part_with(const Surface& surface, const std::array<Vec3, 3>& key) {
+    std::uint32_t found = no_index;
+    for (std::uint32_t part = 0; part < surface.parts.size(); ++part) {
+        if (match_part(surface, part, key) == KeyMatch::absent) continue;
+        if (found != no_index) return no_index;
+        found = part;
+    }
+    return found;
+}
+
+/// For faces of one surface the parts that have their keys; empty where these do not tell.
+std::vector<std::uint32_t> parts_by_keys(const Surface& surface, const StatedModel& model, std::span<const std::uint32_t> faces) {
+    std::vector<std::uint32_t> parts;
+    for (const std::uint32_t f : faces) {
+        if (!model.faces[f].key) return {};
+        parts.push_back(part_with(surface, *model.faces[f].key));
+        if (parts.back() == no_index) return {};
+    }
+    std::vector<std::uint32_t> sorted = parts;
+    std::ranges::sort(sorted);
+    return std::ranges::adjacent_find(sorted) == sorted.end() ? parts : std::vector<std::uint32_t>{};
+}
+
 Finding key_finding(const std::string& file, const StatedModel& model, bool reversed, std::span<const std::uint32_t> faces) {
     const StatedModel::Face& first = model.faces[faces.front()];
     Finding finding = make_finding(reversed ? "F106" : "F116",
@@ -58,6 +83,27 @@ KeyMatch match_key(const BrepData::Surface& surface, const std::array<std::uint3
     if (std::ranges::find(wanted, no_index) != wanted.end()) return KeyMatch::absent;
     return match_among(surface.polygons, 0, surface.polygons.size(),
                        [&](std::uint32_t node, std::size_t k) { return surface.nodes[node].value == wanted[k]; });
+}
+
+void find_parts_by_keys(Dataset& dataset) {
+    for (StatedModel& model : dataset.models) {
+        std::map<std::uint32_t, std::vector<std::uint32_t>> faces_of;
+        for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
+            const auto& face = model.faces[f];
+            if (face.line != 0 && face.object < dataset.objects.size()) faces_of[face.object].push_back(f);
+        }
+        for (const auto& [object, faces] : faces_of) {
+            const auto* surface = std::get_if<Surface>(&dataset.objects[object]);
+            if (surface == nullptr || faces.size() < 2) continue;
+            const bool as_expected = std::ranges::all_of(faces, [&](std::uint32_t f) {
+                const auto& face = model.faces[f];
+                return !face.key || match_part(*surface, face.part, *face.key) != KeyMatch::absent;
+            });
+            if (as_expected) continue;
+            const auto parts = parts_by_keys(*surface, model, faces);
+            for (std::size_t i = 0; i < parts.size(); ++i) model.faces[faces[i]].part = parts[i];
+        }
+    }
 }
 
 void report_stated_keys(const std::string& file, Dataset& dataset) {

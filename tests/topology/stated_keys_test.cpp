@@ -41,5 +41,50 @@ TEST(StatedKeys, WithoutAPlaceInTheFileAreLeftToTheModel) {
     EXPECT_TRUE(findings_of_keys(m.data).empty());
 }
 
+/// A surface of three parts, each a triangle of its own, and a model whose faces have the keys of the parts in another order.
+Dataset three_parts(const std::array<std::uint32_t, 3>& part_of_key) {
+    Dataset data;
+    Surface surface;
+    StatedModel model;
+    for (std::uint32_t part = 0; part < 3; ++part) {
+        const double x = 10 * part;
+        surface.points.insert(surface.points.end(), {{x, 0, 0}, {x + 5, 0, 0}, {x, 5, 0}});
+        surface.parts.push_back({3 * part, part});
+        surface.polygons.push_back(std::array{3 * part, 3 * part + 1, 3 * part + 2});
+    }
+    for (std::uint32_t f = 0; f < 3; ++f) {
+        StatedModel::Face face;
+        face.number = 20 + f;
+        face.line = 5 + f;
+        face.object = 0;
+        face.part = f;
+        const std::uint32_t first = 3 * part_of_key[f];
+        face.key = Triangle{surface.points[first + 1], surface.points[first + 2], surface.points[first]};
+        model.faces.push_back(face);
+    }
+    data.objects.emplace_back(std::move(surface));
+    data.models.push_back(std::move(model));
+    return data;
+}
+
+std::vector<std::uint32_t> parts_found(Dataset data) {
+    topology::find_parts_by_keys(data);
+    std::vector<std::uint32_t> parts;
+    for (const auto& face : data.models[0].faces) parts.push_back(face.part);
+    return parts;
+}
+
+TEST(StatedKeys, TellWhichPartARecordIsOfWhateverItsNumber) {
+    EXPECT_EQ(parts_found(three_parts({0, 1, 2})), (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_EQ(parts_found(three_parts({2, 0, 1})), (std::vector<std::uint32_t>{2, 0, 1}));
+}
+
+TEST(StatedKeys, ThatDoNotTellAllPartsApartChangeNothing) {
+    EXPECT_EQ(parts_found(three_parts({2, 2, 1})), (std::vector<std::uint32_t>{0, 1, 2})) << "two records with one key";
+    Dataset data = three_parts({2, 0, 1});
+    (*data.models[0].faces[1].key)[0][2] = 7;
+    EXPECT_EQ(parts_found(data), (std::vector<std::uint32_t>{0, 1, 2})) << "a key that is nowhere";
+}
+
 }  // namespace
 }  // namespace geomend::test
