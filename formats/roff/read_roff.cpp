@@ -7,6 +7,8 @@
 
 #include "base/big_array.h"
 #include "base/number_text.h"
+#include "base/wording.h"
+#include "formats/drop.h"
 #include "formats/roff/document.h"
 #include "formats/roff/subgrids.h"
 #include "formats/roff/tag_text.h"
@@ -256,13 +258,23 @@ private:
         auto text = tag_text(doc_, tag);
         if (!text) return text.why();
         grid_.info.annotations.push_back({std::string(tag_key), std::move(*text)});
-        if (tag.name == "subgrids") take_subgrids();
+        if (tag.name == "subgrids") take_subgrids(tag);
         return {};
     }
 
     /// Which subgrid a cell is in, as a property: so it gets into formats that know no subgrids.
-    void take_subgrids() {
+    void take_subgrids(const Tag& tag) {
         const auto& attributes = grid_.info.attributes;
+        if (subgrid_layers(grid_).empty()) {
+            drop(data_.findings, data_.losses,
+                 {.loss_class = LossClass::identity,
+                  .entity = grid_.info.name,
+                  .what = "tag 'subgrids'",
+                  .why = "its nLayers are not numbers above 0 that add up to the " + counted(grid_.dims[2], "layer", "layers") +
+                         " of the grid",
+                  .where = place_at(doc_, tag.place)});
+            return;
+        }
         if (std::ranges::find(attributes, subgrid_name, &Attribute::name) != attributes.end()) return;
         if (auto a = subgrid_attribute(grid_)) grid_.info.attributes.push_back(std::move(*a));
     }

@@ -93,6 +93,9 @@ TEST(ReadRoff, OneSubgridOrWrongOnesAreNoProperty) {
     for (const char* layers : {"array int nLayers 1\n3\n", "array int nLayers 2\n1 1\n", "array int nLayers 2\n4 -1\n", ""}) {
         auto data = read_roff_bytes(three_layers(layers));
         EXPECT_TRUE(grid_of(data).info.attributes.empty()) << layers;
+        const bool is_one = layers == std::string("array int nLayers 1\n3\n");
+        EXPECT_EQ(data->losses.size(), is_one ? 0u : 1u) << layers;
+        EXPECT_EQ(std::ranges::count(data->findings, "F150", &Finding::code), is_one ? 0 : 1) << layers;
     }
 }
 
