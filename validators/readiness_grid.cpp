@@ -49,17 +49,20 @@ struct Property {
     double least, most;
 };
 constexpr double unbounded = std::numeric_limits<double>::max();
-constexpr std::array properties = {Property{"PORO", 0, 1},          Property{"PORV", 0, unbounded},  Property{"NTG", 0, 1},
-                                   Property{"PERMX", 0, unbounded}, Property{"PERMY", 0, unbounded}, Property{"PERMZ", 0, unbounded}};
+constexpr std::array properties = {
+    Property{"PORO", 0, 1},           Property{"PORV", 0, unbounded},   Property{"NTG", 0, 1},           Property{"PERMX", 0, unbounded},
+    Property{"PERMY", 0, unbounded},  Property{"PERMZ", 0, unbounded},  Property{"MULTX", 0, unbounded}, Property{"MULTX-", 0, unbounded},
+    Property{"MULTY", 0, unbounded},  Property{"MULTY-", 0, unbounded}, Property{"MULTZ", 0, unbounded}, Property{"MULTZ-", 0, unbounded},
+    Property{"MULTPV", 0, unbounded}, Property{"TRANX", 0, unbounded},  Property{"TRANY", 0, unbounded}, Property{"TRANZ", 0, unbounded}};
+/// What must have a value in each active cell. Of all others some cells may be without: 1 or what follows from the rest stands there.
+constexpr std::array<std::string_view, 4> everywhere = {"PORO", "PERMX", "PERMY", "PERMZ"};
 
 void check_values(const CornerPointGrid& grid, const Property& p, std::vector<Finding>& findings) {
     const Attribute* a = cell_attribute(grid, p.name);
     if (a == nullptr) return;
     const BadValues bad = bad_values(grid, *a, p.least, p.most);
     const std::string name = p.name;
-    // NTG and PORV may be given for some cells only: 1, and what follows from PORO, stand for the rest.
-    const bool may_be_missing = name == "NTG" || name == "PORV";
-    if (bad.missing.count > 0 && !may_be_missing) {
+    if (bad.missing.count > 0 && std::ranges::find(everywhere, name) != everywhere.end()) {
         Finding f = about(grid, "S04", name + " has no value in " + counted(bad.missing.count, "active cell", "active cells"));
         list_cells(grid, bad.missing, f);
         place_cells(grid, f);

@@ -86,6 +86,18 @@ TEST(ReadinessForFlow, FindsValuesOutOfRange) {
     EXPECT_EQ(findings[0].count + findings[1].count, 3u);
 }
 
+TEST(ReadinessForFlow, FindsNegativeMultipliersAndTransmissibilities) {
+    for (const char* name : {"MULTX", "MULTY-", "MULTPV", "TRANZ"}) {
+        CornerPointGrid grid = flow_grid();
+        add_constant(grid, name, 1);
+        EXPECT_EQ(codes_of(ready(of(grid), "flow")), Codes{}) << name;
+        values(grid, name)[3] = -0.5;
+        const Finding f = find(ready(of(grid), "flow"), "S05", Severity::error);
+        EXPECT_EQ(f.count, 1u) << name;
+        EXPECT_TRUE(f.message.starts_with(std::string(name) + " is below 0")) << f.message;
+    }
+}
+
 TEST(ReadinessForFlow, TellsWhatItDoesNotKnow) {
     CornerPointGrid grid = flow_grid();
     grid.porosity = CornerPointGrid::Porosity::dual_porosity;
