@@ -161,12 +161,12 @@ double size_of(const Dataset& dataset) {
 
 /// The cells of a region as fill_regions() makes and proves them; 0: it takes another method. Stages get their times.
 std::size_t fill_by_stages(const RegionFacets& facets, double size, Stages& stages) {
-    const std::string switches = "QpYMT1e-14q1.4a" + number_text(size * size * size / (6 * std::sqrt(2.0)));
+    const std::string switches = "QpYMT1e-14q1.4a" + number_text(most_cell_volume(size));
     auto all = stages.take("TetGen, with its process and messages", [&] { return tetrahedra_of(facets, {}, switches, {}, {}, nullptr); });
     if (!all) return 0;
     auto cells = stages.take("cells checked", [&] { return cells_of_region(facets, std::move(*all)); });
     if (!cells) return 0;
-    stages.take("cells improved", [&] { return improve(facets, *cells, nullptr, {}, true).flips; });
+    stages.take("cells improved", [&] { return improve(facets, *cells, nullptr, {}, true, size).flips; });
     stages.take("cells checked", [&] {
         measure(facets, *cells);
         return lie_apart(cells->cells);
@@ -205,7 +205,7 @@ Figures measure_stages(const std::string& file, double size, const std::filesyst
     double own_size = 0;
     for (const RegionFacets& region : *facets) {
         figures.cells += fill_by_stages(region, size, stages);
-        const std::string switches = "QpYMT1e-14q1.4a" + number_text(size * size * size / (6 * std::sqrt(2.0)));
+        const std::string switches = "QpYMT1e-14q1.4a" + number_text(most_cell_volume(size));
         own_size += least_alone(region.positions, region.triangles, switches).seconds;
     }
     const Alone alone = least_alone(*model.brep, "QpYAq1.4");

@@ -13,8 +13,8 @@ namespace geomend {
 
 namespace {
 
-/// Tetrahedra of an edge in a volume. TetGen makes 1.7 times as many as regular ones would be.
-double tetrahedra_in(double volume, double edge) { return 1.7 * volume * 6 * std::sqrt(2.0) / (edge * edge * edge); }
+/// Tetrahedra of an edge in a volume. TetGen makes 1.3 times as many as regular ones would be.
+double tetrahedra_in(double volume, double edge) { return 1.3 * volume * 6 * std::sqrt(2.0) / (edge * edge * edge); }
 
 double volume_in(const BrepData::Region& region) {
     return region.volume_known && std::isfinite(region.volume) ? std::abs(region.volume) : 0;

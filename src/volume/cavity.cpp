@@ -35,10 +35,38 @@ struct Hole {
     double worst = -1;  ///< sine of the cells that it makes
 };
 
+/// The cells on the other sides of the faces of cells, each looked up once: a search comes by the same cells from many places.
+class Neighbours {
+public:
+    using Four = std::array<std::uint32_t, 4>;  ///< per corner the cell opposite to it; no_index across what is fixed
+
+    Neighbours(const WorkCells& mesh, const FixedParts& fixed) : mesh_(mesh), fixed_(fixed) { slots_.fill({no_index, {}}); }
+
+    const Four& of(std::uint32_t cell) {
+        Slot& slot = slots_[cell % slots_.size()];
+        if (slot.cell == cell) return slot.four;
+        slot.cell = cell;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Triangle face = face_of(mesh_.at(cell), k);
+            slot.four[k] = fixed_.has_face(face) ? no_index : mesh_.across(cell, face);
+        }
+        return slot.four;
+    }
+
+private:
+    struct Slot {
+        std::uint32_t cell;
+        Four four;
+    };
+    const WorkCells& mesh_;
+    const FixedParts& fixed_;
+    std::array<Slot, 256> slots_;
+};
+
 class HoleSearch {
 public:
     HoleSearch(const WorkCells& mesh, const FixedParts& fixed, std::uint32_t cell, const VertexEffort& effort)
-        : mesh_(mesh), fixed_(fixed), start_(cell), effort_(effort) {}
+        : mesh_(mesh), fixed_(fixed), neighbours_(mesh, fixed), start_(cell), effort_(effort) {}
 
     Hole best() {
         std::vector<Hole> found;
@@ -58,13 +86,12 @@ public:
         return best;
     }
 
-    std::vector<Wall> walls_of(const Hole& hole) const {
+    std::vector<Wall> walls_of(const Hole& hole) {
         std::vector<Wall> walls;
         for (const std::uint32_t c : hole.cells) {
+            const auto& across = neighbours_.of(c);
             for (std::uint8_t k = 0; k < 4; ++k) {
-                const Triangle face = face_of(mesh_.at(c), k);
-                if (fixed_.has_face(face) || std::ranges::find(hole.cells, mesh_.across(c, face)) == hole.cells.end())
-                    walls.push_back({c, k, 0});
+                if (std::ranges::find(hole.cells, across[k]) == hole.cells.end()) walls.push_back({c, k, 0});
             }
         }
         return walls;
@@ -73,6 +100,7 @@ public:
 private:
     const WorkCells& mesh_;
     const FixedParts& fixed_;
+    Neighbours neighbours_;
     const std::uint32_t start_;
     const VertexEffort& effort_;
 
@@ -130,7 +158,7 @@ private:
     }
 
     /// Grows across the worst face while there is one that may be crossed; what was best on the way.
-    Hole grown(const Vec3& place) const {
+    Hole grown(const Vec3& place) {
         Hole hole{place, {}, -1};
         std::vector<std::uint32_t> cells;
         std::vector<Wall> walls;
@@ -142,21 +170,19 @@ private:
                 hole.worst = worst->sine;
                 best = cells.size();
             }
-            const Triangle face = face_of(mesh_.at(worst->cell), worst->corner);
-            next = fixed_.has_face(face) ? no_index : mesh_.across(worst->cell, face);
+            next = neighbours_.of(worst->cell)[worst->corner];
         }
         hole.cells.assign(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(best));
         return hole;
     }
 
-    void add(std::uint32_t c, std::vector<std::uint32_t>& cells, std::vector<Wall>& walls, const Vec3& place) const {
+    void add(std::uint32_t c, std::vector<std::uint32_t>& cells, std::vector<Wall>& walls, const Vec3& place) {
         cells.push_back(c);
+        const Neighbours::Four across = neighbours_.of(c);
         for (std::uint8_t k = 0; k < 4; ++k) {
-            const Triangle face = face_of(mesh_.at(c), k);
-            if (!fixed_.has_face(face)) {
-                const std::uint32_t other = mesh_.across(c, face);
-                const auto wall =
-                    std::ranges::find_if(walls, [&](const Wall& w) { return w.cell == other && !has(face, mesh_.at(other)[w.corner]); });
+            if (across[k] != no_index) {
+                const auto wall = std::ranges::find_if(
+                    walls, [&](const Wall& w) { return w.cell == across[k] && neighbours_.of(w.cell)[w.corner] == c; });
                 if (wall != walls.end()) {
                     *wall = walls.back();
                     walls.pop_back();
@@ -167,10 +193,9 @@ private:
             walls.back().sine = sine_at(walls.back(), place);
         }
     }
-    static bool has(const Triangle& face, std::uint32_t v) { return face[0] == v || face[1] == v || face[2] == v; }
 
     /// Moves the vertex to where the worst of its cells is best, by steps that become shorter.
-    void improve_place(Hole& hole) const {
+    void improve_place(Hole& hole) {
         if (hole.cells.empty()) return;
         std::vector<Wall> walls = walls_of(hole);
         double nearest = HUGE_VAL;

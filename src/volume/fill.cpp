@@ -35,8 +35,7 @@ struct Rung {
     bool moves_points = false;  ///< a little, so that no four of them lie in a plane
 };
 
-/// The volume of a regular tetrahedron.
-double volume_of_edge(double edge) { return edge * edge * edge / (6 * std::sqrt(2.0)); }
+double volume_of_regular(double edge) { return edge * edge * edge / (6 * std::sqrt(2.0)); }
 
 /// The size of cells in a region.
 double size_in(const RegionFacets& facets, const FillOptions& options, const std::string& name) {
@@ -48,7 +47,7 @@ double size_in(const RegionFacets& facets, const FillOptions& options, const std
 
 /// \param edge of cells
 std::vector<Rung> rungs_for(double edge, const FillOptions& options, bool with_points) {
-    const std::string most = edge > 0 ? "a" + number_text(volume_of_edge(edge)) : std::string();
+    const std::string most = edge > 0 ? "a" + number_text(most_cell_volume(edge)) : std::string();
     std::vector<Rung> rungs;
     if (with_points) {
         // O0: flat cells between those of a lattice stay, which TetGen would else remove together with the lattice's own.
@@ -127,7 +126,7 @@ Result<RegionCells> cells_by(const Rung& rung, const RegionFacets& facets, const
 }
 
 /// How many cells a region has when all are as large as a regular one with this edge.
-double cells_of_size(const RegionFacets& facets, double edge) { return std::abs(facets.volume) / volume_of_edge(edge); }
+double cells_of_size(const RegionFacets& facets, double edge) { return std::abs(facets.volume) / volume_of_regular(edge); }
 
 bool are_too_large(const RegionFacets& facets, const RegionCells& cells, double edge) {
     constexpr double share = 0.25;  // those beside large triangles are larger
@@ -140,7 +139,7 @@ void make_smaller(const RegionFacets& facets, double edge, const FillOptions& op
     if (!are_too_large(facets, cells, edge)) return;
     const SizedPoint everywhere{facets.positions.front(), edge};
     const Rung by_sizes{"tetgen pYqam",
-                        "QpYMT1e-14q" + number_text(options.ratio > 0 ? options.ratio : 2) + "ma" + number_text(volume_of_edge(edge)),
+                        "QpYMT1e-14q" + number_text(options.ratio > 0 ? options.ratio : 2) + "ma" + number_text(most_cell_volume(edge)),
                         {},
                         true,
                         false,
@@ -158,10 +157,10 @@ void make_smaller(const RegionFacets& facets, double edge, const FillOptions& op
 }
 
 /// Improves the cells of a region, and keeps that where they still fill it as they did. Points that a caller wants inside stay.
-Improvement improve_proven(const RegionFacets& facets, RegionCells& region, const FillOptions& options) {
+Improvement improve_proven(const RegionFacets& facets, RegionCells& region, double edge, const FillOptions& options) {
     RegionCells better = region;
     const Improvement done =
-        options.improve ? improve(facets, better, options.monitor, {}, !options.points) : remove_flat_cells(facets, better);
+        options.improve ? improve(facets, better, options.monitor, {}, !options.points, edge) : remove_flat_cells(facets, better);
     if (done.flips + done.moves + done.vertices == 0) return done;
     measure(facets, better);
     if ((options.improve && better.least_dihedral < region.least_dihedral) ||
@@ -192,7 +191,7 @@ bool fill_by(const Rung& rung, const RegionFacets& facets, const Inside& wanted,
     result.cells = std::move(*cells);
     if (wanted.sizes.empty() && !with_points && (options.size > 0 || edge != facets.median_edge))
         make_smaller(facets, edge, options, result.cells, report);
-    report.improvement = improve_proven(facets, result.cells, options);
+    report.improvement = improve_proven(facets, result.cells, edge, options);
     if (lie_apart(result.cells.cells)) return true;
     report.why_not.push_back(report.rung + ": cells overlap");
     report.rung.clear();
@@ -301,6 +300,8 @@ Result<FacetsOfAll> facets_with_wells(CutByWells& cut, const topology::FoundRegi
 }
 
 }  // namespace
+
+double most_cell_volume(double size) { return 1.5 * volume_of_regular(size); }
 
 Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& found, const FillOptions& options) {
     if (options.wells.empty()) return fill_regions(CutByWells{brep, {}, {}}, found, options);

@@ -13,6 +13,7 @@
 #include "geometry/predicates.h"
 #include "volume/cavity.h"
 #include "volume/cell_quality.h"
+#include "volume/forced_places.h"
 #include "volume/sharp_edges.h"
 #include "volume/work_cells.h"
 
@@ -134,6 +135,12 @@ public:
             sine_between_.try_emplace(edge_key(edge.ends[0], edge.ends[1]), 1).first->second = std::sin(edge.angle);
     }
 
+    /// Cells that surfaces force to be narrow are not worth the effort for the others.
+    void heed_forced_places(const RegionFacets& facets, double size) {
+        facets_ = &facets;
+        size_ = size;
+    }
+
     /// \param inserts whether bad cells of which nothing else helps may give way to new vertices
     void run(const Monitor* monitor, bool inserts) {
         done.bad_before = count_bad();
@@ -181,6 +188,9 @@ private:
     const std::uint32_t first_free_;
     const FixedParts fixed_;
     std::unordered_map<std::uint64_t, double> sine_between_;  ///< facets at edges where they meet sharply
+    const RegionFacets* facets_ = nullptr;                    ///< with a size, else nothing
+    double size_ = 0;
+    std::optional<ForcedPlaces> forced_;
     WorkCells mesh_;
 
     /// Whether a cell is worse than so much, and worse than it must be for facets that meet sharply at one of its edges.
@@ -197,6 +207,12 @@ private:
             }
         }
         return true;
+    }
+
+    bool is_forced(const Cell& cell) {
+        if (facets_ == nullptr) return false;
+        if (!forced_) forced_.emplace(*facets_, size_);
+        return std::ranges::any_of(cell, [&](std::uint32_t v) { return forced_->is_near(v, mesh_.position(v)); });
     }
 
     std::uint64_t count_bad() const {
@@ -237,6 +253,10 @@ private:
         for (std::uint32_t c = 0; c < size; ++c) {
             if (monitor != nullptr && monitor->stopped()) break;
             if (!mesh_.is_there(c) || !is_worse(c, how.below) || mesh_.is_tried(c, how.mark)) continue;
+            if (how.below < bad_sine && is_forced(mesh_.at(c))) {
+                mesh_.set_tried(c, how.mark);
+                continue;
+            }
             VertexEffort effort = how.effort;
             if (how.below < bad_sine && !is_squeezed(mesh_.at(c))) effort.more_bad = most_more;
             if (insert_vertex(mesh_, fixed_, c, effort)) ++done.vertices;
@@ -372,9 +392,10 @@ Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region) {
 }
 
 Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor,
-                    std::span<const std::array<std::uint32_t, 2>> kept, bool inserts) {
+                    std::span<const std::array<std::uint32_t, 2>> kept, bool inserts, double size) {
     Improver improver(facets, region, kept);
     if (inserts) improver.heed_sharp_edges(facets);
+    if (inserts && size > 0) improver.heed_forced_places(facets, size);
     improver.run(monitor, inserts);
     improver.cells().put_back(facets, region);
     return improver.done;

@@ -27,8 +27,9 @@ struct Improvement {
 /// \param inserts whether bad cells that nothing else helps give way to new vertices, where the worst of those that go is less than two
 /// thirds as good as those that come (five sixths where it has an angle of less than 5 degrees); new vertices may go, too. Between facets
 /// that lie close to each other or meet sharply only what makes no more bad cells. \pre then facets have their sides
+/// \param size of edges: with it, and with inserts, cells below 5 degrees that surfaces force (see forced_places.h) are tried once only
 Improvement improve(const RegionFacets& facets, RegionCells& region, const Monitor* monitor,
-                    std::span<const std::array<std::uint32_t, 2>> kept = {}, bool inserts = false);
+                    std::span<const std::array<std::uint32_t, 2>> kept = {}, bool inserts = false, double size = 0);
 
 /// Removes cells that are flat on two facets, by the one edge inside that they have: where a surface is even all four vertices of a cell
 /// may lie in it. Others stay as they are. Cost: linear, and as the cells around these.

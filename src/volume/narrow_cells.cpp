@@ -6,120 +6,23 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <vector>
 
-#include "base/length.h"
-#include "base/vectors.h"
-#include "geometry/closest_points.h"
-#include "geometry/triangle_tree.h"
 #include "volume/cell_quality.h"
-#include "volume/sharp_edges.h"
+#include "volume/forced_places.h"
 
 namespace geomend::volumes {
 
-namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-Vec3 normal_of(const std::array<Vec3, 3>& t) {
-    const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-    const double size = length(n);
-    return size > 0 ? times(1 / size, n) : Vec3{};
-}
-
-/// What forces narrow cells: edges at which facets meet sharply, and facets that face each other closely.
-class Surroundings {
-public:
-    Surroundings(const RegionFacets& facets, double size)
-        : facets_(facets),
-          size_(size),
-          tree_(facets.positions, facets.triangles),
-          sharp_(facets.triangles.size()),
-          facing_(facets.triangles.size()) {
-        for (const SharpEdge& edge : sharp_edges(facets, 10 * degree)) {
-            for (const std::uint32_t f : edge.facets) sharp_[f].push_back(edge.ends);
-        }
-    }
-
-    bool force(const std::array<Vec3, 4>& cell) {
-        return std::ranges::any_of(cell, [&](const Vec3& p) { return force(p); });
-    }
-
-private:
-    using Edge = std::array<std::uint32_t, 2>;
-    const RegionFacets& facets_;
-    const double size_;
-    TriangleTree tree_;
-    std::vector<std::vector<Edge>> sharp_;                           ///< per facet its sharp edges
-    std::vector<std::optional<std::vector<std::uint32_t>>> facing_;  ///< per facet those that face it closely, once that was asked
-
-    std::array<Vec3, 3> corners(std::uint32_t f) const {
-        const Triangle& t = facets_.triangles[f];
-        return {facets_.positions[t[0]], facets_.positions[t[1]], facets_.positions[t[2]]};
-    }
-
-    /// The facets nearer than half the size that a facet faces.
-    const std::vector<std::uint32_t>& facing(std::uint32_t f) {
-        if (facing_[f]) return *facing_[f];
-        std::vector<std::uint32_t>& found = facing_[f].emplace();
-        const auto t = corners(f);
-        Vec3 low = t[0], high = t[0];
-        for (const Vec3& p : t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], p[k]);
-                high[k] = std::max(high[k], p[k]);
-            }
-        }
-        tree_.visit_triangles(tree_.box(low, high, size_ / 2), [&](std::size_t i) {
-            const std::uint32_t other = tree_.number(i);
-            for (const std::uint32_t v : facets_.triangles[other]) {
-                if (std::ranges::find(facets_.triangles[f], v) != facets_.triangles[f].end()) return;
-            }
-            if (are_opposite(closest_points(t, corners(other)), f, other)) found.push_back(other);
-        });
-        return found;
-    }
-    bool are_opposite(const Closest& gap, std::uint32_t a, std::uint32_t b) const {
-        if (!(gap.distance < size_ / 2) || !(gap.distance > 0)) return false;
-        const auto faces = [&](std::uint32_t f) { return std::abs(dot(normal_of(corners(f)), gap.apart)) > 0.5 * gap.distance; };
-        return faces(a) && faces(b);
-    }
-
-    bool force(const Vec3& p) {
-        bool found = false;
-        tree_.visit_triangles(tree_.box(p, p, size_), [&](std::size_t i) {
-            if (found || tree_.is_farther(p, i, size_)) return;
-            const std::uint32_t f = tree_.number(i);
-            const Closest foot = closest_points(p, corners(f));
-            if (foot.distance > size_) return;
-            for (const Edge& edge : sharp_[f]) found = found || is_near(p, edge);
-            for (const std::uint32_t other : facing(f)) {
-                if (found) break;
-                found = are_opposite(closest_points(foot.on_second, corners(other)), f, other);
-            }
-        });
-        return found;
-    }
-    bool is_near(const Vec3& p, const Edge& edge) const {
-        const Vec3 d = minus(p, facets_.positions[edge[0]]), along = minus(facets_.positions[edge[1]], facets_.positions[edge[0]]);
-        const double share = std::clamp(dot(d, along) / dot(along, along), 0.0, 1.0);
-        return length(minus(d, times(share, along))) <= size_;
-    }
-};
-
-}  // namespace
-
 NarrowCells narrow_cells(const RegionFacets& facets, const RegionCells& region, double size) {
+    const double least = std::cos(5 * std::numbers::pi / 180);
     const auto known = facets.positions.size();
     const auto position = [&](std::uint32_t v) { return v < known ? facets.positions[v] : region.new_vertices[v - known]; };
     NarrowCells found;
-    std::optional<Surroundings> about;  // most regions have no such cell
+    std::optional<ForcedPlaces> forced;  // most regions have no such cell
     for (const auto& c : region.cells) {
-        const std::array<Vec3, 4> p{position(c[0]), position(c[1]), position(c[2]), position(c[3])};
-        if (dihedral_cosines(p).of_least <= std::cos(5 * degree)) continue;
+        if (dihedral_cosines({position(c[0]), position(c[1]), position(c[2]), position(c[3])}).of_least <= least) continue;
         ++found.all;
-        if (!about) about.emplace(facets, size);
-        if (about->force(p)) ++found.forced;
+        if (!forced) forced.emplace(facets, size);
+        if (std::ranges::any_of(c, [&](std::uint32_t v) { return forced->is_near(v, position(v)); })) ++found.forced;
     }
     return found;
 }

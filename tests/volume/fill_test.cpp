@@ -134,6 +134,39 @@ TEST(Fill, ASmallerSizeMakesMoreCells) {
     EXPECT_EQ(fill_regions(model, options())->regions[0].rung, "tetgen pYqa");
 }
 
+/// The lengths of edges of cells with both ends inside of the only region of a filled cube.
+std::vector<double> lengths_inside(const BrepData& brep) {
+    const BrepData::Region& region = brep.regions[0];
+    const auto at = [&](std::uint32_t node) { return brep.vertices[region.nodes[node].value]; };
+    const auto is_inside = [&](const Vec3& p) { return std::ranges::all_of(p, [](double x) { return x > 0 && x < 10; }); };
+    std::set<std::array<std::uint32_t, 2>> edges;
+    std::vector<double> lengths;
+    for (std::size_t c = 0; c < region.cell_types.size(); ++c) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = i + 1; j < 4; ++j) {
+                const std::uint32_t a = region.cell_nodes[4 * c + i], b = region.cell_nodes[4 * c + j];
+                const Vec3 p = at(a), q = at(b);
+                if (!edges.insert({std::min(a, b), std::max(a, b)}).second || !is_inside(p) || !is_inside(q)) continue;
+                lengths.push_back(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+            }
+        }
+    }
+    return lengths;
+}
+
+TEST(Fill, EdgesInsideAreMostlyAsLongAsTheSize) {
+    for (const int n : {10, 14}) {
+        FillOptions how = options();
+        how.size = 10.0 / n;
+        const auto filled = fill_regions(model_of({fine_cube(n)}), how);
+        ASSERT_TRUE(filled && filled->regions[0].filled());
+        auto lengths = lengths_inside(filled->brep);
+        ASSERT_GT(lengths.size(), 300u);
+        std::ranges::sort(lengths);
+        EXPECT_NEAR(lengths[lengths.size() / 2] / how.size, 1.0, 0.08) << n;
+    }
+}
+
 TEST(Fill, PointsThatAreAskedForAreVerticesOfCells) {
     std::vector<Vec3> asked;
     for (int i = 1; i < 8; ++i) {
