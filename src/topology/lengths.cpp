@@ -221,7 +221,10 @@ LocalLengths Survey::lengths(const LengthRules& rules) const {
         local.largest.tolerance = std::max(local.largest.tolerance, lengths.tolerance);
         local.largest.near = std::max(local.largest.near, lengths.near);
     }
-    if (local.clusters.empty()) local.largest = {0, std::max(0.0, rules.tolerance), std::max(0.0, rules.near)};
+    if (local.clusters.empty()) {
+        local.largest.tolerance = std::max(0.0, rules.tolerance);
+        local.largest.near = std::max(0.0, rules.near);
+    }
     return local;
 }
 

@@ -316,5 +316,13 @@ TEST(Lengths, that_are_given_are_those_of_all) {
     }
 }
 
+TEST(Lengths, that_are_given_hold_where_there_is_no_surface_and_no_cell) {
+    const auto given = topology::local_lengths(Dataset{}, {0.5, 7});
+    EXPECT_TRUE(given.clusters.empty());
+    EXPECT_EQ(given.largest.tolerance, 0.5);
+    EXPECT_EQ(given.largest.near, 7);
+    EXPECT_EQ(given.largest.shares, (Vec3{1, 1, 1}));
+}
+
 }  // namespace
 }  // namespace geomend
