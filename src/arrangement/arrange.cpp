@@ -138,34 +138,42 @@ constexpr double reach_of_welds = 0.4;  // or more
 
 double thickest_sheet(const ArrangeOptions& options) { return options.reach < reach_of_welds ? sheet_widths.back() : 1.0; }
 
+/// What there is to cut, by the first rounds of the first try.
+struct Usual {
+    std::size_t triangles = 0;  ///< after these rounds; 0: it is the first try
+    std::size_t points = 0;     ///< most that one of them found
+};
+
 /// Cuts until nothing is found any more, or it is given up.
-/// \param usual how many triangles an earlier try had after its first rounds; 0: it is the first  \return the same of this one
-std::size_t cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigned most_rounds, std::size_t usual, Snapped& s,
-                Arrangement& result) {
+void cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigned most_rounds, Usual& usual, Snapped& s,
+         Arrangement& result) {
     result.clean = false;
     constexpr unsigned most_unfoldings = 4;
     unsigned unfoldings = 0;
     const auto stopped = [&] { return monitor != nullptr && monitor->stopped(); };
     // What there is to cut is cut in the first rounds. Where the tolerance is as large as triangles are, pieces may come to lie near
-    // others again and again, and grow in number without end: then it is given up.
+    // others again and again, and grow in number without end, a hundredfold in one round: then it is given up.
     constexpr unsigned first_rounds = 2;
     constexpr std::size_t most_growth = 4;
-    std::size_t after_first = usual;
+    const bool is_first = usual.triangles == 0;
     unsigned rounds = 0;
-    const auto grows = [&] { return (usual > 0 || rounds > first_rounds) && s.state.triangles.size() > most_growth * after_first + 1000; };
+    const auto grows = [&] {
+        if (is_first && rounds <= first_rounds) return false;
+        return s.state.found_points > s.state.most_points || s.state.triangles.size() > most_growth * usual.triangles + 1000;
+    };
     while (!result.clean && rounds < most_rounds && !stopped() && !grows()) {
+        if (rounds >= first_rounds) s.state.most_points = most_growth * usual.points + 1000;
         s.state.reach = reach_of_round(s.grid, share, rounds);
         result.clean = cut_round(s.state, monitor);
         ++rounds;
         ++result.rounds;
-        if (usual == 0 && rounds <= first_rounds) after_first = s.state.triangles.size();
+        if (is_first && rounds <= first_rounds) usual = {s.state.triangles.size(), std::max(usual.points, s.state.found_points)};
         if (result.clean && unfoldings < most_unfoldings && unfold(s.state, soup, s.grid.tolerance_steps)) {
             ++unfoldings;
             result.clean = false;
         }
     }
     if (stopped()) result.clean = false;
-    return after_first;
 }
 
 /// Notes which triangles of the soup have pieces that were found near others in the last round.
@@ -236,10 +244,9 @@ bool has_lost_area(const TriangleSoup& soup, const Snapped& s, double tolerance,
 
 /// What does not end is begun anew, and taken for one sheet where it lies upon each other: ever thicker ones; then with features that are
 /// one from farther away; at last whether it settled before or not. Where nothing of it ends, it stays as it was.
-/// \param usual how many triangles the first try had after its first rounds
 /// \param may_lie per triangle of the soup: what lost area
-void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, std::vector<std::uint8_t> may_lie, std::size_t usual,
-                   Snapped& s, Arrangement& result) {
+void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, std::vector<std::uint8_t> may_lie, Usual usual, Snapped& s,
+                   Arrangement& result) {
     add_unsettled(s, may_lie);
     for (const double coarser : {1.0, 4.0, 8.0, 16.0, 1.0}) {
         const double share = std::max(options.reach, std::min(0.5, coarser * options.reach));
@@ -285,7 +292,7 @@ TriangleSoup shaken(const TriangleSoup& soup, std::span<const std::uint8_t> mark
 
 /// What does not end even as sheets is a matter of chance: where many points lie a few tolerances apart, each cut brings others near, in
 /// ever more pieces. Shaken by no more than a tolerance most of it ends; so it is tried a few times.
-void cut_shaken(const TriangleSoup& soup, const ArrangeOptions& options, std::size_t usual, Snapped& s, Arrangement& result) {
+void cut_shaken(const TriangleSoup& soup, const ArrangeOptions& options, Usual usual, Snapped& s, Arrangement& result) {
     constexpr std::array shares{0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  // of the tolerance
     std::vector<std::uint8_t> unsettled(soup.triangles.size(), 0), not_used(soup.triangles.size(), 0);
     add_unsettled(s, unsettled);
@@ -310,7 +317,8 @@ Result<Arrangement> arrange(const TriangleSoup& soup, const ArrangeOptions& opti
     if (!(options.tolerance > 0)) return failure(FailureKind::usage, "F018", {}, "a cut needs a tolerance above 0");
     Snapped s = snapped(soup, options.tolerance);
     Arrangement result;
-    const std::size_t usual = cut(soup, options.reach, options.monitor, options.most_rounds, 0, s, result);
+    Usual usual;
+    cut(soup, options.reach, options.monitor, options.most_rounds, usual, s, result);
     std::vector<std::uint8_t> may_lie(soup.triangles.size(), 0);
     if (result.clean && options.sheets && has_lost_area(soup, s, options.tolerance, may_lie)) result.clean = false;
     if (!result.clean && options.sheets) cut_in_sheets(soup, options, std::move(may_lie), usual, s, result);

@@ -434,7 +434,9 @@ void rename_points(CutState& state, const std::vector<std::uint32_t>& becomes) {
 
 bool cut_round(CutState& state, const Monitor* monitor) {
     if (++state.rounds > patient_rounds) merge_ends_of_flat_triangles(state);
-    NearFeatures found = search(state.points.points(), state.triangles, state.is_new, state.reach, monitor);
+    NearFeatures found = search(state.points.points(), state.triangles, state.is_new, state.reach, monitor, state.most_points);
+    state.found_points = found.points.size();
+    if (state.found_points > state.most_points) return false;
     if (state.rounds > patient_rounds) break_circles(state, found, state.points.distance());
     return !cut_at(state, found);
 }

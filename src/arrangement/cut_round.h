@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -33,10 +35,12 @@ struct CutState {
     std::vector<Stack> stacks;  ///< triangles that lie upon each other and are cut as one: a source from the soup's number on
     double reach = 0;           ///< nearer features are one; less than the distance that points keep
     unsigned rounds = 0;        ///< done so far
-    std::uint64_t laid = 0;     ///< triangles of the soup in stacks
-    std::uint64_t doubled = 0;  ///< triangles left out since their patch had the same already
-    std::uint64_t merged = 0;   ///< points that gave way to others after they were made
-    std::vector<std::array<std::uint32_t, 2>> gave_way{};  ///< those points, and the one that each became then
+    std::size_t most_points = std::numeric_limits<std::size_t>::max();  ///< that a round may find; where it finds more it cuts nothing
+    std::size_t found_points = 0;                                       ///< by the last round; more than may be: it cut nothing
+    std::uint64_t laid = 0;                                             ///< triangles of the soup in stacks
+    std::uint64_t doubled = 0;                                          ///< triangles left out since their patch had the same already
+    std::uint64_t merged = 0;                                           ///< points that gave way to others after they were made
+    std::vector<std::array<std::uint32_t, 2>> gave_way{};               ///< those points, and the one that each became then
 };
 
 /// Whether pieces of two sources that have the same corners are one.
@@ -48,7 +52,8 @@ inline bool are_of_one_patch(const CutState& state, std::uint32_t source, std::u
 /// Lets the points of triangles and edges become others; what has no area or length any more is left out, what changed is new.
 void rename_points(CutState& state, const std::vector<std::uint32_t>& becomes);
 
-/// Looks for what triangles have in common and cuts them there, once. True where nothing was found, so that nothing changed.
+/// Looks for what triangles have in common and cuts them there, once. True where nothing was found, so that nothing changed. False, and
+/// nothing changed, where more was found than may be.
 /// Cost: near-linear; the number of rounds is 2 to 4 for most models.
 bool cut_round(CutState& state, const Monitor* monitor);
 

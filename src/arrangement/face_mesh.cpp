@@ -102,7 +102,8 @@ bool FaceMesh::add_inside(std::uint32_t point) {
                 const std::uint32_t entry = edge_towards(t, from);
                 if (turn(c[entry], c[after(entry)], point) == 0) on = entry;
             }
-            if (on != no_index && neighbours_[t][on] == no_index) return false;
+            if (on != no_index && (neighbours_[t][on] == no_index || is_seen_at(point, c[on]) || is_seen_at(point, c[after(on)])))
+                return false;
             if (on != no_index) split_edge({t, on}, point);
             else split_triangle(t, point);
             settle();
@@ -114,6 +115,12 @@ bool FaceMesh::add_inside(std::uint32_t point) {
         t = neighbours_[t][out];
     }
     return false;
+}
+
+bool FaceMesh::is_seen_at(std::uint32_t a, std::uint32_t b) const {
+    const Vec3 &p = points_[a], &q = points_[b];
+    const unsigned i = axis_ == 0 ? 1 : 0, k = axis_ == 2 ? 1 : 2;
+    return p[i] == q[i] && p[k] == q[k];
 }
 
 void FaceMesh::split_triangle(std::uint32_t t, std::uint32_t point) {
@@ -314,15 +321,15 @@ bool FaceMesh::fix(std::uint32_t from, std::uint32_t to) {
             if (side == 0) end = r;
             else place = side > 0 ? Place{o, after(g)} : Place{o, before(g)};  // p r, or r q
         }
-        std::size_t waits = 0;
+        std::size_t left = crossed.size() * crossed.size() + 64;  // more often nothing waits, where all turns are right
         for (std::size_t i = 0; i < crossed.size(); ++i) {
             const auto [p, q] = crossed[i];
             Place at = find_edge(p, q);
             if (at.triangle == no_index) at = find_edge(q, p);
             if (at.triangle == no_index) continue;
             if (!can_flip(at)) {
+                if (left-- == 0) return false;
                 crossed.push_back({p, q});
-                if (++waits > crossed.size() * crossed.size() + 64) return false;
                 continue;
             }
             const std::uint32_t o = neighbours_[at.triangle][at.edge];
@@ -330,7 +337,9 @@ bool FaceMesh::fix(std::uint32_t from, std::uint32_t to) {
             stack_.insert(stack_.end(), {{at.triangle, 0}, {at.triangle, 2}, {o, 0}, {o, 1}, {at.triangle, 1}});
             const std::uint32_t c = triangles_[at.triangle][2], d = triangles_[at.triangle][1];
             if (c == from || d == from || c == end || d == end) continue;
-            if (turn(from, end, c) * turn(from, end, d) < 0) crossed.push_back({c, d});
+            if (turn(from, end, c) * turn(from, end, d) >= 0) continue;
+            if (left-- == 0) return false;
+            crossed.push_back({c, d});
         }
         if (!fix_edge(from, end)) return false;
         settle();

@@ -28,7 +28,7 @@ public:
     /// Puts points, in order, on the border from one corner to the next; false, and the mesh is spoilt, where one lies so far off
     /// that a triangle would turn over.
     bool add_on_border(std::uint32_t from, std::uint32_t to, std::span<const std::uint32_t> chain);
-    /// False where the point is not strictly inside; then nothing changes.
+    /// False where the point is not strictly inside, or is seen where another one is; then nothing changes.
     bool add_inside(std::uint32_t point);
     /// Makes a segment an edge that stays, or several where it passes through points. False where it cannot, since a fixed edge or
     /// the border is crossed or an end is not in the mesh; then a part of it may be fixed.
@@ -53,6 +53,7 @@ private:
     std::vector<Place> stack_;
     std::uint32_t last_ = 0;  ///< where the search for a point begins
 
+    bool is_seen_at(std::uint32_t a, std::uint32_t b) const;
     int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
     std::uint32_t corner_of(std::uint32_t triangle, std::uint32_t point) const;
     void join(std::uint32_t triangle, std::uint32_t edge, std::uint32_t other);

@@ -2,6 +2,7 @@
 #include "arrangement/search.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "base/parallel.h"
 #include "geometry/triangle_tree.h"
@@ -62,8 +63,8 @@ Subset near_new(std::span<const Vec3> points, std::span<const Triangle> triangle
 class ChunkSearch {
 public:
     ChunkSearch(const TriangleTree& tree, std::span<const std::uint32_t> numbers, std::span<const std::uint8_t> is_new, double distance,
-                NearFeatures& to)
-        : tree_(tree), numbers_(numbers), is_new_(is_new), distance_(distance), to_(to) {}
+                std::size_t most_points, NearFeatures& to)
+        : tree_(tree), numbers_(numbers), is_new_(is_new), distance_(distance), most_points_(most_points), to_(to) {}
 
     void run(std::size_t level, std::size_t node) {
         const std::size_t size = std::size_t{4} << (2 * level), end = std::min(tree_.size(), (node + 1) * size);
@@ -87,6 +88,7 @@ private:
     std::span<const std::uint32_t> numbers_;
     std::span<const std::uint8_t> is_new_;
     double distance_;
+    std::size_t most_points_;
     NearFeatures& to_;
     std::size_t first_ = 0;
     std::vector<FlatTriangle> own_;
@@ -95,7 +97,7 @@ private:
 
     void test(std::size_t i, std::size_t j) {
         const std::uint32_t a = number(i), b = number(j);
-        if ((is_new_[a] | is_new_[b]) == 0) return;
+        if ((is_new_[a] | is_new_[b]) == 0 || to_.points.size() > most_points_) return;
         const FlatTriangle& own = own_[i - first_];
         const FlatTriangle other(tree_.vertices(), tree_.triangle(j));
         if (has_same_corners(own.vertex, other.vertex)) to_.same.push_back({std::min(a, b), std::max(a, b)});
@@ -133,7 +135,7 @@ void append(NearFeatures& all, const NearFeatures& chunk) {
 }  // namespace
 
 NearFeatures search(std::span<const Vec3> points, std::span<const Triangle> triangles, std::span<const std::uint8_t> is_new,
-                    double distance, const Monitor* monitor) {
+                    double distance, const Monitor* monitor, std::size_t most_points) {
     NearFeatures all;
     const Subset near = near_new(points, triangles, is_new, distance);
     const TriangleTree tree(points, near.triangles, distance);
@@ -141,10 +143,14 @@ NearFeatures search(std::span<const Vec3> points, std::span<const Triangle> tria
     if (tree.size() == 0) return all;
     const std::size_t level = std::min(chunk_level, tree.levels().size() - 1), chunks = tree.levels()[level].size();
     constexpr std::size_t round_size = 512;
+    std::atomic<std::size_t> count = 0;
     for (std::size_t round = 0; round < chunks && (monitor == nullptr || !monitor->stopped()); round += round_size) {
         std::vector<NearFeatures> found(std::min(round_size, chunks - round));
-        parallel_for_each_index(found.size(),
-                                [&](std::size_t i) { ChunkSearch(tree, near.numbers, is_new, distance, found[i]).run(level, round + i); });
+        parallel_for_each_index(found.size(), [&](std::size_t i) {
+            if (count > most_points) return;
+            ChunkSearch(tree, near.numbers, is_new, distance, most_points, found[i]).run(level, round + i);
+            count += found[i].points.size();
+        });
         for (const NearFeatures& chunk : found) append(all, chunk);
         if (monitor != nullptr) monitor->progress("cut", static_cast<double>(round) / static_cast<double>(chunks));
     }
