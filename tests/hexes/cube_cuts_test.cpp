@@ -2,9 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cmath>
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "hexes/candidates.h"
 #include "hexes/conflicts.h"
@@ -56,14 +62,20 @@ Found find(VolumeMeshData data) {
     return f;
 }
 
-/// All sets of tetrahedra that fill the unit cube, by exact cover of points inside.
+constexpr auto everywhere = [](const Vec3&) { return true; };
+
+/// All sets of tetrahedra that fill a body in the unit cube, by its corners, by exact cover of points inside.
 class Cuts {
 public:
-    Cuts() {
-        for (std::uint32_t a = 0; a < 8; ++a) {
-            for (std::uint32_t b = a + 1; b < 8; ++b) {
-                for (std::uint32_t c = b + 1; c < 8; ++c) {
-                    for (std::uint32_t d = c + 1; d < 8; ++d) add({a, b, c, d});
+    explicit Cuts(std::vector<Vec3> corners = test::lattice({1, 1, 1}).points,
+                  const std::function<bool(const Vec3&)>& is_inside = everywhere)
+        : points(std::move(corners)) {
+        take_samples(is_inside);
+        const auto count = static_cast<std::uint32_t>(points.size());
+        for (std::uint32_t a = 0; a < count; ++a) {
+            for (std::uint32_t b = a + 1; b < count; ++b) {
+                for (std::uint32_t c = b + 1; c < count; ++c) {
+                    for (std::uint32_t d = c + 1; d < count; ++d) add({a, b, c, d});
                 }
             }
         }
@@ -71,11 +83,23 @@ public:
         cover({}, chosen);
     }
     std::vector<test::Tets> cuts;
-    const std::vector<Vec3> points = test::lattice({1, 1, 1}).points;
+    const std::vector<Vec3> points;
 
 private:
     static constexpr std::size_t samples = 3000;
     using Inside = std::bitset<samples>;
+
+    void take_samples(const std::function<bool(const Vec3&)>& is_inside) {
+        std::uint32_t random = 7;
+        while (samples_.size() < samples) {
+            Vec3 x{};
+            for (double& c : x) {
+                random = random * 1664525u + 1013904223u;
+                c = (random >> 8) / double(1 << 24);
+            }
+            if (is_inside(x)) samples_.push_back(x);
+        }
+    }
 
     double six(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) const {
         return dot(minus(b, a), cross(minus(c, a), minus(d, a)));
@@ -86,13 +110,8 @@ private:
         if (whole == 0) return;
         if (whole < 0) std::swap(t[2], t[3]);
         Inside inside;
-        std::uint32_t random = 7;
         for (std::size_t s = 0; s < samples; ++s) {
-            Vec3 x{};
-            for (double& c : x) {
-                random = random * 1664525u + 1013904223u;
-                c = (random >> 8) / double(1 << 24);
-            }
+            const Vec3& x = samples_[s];
             inside[s] = six(x, p(1), p(2), p(3)) > 0 && six(p(0), x, p(2), p(3)) > 0 && six(p(0), p(1), x, p(3)) > 0 &&
                         six(p(0), p(1), p(2), x) > 0;
         }
@@ -116,6 +135,7 @@ private:
         }
     }
 
+    std::vector<Vec3> samples_;
     test::Tets tets_;
     std::vector<Inside> inside_;
 };
@@ -175,6 +195,88 @@ TEST(CubeCuts, EachKindOfCutHasTheCellsThatWereCounted) {
     }
     EXPECT_EQ(kinds, (std::map<std::array<std::size_t, 3>, int>{
                          {{1, 0, 0}, 2}, {{1, 0, 3}, 8}, {{1, 6, 6}, 4}, {{1, 4, 6}, 24 + 12}, {{1, 2, 5}, 24}}));
+}
+
+/// A name of a cut of the cube that it shares with those that are it turned or mirrored. Corners are numbered by x, y and z as bits.
+std::vector<std::uint32_t> kind_of(const test::Tets& cut) {
+    std::vector<std::uint32_t> least;
+    std::array<std::uint32_t, 3> axes{0, 1, 2};
+    do {
+        for (std::uint32_t mirror = 0; mirror < 8; ++mirror) {
+            std::vector<std::uint32_t> name;
+            for (const auto& t : cut) {
+                std::uint32_t corners = 0;
+                for (const std::uint32_t v : t) {
+                    std::uint32_t to = 0;
+                    for (std::uint32_t k = 0; k < 3; ++k) to |= (v >> k & 1u) << axes[k];
+                    corners |= 1u << (to ^ mirror);
+                }
+                name.push_back(corners);
+            }
+            std::ranges::sort(name);
+            if (least.empty() || name < least) least = name;
+        }
+    } while (std::ranges::next_permutation(axes).found);
+    return least;
+}
+
+/// How many kinds there are of so many cuts each.
+std::map<int, int> kinds_by_size(const std::map<std::vector<std::uint32_t>, int>& cuts_of) {
+    std::map<int, int> kinds;
+    for (const auto& [kind, cuts] : cuts_of) ++kinds[cuts];
+    return kinds;
+}
+
+// Tables 3.1 and 3.2: six kinds of cuts that conform, and four with a flat tetrahedron between two prisms.
+TEST(CubeCuts, ThereAreSixKindsAndFourWithAFlatTetrahedron) {
+    const Cuts all;
+    std::map<std::vector<std::uint32_t>, int> conforming, with_flat;
+    for (const test::Tets& cut : all.cuts) ++(corners_of_gaps(cut, all.points).empty() ? conforming : with_flat)[kind_of(cut)];
+    EXPECT_EQ(kinds_by_size(conforming), (std::map<int, int>{{2, 1}, {8, 1}, {4, 1}, {24, 2}, {12, 1}}));
+    EXPECT_EQ(kinds_by_size(with_flat), (std::map<int, int>{{12, 1}, {48, 1}, {24, 2}}));
+}
+
+/// Whether an edge between two corners is one of the tetrahedra's.
+bool has_edge(const test::Tets& cut, std::uint32_t a, std::uint32_t b) {
+    const auto has = [](const auto& t, std::uint32_t v) { return std::ranges::find(t, v) != t.end(); };
+    return std::ranges::any_of(cut, [&](const auto& t) { return has(t, a) && has(t, b); });
+}
+
+// Of the eight ways to cut the quadrangles of a prism, six are those of tetrahedra: all but the two that go around it.
+TEST(PrismCuts, SixOfEightDiagonalsMakeOnePrismEach) {
+    const Cuts all({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, [](const Vec3& x) { return x[0] + x[1] < 1; });
+    ASSERT_EQ(all.cuts.size(), 6u);
+    std::set<unsigned> rising;  // bit k: the quadrangle between corners k and k + 1 is cut from the lower k to the upper k + 1
+    for (const test::Tets& cut : all.cuts) {
+        EXPECT_EQ(cut.size(), 3u);
+        unsigned diagonals = 0;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t next = (k + 1) % 3;
+            EXPECT_NE(has_edge(cut, k, next + 3), has_edge(cut, next, k + 3));
+            if (has_edge(cut, k, next + 3)) diagonals |= 1u << k;
+        }
+        rising.insert(diagonals);
+        const Found f = find(test::mesh_data(all.points, cut));
+        ASSERT_EQ(f.prisms.size(), 1u);
+        EXPECT_EQ(f.prisms.tets_of(0).size(), 3u);
+        EXPECT_NEAR(f.prisms.volume[0], 0.5, 1e-12);
+        EXPECT_EQ(f.hexahedra.size(), 0u);
+    }
+    EXPECT_EQ(rising, (std::set<unsigned>{1, 2, 3, 4, 5, 6}));
+    for (unsigned k = 0; k < 3; ++k) EXPECT_EQ(std::ranges::count_if(rising, [&](unsigned d) { return (d >> k & 1u) != 0; }), 3);
+}
+
+TEST(PyramidCuts, BothMakeOnePyramid) {
+    const Cuts all({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}},
+                   [](const Vec3& x) { return x[0] + x[2] < 1 && x[1] + x[2] < 1; });
+    ASSERT_EQ(all.cuts.size(), 2u);
+    for (const test::Tets& cut : all.cuts) {
+        const Found f = find(test::mesh_data(all.points, cut));
+        ASSERT_EQ(f.pyramids.size(), 1u);
+        EXPECT_EQ(f.pyramids.tets_of(0).size(), 2u);
+        EXPECT_NEAR(f.pyramids.volume[0], 1.0 / 3, 1e-12);
+        EXPECT_EQ(f.prisms.size() + f.hexahedra.size(), 0u);
+    }
 }
 
 struct BrickRow {
