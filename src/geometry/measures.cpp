@@ -10,6 +10,7 @@
 #include "base/length.h"
 #include "base/parallel.h"
 #include "geometry/cell_volume.h"
+#include "geometry/curved_volume.h"
 #include "geometry/lattice_cells.h"
 #include "geometry/polyhedron_volume.h"
 
@@ -209,7 +210,7 @@ double cell_volume(const CellMesh& mesh, std::size_t cell) {
 }
 
 double volume(const CellMesh& mesh) {
-    return ordered_sum(mesh.cell_count(), [&](std::size_t i) { return std::abs(cell_volume(mesh, i)); });
+    return ordered_sum(mesh.cell_count(), [&](std::size_t i) { return unsigned_volume(mesh, i); });
 }
 
 namespace {
@@ -234,7 +235,7 @@ double volume_by_tetrahedra(const CellMesh& mesh) {
         const CellType type = linear_type(mesh.types[i]);
         if (type == CellType::hexahedron) return std::abs(split_hexahedron(corner_points<8>(mesh, nodes)));
         if (type == CellType::pyramid) return std::abs(split_pyramid(corner_points<5>(mesh, nodes)));
-        return std::abs(cell_volume(mesh, i));
+        return unsigned_volume(mesh, i);
     });
 }
 

@@ -20,7 +20,7 @@ double area(const CellMesh& mesh);  ///< of its two-dimensional cells
 
 /// Sum of the absolute volumes of the three-dimensional cells. Hexahedra, wedges and pyramids are measured by
 /// exact integration of their (tri)linear maps; polyhedra by the divergence theorem over fan-split faces. Prisms
-/// with five or six sides: bilinear sides, fan-split ends.
+/// with five or six sides: bilinear sides, fan-split ends. Cells of second order: as unsigned_volume() has them.
 double volume(const CellMesh& mesh);
 /// Signed volume of one cell, positive in VTK's corner order; 0 for cells that are not three-dimensional. Corner
 /// order of second-order cells: their corners only. For a wedge that is the order of VTK's documentation and of
@@ -30,7 +30,7 @@ double volume(const CellMesh& mesh);
 /// pointing out.
 double cell_volume(const CellMesh& mesh, std::size_t cell);
 /// The same with hexahedra cut into five tetrahedra and pyramids into two along the shorter diagonal of their base. It
-/// is the figure that VTK and ParaView give; where faces are warped it differs from volume(), and neighbours
+/// is the figure that VTK and ParaView give for cells of first order; where faces are warped it differs from volume(), and neighbours
 /// may overlap or leave gaps in it.
 double volume_by_tetrahedra(const CellMesh& mesh);
 /// Sum of the absolute trilinear volumes of the cells that are not blanked, with split nodes where they apply; 0

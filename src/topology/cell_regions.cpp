@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "geometry/curved_volume.h"
 #include "geometry/measures.h"
 #include "model/cell_faces.h"
 #include "topology/corner_values.h"
@@ -189,7 +190,7 @@ CellRegion CellRegions::make(const std::vector<std::uint32_t>& cells) const {
     PreciseSum volume;
     std::vector<std::uint32_t> facet;
     for (const std::uint32_t c : cells) {
-        volume.add(std::abs(cell_volume(mesh_, c)));
+        volume.add(unsigned_volume(mesh_, c));
         const Vec3 inside = middle_of(mesh_, corner_nodes(mesh_, c));
         for_each_facet(mesh_, c, facet, [&] {
             for (std::uint32_t& v : facet) v = vertex_of_[v];
