@@ -131,9 +131,9 @@ bool is_written_with(double value, int digits, std::chars_format format) {
     return written.ec == std::errc() && std::from_chars(text.data(), written.ptr, read).ec == std::errc() && read == value;
 }
 
-/// The step to which all coordinates are rounded: so many decimals, or so many digits of the largest, where most have as many. Round
-/// numbers that somebody chose have fewer. 0: they are not rounded.
-double rounding_of(const TriangleSoup& soup) {
+/// The step of numbers in text: so many decimals, or so many digits of the largest, where most have as many. Round numbers that somebody
+/// chose have fewer. 0: they are not rounded.
+double text_step(const TriangleSoup& soup) {
     constexpr int most_decimals = 6, most_digits = 8;
     double largest = 0;
     int decimals = 0, digits = 1;
@@ -158,6 +158,43 @@ double rounding_of(const TriangleSoup& soup) {
         step = std::max(step, std::pow(10.0, std::floor(std::log10(largest)) + 1 - digits));
     return step;
 }
+
+/// Whether a number has so many bits at most.
+bool has_bits(double value, int bits) {
+    int exponent = 0;
+    const double scaled = std::ldexp(std::frexp(value, &exponent), bits);
+    return scaled == std::floor(scaled);
+}
+
+/// A number of single precision in full, or in the nine digits that tell it from others.
+bool is_single(double value) {
+    const double nearest = static_cast<float>(value);
+    std::array<char, 64> text{};
+    const auto written = std::to_chars(text.data(), text.data() + text.size(), nearest, std::chars_format::general, 9);
+    double read = 0;
+    return value == nearest ||
+           (written.ec == std::errc() && std::from_chars(text.data(), written.ptr, read).ec == std::errc() && read == value);
+}
+
+/// The step of single precision at the largest coordinate, where all are of it, and most have more bits than round numbers. 0: they are
+/// not.
+double single_step(const TriangleSoup& soup) {
+    constexpr int own_bits = 24, few_bits = 18;
+    double largest = 0;
+    std::size_t need = 0;
+    for (const Vec3& p : soup.vertices) {
+        for (const double x : p) {
+            if (!is_single(x)) return 0;
+            largest = std::max(largest, std::abs(x));
+            need += has_bits(x, few_bits) ? 0 : 1;
+        }
+    }
+    if (2 * need <= 3 * soup.vertices.size()) return 0;
+    return std::ldexp(1.0, std::ilogb(largest) + 1 - own_bits);
+}
+
+/// The step to which all coordinates are rounded. 0: they are not.
+double rounding_of(const TriangleSoup& soup) { return std::max(text_step(soup), single_step(soup)); }
 
 /// Whether two pieces lie now on one side of each other and now on the other, as far as they are no farther apart than some length.
 /// Those that lie on one side by no more than coordinates tell apart, on average, do so, too.

@@ -78,10 +78,17 @@ TEST(Neighbours, WithACommonSideBecomeTwoRegionsInWhateverOrder) {
     }
 }
 
-/// How a text rounds: to decimals, or to digits.
+/// How a text rounds: to decimals, to digits, or, with so many digits, to single precision.
 struct Rounding {
-    char format;  ///< of printf: f or g
+    char format;  ///< of printf: f or g; s for single precision
     int digits;
+
+    std::string text(double x) const {
+        std::array<char, 64> number{};
+        if (format == 's') x = static_cast<float>(x);
+        std::snprintf(number.data(), number.size(), format == 'f' ? "%.*f" : "%.*g", digits, x);
+        return number.data();
+    }
 };
 
 /// The body between two tilted planes over a rectangle, each side with a grid of its own.
@@ -95,19 +102,18 @@ constexpr double slab_x = 1000, slab_y = 800;
 
 double height(double at_origin, bool tilted, double x, double y) { return at_origin + (tilted ? 0.1 * x - 0.05 * y : 0); }
 
-/// A TSurf of the sides of a slab, turned, far from the origin where it is rounded to decimals.
+/// A TSurf of the sides of a slab, turned, far from the origin unless it is rounded to digits.
 std::string slab_text(const std::string& name, const Slab& slab, const Rounding& rounding, double turn) {
     std::string text = "GOCAD TSurf 1\nHEADER {\nname:" + name + "\n}\nTFACE\n", triangles;
     unsigned count = 0;
     const double c = std::cos(turn), s = std::sin(turn), d = std::cos(0.6 * turn), e = std::sin(0.6 * turn);
-    const Vec3 shift = rounding.format == 'f' ? Vec3{4e5, 6e6, -1000} : Vec3{};
+    const Vec3 shift = rounding.format == 'g' ? Vec3{} : Vec3{4e5, 6e6, -1000};
     const auto vertex = [&](double x, double y, double t) {
         const double low = height(slab.low, slab.tilted_low, x, y), high = height(slab.high, slab.tilted_high, x, y);
         const double z = low + t * (high - low), p = c * x - s * y, q = s * x + c * y;
-        std::array<char, 128> line{};
-        std::snprintf(line.data(), line.size(), rounding.format == 'f' ? "VRTX %u %.*f %.*f %.*f\n" : "VRTX %u %.*g %.*g %.*g\n", ++count,
-                      rounding.digits, shift[0] + p, rounding.digits, shift[1] + d * q - e * z, rounding.digits, shift[2] + e * q + d * z);
-        text += line.data();
+        text += "VRTX " + std::to_string(++count);
+        for (const double w : {shift[0] + p, shift[1] + d * q - e * z, shift[2] + e * q + d * z}) text += ' ' + rounding.text(w);
+        text += '\n';
     };
     const auto grid = [&](unsigned columns, unsigned rows, const auto& place) {
         const unsigned first = count + 1;
@@ -139,7 +145,7 @@ double volume(const Slab& slab) {
 
 TEST(Neighbours, RoundedInTextBecomeTwoRegionsByTheLengthWithinWhichTheirSidesAgree) {
     const TemporaryFolder folder;
-    const std::array<Rounding, 5> roundings{{{'f', 1}, {'f', 2}, {'f', 3}, {'g', 6}, {'g', 7}}};
+    const std::array<Rounding, 7> roundings{{{'f', 1}, {'f', 2}, {'f', 3}, {'g', 6}, {'g', 7}, {'s', 9}, {'s', 17}}};
     unsigned i = 0;
     for (const Rounding& rounding : roundings) {
         for (unsigned k = 0; k < 2; ++k) {
