@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "made_boxes.h"
 #include "support/program.h"
@@ -365,6 +369,57 @@ TEST(Holes, ThatTouchInAPointAreFoundAndFilled) {
     const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml", "--max-gap", "40"});
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     expect_volumes(folder / "out.ml", {1000});
+}
+
+/// A box of side 10 as one TSurf, its lid in two halves, and a horizon across it. Each side is a TFACE with points of its own,
+/// or all are triangles over the same points.
+std::string box_and_horizon(bool sides_apart) {
+    constexpr std::array<std::array<const char*, 4>, 7> sides{{{"0 0 0", "0 10 0", "10 10 0", "10 0 0"},
+                                                               {"0 0 0", "10 0 0", "10 0 10", "0 0 10"},
+                                                               {"10 0 0", "10 10 0", "10 10 10", "10 0 10"},
+                                                               {"10 10 0", "0 10 0", "0 10 10", "10 10 10"},
+                                                               {"0 10 0", "0 0 0", "0 0 10", "0 10 10"},
+                                                               {"0 0 10", "4 0 10", "4 10 10", "0 10 10"},
+                                                               {"4 0 10", "10 0 10", "10 10 10", "4 10 10"}}};
+    std::string text = "GOCAD TSurf 1\nHEADER {\nname:box\n}\n", triangles;
+    if (!sides_apart) text += "TFACE\n";
+    std::map<std::string, int> numbers;
+    int count = 0;
+    for (const auto& side : sides) {
+        if (sides_apart) {
+            numbers.clear();
+            text += triangles + "TFACE\n";
+            triangles.clear();
+        }
+        for (const char* corner : side) {
+            if (!numbers.try_emplace(corner, count + 1).second) continue;
+            text += "VRTX " + std::to_string(++count) + ' ' + corner + '\n';
+        }
+        for (const auto& [a, b, c] : {std::array{0u, 1u, 2u}, std::array{0u, 2u, 3u}}) {
+            triangles += "TRGL";
+            for (const unsigned k : {a, b, c}) triangles += ' ' + std::to_string(numbers.at(side[k]));
+            triangles += '\n';
+        }
+    }
+    return text + triangles + "END\n" + tsurf_text(level("horizon", 5));
+}
+
+// What a surface has borders of, stays a line, its ends corners, also where two of its pieces lie in one plane; where it is stated whole
+// nothing says where it should be parted, and it is only where others meet it.
+TEST(Lines, AreTheBordersThatPiecesComeWith) {
+    const TemporaryFolder folder;
+    for (const bool sides_apart : {true, false}) {
+        write_file(folder / "in.ts", box_and_horizon(sides_apart));
+        const auto run = run_geomend({"repair", folder / "in.ts", "-o", folder / "out.ml"});
+        ASSERT_EQ(run.status, 0) << run.out << run.err;
+        const auto brep = info(folder / "out.ml")["brep"];
+        std::array<int, 4> sizes{};
+        std::size_t i = 0;
+        for (const char* key : {"corners", "lines", "surfaces", "regions"}) sizes[i++] = brep[key].get<int>();
+        const std::array<int, 4> apart{14, 23, 12, 2}, whole{1, 1, 3, 2};
+        EXPECT_EQ(sizes, sides_apart ? apart : whole);
+        expect_volumes(folder / "out.ml", {500, 500});
+    }
 }
 
 }  // namespace
