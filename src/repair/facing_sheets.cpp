@@ -125,14 +125,15 @@ private:
 };
 
 bool is_written_with(double value, int digits, std::chars_format format) {
+    if (format == std::chars_format::fixed && digits < 0) return std::fmod(value, std::pow(10.0, -digits)) == 0;
     std::array<char, 64> text{};
     const auto written = std::to_chars(text.data(), text.data() + text.size(), value, format, digits);
     double read = 0;
     return written.ec == std::errc() && std::from_chars(text.data(), written.ptr, read).ec == std::errc() && read == value;
 }
 
-/// The step of numbers in text: so many decimals, or so many digits of the largest, where most have as many. Round numbers that somebody
-/// chose have fewer. 0: they are not rounded.
+/// The step of numbers in text: so many decimals, or none, or so many digits of the largest, where most have as many. Round numbers that
+/// somebody chose have fewer. 0: they are not rounded.
 double text_step(const TriangleSoup& soup) {
     constexpr int most_decimals = 6, most_digits = 8;
     double largest = 0;
@@ -153,7 +154,7 @@ double text_step(const TriangleSoup& soup) {
         return 2 * need > 3 * soup.vertices.size();
     };
     double step = 0;
-    if (decimals >= 1 && decimals <= most_decimals && most_need(decimals, std::chars_format::fixed)) step = std::pow(10.0, -decimals);
+    if (decimals <= most_decimals && most_need(decimals, std::chars_format::fixed)) step = std::pow(10.0, -decimals);
     if (digits >= 2 && digits <= most_digits && largest > 0 && most_need(digits - 1, std::chars_format::scientific))
         step = std::max(step, std::pow(10.0, std::floor(std::log10(largest)) + 1 - digits));
     return step;
