@@ -33,6 +33,8 @@ struct Rung {
     bool has_shapes = false;  ///< and sizes, or points, as asked for
     bool has_points = false, has_sizes = false;
     bool moves_points = false;  ///< a little, so that no four of them lie in a plane
+    /// How many cells that lie flat on two facets may get a vertex beside them, of a thousand points: they break the lattice.
+    std::uint64_t parts_flats = 0;
 };
 
 double volume_of_regular(double edge) { return edge * edge * edge / (6 * std::sqrt(2.0)); }
@@ -54,14 +56,16 @@ std::vector<Rung> rungs_for(double edge, const FillOptions& options, bool with_p
         const std::string all = options.improve ? "QpYMT1e-14" : "QpYMT1e-14O0/0", later = all + "i";
         // Inserted later, points crash TetGen more often than when they are there from the start.
         rungs.push_back({"tetgen pY, points from the start", all, {}, true, true});
+        constexpr std::uint64_t few = 4, any_number = 1000000;
         for (const bool moves : {false, true}) {
             const char* name = moves ? "tetgen pY, points moved a little and inserted" : "tetgen pY, points inserted";
             const char* shuffled =
                 moves ? "tetgen pY, points moved a little and inserted, shuffled" : "tetgen pY, points inserted, shuffled";
-            rungs.push_back({name, later, {}, true, true, false, moves});
+            rungs.push_back({name, later, {}, true, true, false, moves, few});
             for (std::uint32_t shuffle = 1; shuffle <= 3; ++shuffle)
-                rungs.push_back({shuffled, later, {shuffle}, true, true, false, moves});
+                rungs.push_back({shuffled, later, {shuffle}, true, true, false, moves, few});
         }
+        rungs.push_back({"tetgen pY, points from the start, with some beside flat cells", all, {}, true, true, false, false, any_number});
     }
     const bool with_sizes = static_cast<bool>(options.sizes);
     if (with_sizes) {
@@ -96,8 +100,8 @@ std::vector<Vec3> moved_a_little(std::span<const Vec3> points, double edge, std:
 }
 
 /// Cells as TetGen has wound them, without those that lie flat on two facets: points of a lattice are even there but for rounding, and
-/// such cells have no volume, or are turned over.
-Tetrahedra without_flats(const RegionFacets& facets, Tetrahedra all) {
+/// such cells have no volume, or are turned over. \param most_vertices beside those that stay else
+Tetrahedra without_flats(const RegionFacets& facets, Tetrahedra all, std::uint64_t most_vertices) {
     const std::size_t known = facets.positions.size();
     const auto at = [&](std::uint32_t v) { return v < known ? facets.positions[v] : all.new_vertices[v - known]; };
     double sum = 0;
@@ -108,7 +112,7 @@ Tetrahedra without_flats(const RegionFacets& facets, Tetrahedra all) {
     if (sum < 0) {
         for (auto& c : cells.cells) std::swap(c[2], c[3]);
     }
-    remove_flat_cells(facets, cells);
+    remove_flat_cells(facets, cells, most_vertices);
     return {std::move(cells.new_vertices), std::move(cells.cells)};
 }
 
@@ -122,7 +126,9 @@ Result<RegionCells> cells_by(const Rung& rung, const RegionFacets& facets, const
     if (!made) return std::move(made).why();
     if (!rung.has_points) return cells_of_region(facets, std::move(*made));
     auto proven = cells_of_region(facets, *made);
-    return proven ? std::move(proven) : cells_of_region(facets, without_flats(facets, std::move(*made)));
+    if (!proven) proven = cells_of_region(facets, without_flats(facets, *made, 0));
+    const std::uint64_t few = (rung.parts_flats * inside.points.size() + 999) / 1000;
+    return proven || few == 0 ? std::move(proven) : cells_of_region(facets, without_flats(facets, std::move(*made), few));
 }
 
 /// How many cells a region has when all are as large as a regular one with this edge.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <random>
 #include <unordered_map>
 #include <vector>
 
@@ -21,6 +22,7 @@ namespace geomend::volumes {
 
 namespace {
 
+constexpr double flat_sine = 1e-6;
 constexpr double bad_sine = 0.17364817766693033;     // of 10 and 170 degrees
 constexpr double narrow_sine = 0.09;                 // of 5.2 degrees
 constexpr int most_more = 1000;                      // no limit
@@ -73,8 +75,9 @@ double worst_of(const WorkCells& mesh, std::span<const std::uint32_t> cells) {
 /// The best way to fill the ring around an edge with triangles, each joined to both of its ends: by the worst cell of it.
 class RingFilling {
 public:
-    RingFilling(const WorkCells& mesh, const Ring& ring, std::uint32_t a, std::uint32_t b)
-        : mesh_(mesh), ring_(ring.vertices), a_(a), b_(b) {}
+    /// \param flat cells with a smaller sine may be turned over: they count as 0
+    RingFilling(const WorkCells& mesh, const Ring& ring, std::uint32_t a, std::uint32_t b, double flat = 0)
+        : mesh_(mesh), ring_(ring.vertices), a_(a), b_(b), flat_(flat) {}
 
     /// Cells that are all better than `least`; empty where there are none.
     std::vector<Cell> better_than(double least) {
@@ -95,20 +98,25 @@ private:
     const WorkCells& mesh_;
     const std::vector<std::uint32_t>& ring_;
     const std::uint32_t a_, b_;
+    const double flat_;
     std::array<std::array<double, longest>, longest> best_{};
     std::array<std::array<std::size_t, longest>, longest> middle_{};
 
     Cell below(std::size_t i, std::size_t j, std::size_t k) const { return {ring_[i], ring_[k], ring_[j], a_}; }
     Cell above(std::size_t i, std::size_t j, std::size_t k) const { return {ring_[i], ring_[j], ring_[k], b_}; }
 
+    double worth(const Cell& cell) const {
+        const double sine = mesh_.sine_of_new(cell);
+        return sine < 0 && flat_ > 0 && mesh_.sine(cell) < flat_ ? 0 : sine;
+    }
     void choose(std::size_t i, std::size_t j) {
         best_[i][j] = -1;
         for (std::size_t k = i + 1; k < j; ++k) {
             double worst = std::min(best_[i][k], best_[k][j]);
             if (worst <= best_[i][j]) continue;
-            worst = std::min(worst, mesh_.sine_of_new(below(i, k, j)));
+            worst = std::min(worst, worth(below(i, k, j)));
             if (worst <= best_[i][j]) continue;
-            worst = std::min(worst, mesh_.sine_of_new(above(i, k, j)));
+            worst = std::min(worst, worth(above(i, k, j)));
             if (worst <= best_[i][j]) continue;
             best_[i][j] = worst;
             middle_[i][j] = k;
@@ -170,14 +178,21 @@ public:
 
     /// Cells that lie flat on two facets go, with the edge that they have beside these.
     void remove_flats() {
-        constexpr double flat_sine = 1e-6;
         constexpr int most_rounds = 4;
         for (int round = 0; round < most_rounds; ++round) {
             const std::uint64_t before = done.flips;
             for (std::uint32_t c = 0; c < mesh_.size(); ++c) {
-                if (mesh_.is_there(c) && mesh_.sine_of(c) < flat_sine && facets_of(mesh_.at(c)) >= 2) remove_inner_edge(mesh_.at(c));
+                if (is_flat_on_facets(c)) remove_inner_edge(mesh_.at(c));
             }
             if (done.flips == before) return;
+        }
+    }
+
+    /// What flips cannot remove gets a vertex beside it, where it has no volume or is turned over.
+    void part_flats(std::uint64_t most) {
+        for (std::uint32_t c = 0; c < mesh_.size() && done.vertices < most; ++c) {
+            if (!is_flat_on_facets(c) || mesh_.sine_of_new(mesh_.at(c)) > 0) continue;
+            done.vertices += part_inner_edge(mesh_.at(c)) ? 1 : 0;
         }
     }
 
@@ -266,11 +281,93 @@ private:
     }
 
     void remove_inner_edge(const Cell cell) {
-        for (std::size_t i = 0; i < 4; ++i) {
-            for (std::size_t j = i + 1; j < 4; ++j) {
-                if (remove_edge(cell[i], cell[j], 0)) return;  // those around may be as flat: whatever is better will do
+        for (const bool moves : {false, true}) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                for (std::size_t j = i + 1; j < 4; ++j) {
+                    // Those around may be as flat: whatever is better will do.
+                    if (moves ? remove_edge_with_moves(cell[i], cell[j]) : remove_edge(cell[i], cell[j], 0)) return;
+                }
             }
         }
+    }
+
+    /// In a lattice what takes the place of a flat cell may be as flat, between points inside, and turned over as often as not: then one
+    /// of them moves by some millionths of an edge.
+    bool remove_edge_with_moves(std::uint32_t a, std::uint32_t b) {
+        if (fixed_.has_edge(a, b)) return false;
+        const auto ring = ring_around(mesh_, a, b, RingFilling::longest);
+        if (!ring) return false;
+        const auto made = RingFilling(mesh_, *ring, a, b, flat_sine).better_than(-0.5);
+        if (made.empty()) return false;
+        std::vector<Cell> old;
+        for (const std::uint32_t c : ring->cells) old.push_back(mesh_.at(c));
+        std::vector<std::uint32_t> now = ring->cells;
+        while (now.size() < made.size()) now.push_back(static_cast<std::uint32_t>(mesh_.size() + now.size() - ring->cells.size()));
+        mesh_.replace(ring->cells, made);
+        if (std::ranges::all_of(made, [&](const Cell& cell) { return mesh_.sine_of_new(cell) >= 0 || turn_back(cell); })) {
+            ++done.flips;
+            return true;
+        }
+        now.resize(made.size());
+        mesh_.replace(now, old);
+        return false;
+    }
+
+    /// A new vertex beside the middle of the one edge inside that a flat cell has: all cells around the edge become two.
+    bool part_inner_edge(const Cell cell) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = i + 1; j < 4; ++j) {
+                if (!fixed_.has_edge(cell[i], cell[j]) && part_edge(cell, cell[i], cell[j])) return true;
+            }
+        }
+        return false;
+    }
+    bool part_edge(const Cell& flat, std::uint32_t a, std::uint32_t b) {
+        constexpr std::size_t longest_ring = 30;
+        const auto ring = ring_around(mesh_, a, b, longest_ring);
+        if (!ring) return false;
+        const Vec3 middle = times(0.5, plus(mesh_.position(a), mesh_.position(b)));
+        Vec3 away{};
+        for (const std::uint32_t v : ring->vertices) {
+            if (!has(flat, v)) away = plus(away, times(1.0 / static_cast<double>(ring->vertices.size()), minus(mesh_.position(v), middle)));
+        }
+        std::vector<Cell> made;
+        const std::uint32_t added = mesh_.add_vertex(middle);
+        for (const std::uint32_t c : ring->cells) {
+            for (const std::uint32_t end : {a, b}) {
+                made.push_back(mesh_.at(c));
+                std::ranges::replace(made.back(), end, added);
+            }
+        }
+        for (double share = 0.4; share > 1e-3; share /= 2) {
+            mesh_.place(added, plus(middle, times(share, away)));
+            if (!std::ranges::all_of(made, [&](const Cell& one) { return mesh_.sine_of_new(one) > 0; })) continue;
+            mesh_.replace(ring->cells, made);
+            return true;
+        }
+        return false;
+    }
+
+    /// Moves a vertex inside so that a flat cell which is turned over, and all others around it, are not.
+    bool turn_back(const Cell& cell) {
+        constexpr int most_ways = 40;
+        constexpr double step = 5e-7;  // of an edge, and more from time to time
+        for (const std::uint32_t v : cell) {
+            if (v < first_free_) continue;
+            const Vec3 from = mesh_.position(v), edge = minus(mesh_.position(cell[v == cell[0] ? 1 : 0]), from);
+            const double size = std::sqrt(dot(edge, edge));
+            std::minstd_rand random(v + 1);
+            for (int way = 0; way < most_ways; ++way) {
+                Vec3 to = from;
+                for (double& x : to) x += step * (1 + way / 8) * size * (2 * static_cast<double>(random()) / std::minstd_rand::max() - 1);
+                if (mesh_.move_and_turn(v, to)) return true;
+            }
+        }
+        return false;
+    }
+
+    bool is_flat_on_facets(std::uint32_t c) const {
+        return mesh_.is_there(c) && mesh_.sine_of(c) < flat_sine && facets_of(mesh_.at(c)) >= 2;
     }
 
     std::size_t facets_of(const Cell& cell) const {
@@ -384,9 +481,10 @@ private:
 
 }  // namespace
 
-Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region) {
+Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region, std::uint64_t most_vertices) {
     Improver improver(facets, region);
     improver.remove_flats();
+    if (most_vertices > 0) improver.part_flats(most_vertices);
     improver.cells().put_back(facets, region);
     return improver.done;
 }

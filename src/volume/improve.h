@@ -32,7 +32,9 @@ Improvement improve(const RegionFacets& facets, RegionCells& region, const Monit
                     std::span<const std::array<std::uint32_t, 2>> kept = {}, bool inserts = false, double size = 0);
 
 /// Removes cells that are flat on two facets, by the one edge inside that they have: where a surface is even all four vertices of a cell
-/// may lie in it. Others stay as they are. Cost: linear, and as the cells around these.
-Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region);
+/// may lie in it. Where what takes their place would be turned over by rounding, between points inside, one of those moves by some
+/// millionths of an edge. Others stay as they are, but for so many that have no volume or are turned over: they get a new vertex beside
+/// them. Cost: linear, and as the cells around these.
+Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region, std::uint64_t most_vertices = 0);
 
 }  // namespace geomend::volumes

@@ -82,6 +82,18 @@ bool WorkCells::move(std::uint32_t v, const Vec3& to) {
     return true;
 }
 
+bool WorkCells::move_and_turn(std::uint32_t v, const Vec3& to) {
+    const Vec3 from = positions_[v];
+    positions_[v] = to;
+    if (!std::ranges::all_of(around_[v], [&](std::uint32_t c) { return sine_of_new(cells_[c]) > 0; })) {
+        positions_[v] = from;
+        return false;
+    }
+    for (const std::uint32_t c : around_[v]) sine_[c] = sine(cells_[c]);
+    wake(v);
+    return true;
+}
+
 std::uint32_t WorkCells::add_vertex(const Vec3& place) {
     positions_.push_back(place);
     around_.emplace_back();

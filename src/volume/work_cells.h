@@ -67,8 +67,12 @@ public:
     void replace(std::span<const std::uint32_t> old, std::span<const Cell> made);
     /// Moves a vertex, if no cell around it turns over and the worst of them gets better by a hundredth.
     bool move(std::uint32_t v, const Vec3& to);
+    /// Moves a vertex, if then no cell around it is flat or turned over, whether they were or not.
+    bool move_and_turn(std::uint32_t v, const Vec3& to);
     /// A new vertex, which no cell has yet.
     std::uint32_t add_vertex(const Vec3& place);
+    /// Puts a vertex elsewhere. \pre no cell has it yet
+    void place(std::uint32_t v, const Vec3& place) { positions_[v] = place; }
     /// The worst cell at a vertex. \pre it has one
     std::uint32_t worst_around(std::uint32_t v) const;
 

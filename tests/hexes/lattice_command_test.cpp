@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "hexes/layered_sheets.h"
 #include "support/program.h"
@@ -106,6 +110,52 @@ TEST(HexDominant, TheLayeredBoxWithAFaultIsValidAndNearlyAllHexahedra) {
         for (const json& region : report["regions"]) EXPECT_GT(region["cells"]["hexahedron"].get<int>(), 0) << region["name"];
         const auto valid = test::run_geomend({"validate", out});
         EXPECT_EQ(valid.status, 0) << valid.out;
+    }
+}
+
+/// The sample turned about two axes and moved, with so many digits.
+std::string turned_sample(double about_z, double about_x, double east, int digits) {
+    std::ifstream file(std::string(GEOMEND_SOURCE_DIR) + "/samples/layered_box.ml");
+    std::ostringstream text;
+    text.precision(digits);
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string what, number;
+        double x = 0, y = 0, z = 0;
+        const bool is_vertex = line.starts_with("VRTX") || line.starts_with("PVRTX");
+        if (!is_vertex || !(words >> what >> number >> x >> y >> z)) {
+            text << line << '\n';
+            continue;
+        }
+        const double u = std::cos(about_z) * x - std::sin(about_z) * y, v = std::sin(about_z) * x + std::cos(about_z) * y;
+        std::string values;
+        std::getline(words, values);
+        text << what << ' ' << number << ' ' << u + east << ' ' << std::cos(about_x) * v - std::sin(about_x) * z + 10 * east << ' '
+             << std::sin(about_x) * v + std::cos(about_x) * z << values << '\n';
+    }
+    return text.str();
+}
+
+// Points of walls and layers that share a plane do so only but for rounding, which is another each time.
+TEST(HexDominant, SoItIsHoweverItIsTurnedAndRounded) {
+    struct Case {
+        double about_z, about_x, east;
+        int digits;
+        const char* size;
+    };
+    for (const Case& c : {Case{0.2, 0.6, 0, 17, "60"}, {0.31, 0.17, 0, 13, "50"}, {0.4, 0.4, 0, 14, "75"}, {0.7, 0.4, 5e5, 11, "60"}}) {
+        const TemporaryFolder folder;
+        const std::string model = (folder / "turned.ml").string(), out = (folder / "turned.vtu").string();
+        test::write_file(folder / "turned.ml", turned_sample(c.about_z, c.about_x, c.east, c.digits));
+        const auto run = run_geomend({"mesh", model, "--cells", "hex-dominant", "--size", c.size, "-o", out, "--lossy", "--json"});
+        ASSERT_EQ(run.status, 0) << run.err;
+        const json report = json::parse(run.out);
+        EXPECT_GE(share(report, "hexahedron"), 0.99) << c.about_z << " at " << c.size;
+        for (const json& region : report["regions"]) {
+            EXPECT_TRUE(region["as_asked"].get<bool>());
+            EXPECT_EQ(region["rung"].get<std::string>().find("moved"), std::string::npos) << region["why_not"];
+        }
+        EXPECT_EQ(run_geomend({"validate", out}).status, 0);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <random>
 
 #include "geometry/predicates.h"
@@ -229,6 +230,70 @@ TEST(Improve, ACellThatLiesFlatOnTwoFacetsGoes) {
         for (const std::uint32_t v : {0u, 2u, 4u}) EXPECT_NE(std::ranges::find(c, v), c.end()) << "the diagonal of the facets";
     }
     EXPECT_EQ(remove_flat_cells(facets, region).flips, 0u);
+}
+
+/// A cell that lies flat on two facets, between vertices 0 to 3, with two more vertices above the edge from 0 to 1 and three cells around
+/// it. The two are free to move where they are new.
+struct OnAWall {
+    RegionFacets facets;
+    RegionCells region;
+
+    OnAWall(const std::array<Vec3, 6>& places, bool are_new) {
+        const auto known = are_new ? places.begin() + 4 : places.end();
+        facets.positions.assign(places.begin(), known);
+        region.new_vertices.assign(known, places.end());
+        for (std::uint32_t v = 0; v < facets.positions.size(); ++v) facets.vertices.push_back(v);
+        facets.triangles = {{0, 2, 3}, {1, 3, 2}};
+        facets.sides.assign(2, in_front);
+        facets.surfaces.assign(2, 0);
+        region.cells = {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}, {0, 1, 5, 2}};
+    }
+    Vec3 at(std::uint32_t v) const {
+        return v < facets.positions.size() ? facets.positions[v] : region.new_vertices[v - facets.positions.size()];
+    }
+    /// Nothing where a cell is flat or turned over.
+    std::optional<double> volume() const {
+        double six = 0;
+        for (const auto& c : region.cells) {
+            if (orientation(at(c[0]), at(c[1]), at(c[2]), at(c[3])) <= 0) return std::nullopt;
+            six += six_volumes(at(c[0]), at(c[1]), at(c[2]), at(c[3]));
+        }
+        return six / 6;
+    }
+    bool has_edge(std::uint32_t a, std::uint32_t b) const {
+        return std::ranges::any_of(region.cells,
+                                   [&](const auto& c) { return std::ranges::find(c, a) != c.end() && std::ranges::find(c, b) != c.end(); });
+    }
+};
+
+// In a cube what takes the place of the flat cell has four corners in a plane, too: inside, where they may move.
+TEST(Improve, WhatTakesThePlaceOfAFlatCellIsNotTurnedOver) {
+    for (const double off : {0.0, 1e-9, -1e-9}) {
+        OnAWall wall({{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 1 + off}, {1, 1, 1}}}, true);
+        EXPECT_FALSE(wall.volume());
+        const Improvement done = remove_flat_cells(wall.facets, wall.region);
+        EXPECT_EQ(done.flips, 1u);
+        EXPECT_FALSE(wall.has_edge(0, 1));
+        EXPECT_EQ(wall.region.cells.size(), 4u);
+        ASSERT_TRUE(wall.volume()) << off;
+        EXPECT_NEAR(*wall.volume(), 0.5, 1e-5);
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(wall.region.new_vertices[0][k], (std::array{0.0, 1.0, 1.0})[k], 1e-5);
+    }
+}
+
+TEST(Improve, AFlatCellThatNothingElseRemovesGetsAVertexBesideIt) {
+    OnAWall wall({{{0, 0, 0}, {2, 0, 0}, {1, -1, 0}, {1, 1, 0}, {3, 0.5, 0.5}, {-1, -0.5, 0.5}}}, false);
+    const Improvement as_it_is = remove_flat_cells(wall.facets, wall.region);
+    EXPECT_EQ(as_it_is.flips + as_it_is.vertices, 0u);
+    EXPECT_FALSE(wall.volume());
+    double before = 0;
+    for (const auto& c : wall.region.cells) before += six_volumes(wall.at(c[0]), wall.at(c[1]), wall.at(c[2]), wall.at(c[3])) / 6;
+    const Improvement done = remove_flat_cells(wall.facets, wall.region, 1);
+    EXPECT_EQ(done.vertices, 1u);
+    EXPECT_EQ(wall.region.new_vertices.size(), 1u);
+    EXPECT_EQ(wall.region.cells.size(), 8u);
+    ASSERT_TRUE(wall.volume());
+    EXPECT_NEAR(*wall.volume(), before, 1e-14);
 }
 
 }  // namespace
