@@ -190,6 +190,12 @@ repair::ModelChanges changes_by(repair::SurfaceRepair& repaired, std::span<const
     return changes;
 }
 
+std::string joins_with(const repair::PlannedRepair::WouldJoin& would_join) {
+    const std::string length = rounded(would_join.tolerance);
+    return counted(would_join.regions, "thin region lies", "thin regions lie") + " between surfaces that agree within " + length +
+           ": with --tolerance " + length + " these become one";
+}
+
 Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const RepairRequest& request, RepairReport& report,
                            repair::ModelChanges& changes) {
     repair::Recipe recipe = request.recipe;
@@ -208,6 +214,8 @@ Result<void> mend_surfaces(Dataset& dataset, const FoundBefore& before, const Re
     repair::SurfaceRepair* repaired = &planned->repair;
     for (auto& done : repaired->steps) report.file.steps.push_back(reported(done));
     if (!planned->plan.why.empty() && !report.file.steps.empty()) report.file.steps.front().what.message += "; " + planned->plan.why;
+    if (planned->would_join && !report.file.steps.empty())
+        report.file.steps.front().what.message += "; " + joins_with(*planned->would_join);
     const std::uint64_t errors = count_by_severity(before.judged()).error;
     if (planned->would_close) report.file.closing = {*planned->would_close, errors, 0, 0};
     else if (planned->would_close_gap) report.file.closing = {0, errors, 0, *planned->would_close_gap};

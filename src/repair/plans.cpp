@@ -222,7 +222,7 @@ bool is_mended(const SurfaceRepair& repair) {
 }
 
 /// Where sheets face each other, and what was done so far leaves errors or slivers between them: welds them by the smallest tolerance that
-/// mends all. What may not be taken unasked is named only.
+/// mends all. What may not be taken unasked is named only, also where nothing but slivers is left.
 template <class Attempt>
 Result<void> weld_sheets(const Dataset& dataset, const SurfaceDriverOptions& options, const Attempt& attempt, PlannedRepair& best) {
     const auto wider = wider_sheets(dataset, options);
@@ -239,24 +239,27 @@ Result<void> weld_sheets(const Dataset& dataset, const SurfaceDriverOptions& opt
     };
     auto left = left_of(best.repair);
     for (const WiderSheets::Try& sheet : wider->tries) {
+        const bool is_named = left.first == 0 && !sheet.taken;
+        const std::uint64_t slivers = is_named ? thin_regions(*best.repair.result.brep, sheet.tolerance) : left.second;
         // A thin region or two of a sound model may be meant: surfaces that cross at a small angle.
-        if (left.first == 0 && (!sheet.taken || !(sheet.rounded || left.second >= many_slivers))) continue;
+        if (left.first == 0 && (slivers == 0 || !(sheet.rounded || slivers >= many_slivers))) continue;
         SurfacePlan plan{in_order(without(best.plan.steps, of_gaps), weld_and_cut), sheet.tolerance,
                          "common sides agree within " + rounded(sheet.tolerance) + ": that is the tolerance by which it is mended"};
         auto repaired = attempt(plan, {});
         if (!repaired) return std::move(repaired).why();
         const auto left_of_this = left_of(*repaired);
-        if (left_of_this.first > 0 || !(left_of_this < left)) continue;
+        const std::uint64_t slivers_left = is_named ? thin_regions(*repaired->result.brep, sheet.tolerance) : left_of_this.second;
+        if (left_of_this.first > 0 || !(is_named ? slivers_left < slivers : left_of_this < left)) continue;
         const BrepData &had = *best.repair.result.brep, &has = *repaired->result.brep;
         const auto lost = lost_region(had, has, not_to_be_lost * sheet.tolerance, [](const Vec3&) { return false; });
         if (parting_nothing(has) > parting_nothing(had) || !lost.empty()) continue;
         if (!sheet.taken) {
-            best.would_close = sheet.tolerance;
+            if (is_named) best.would_join = {sheet.tolerance, slivers - slivers_left};
+            else best.would_close = sheet.tolerance;
             return {};
         }
         left = left_of_this;
-        best = PlannedRepair{std::move(*repaired), std::move(plan), {}, {}};
-        if (left.second == 0) return {};
+        best = PlannedRepair{std::move(*repaired), std::move(plan), {}, {}, {}};
     }
     return {};
 }
@@ -367,7 +370,7 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         const Left of_this = left_by(*repaired);
         if (best && !(of_this < left)) return {};
         left = of_this;
-        best = PlannedRepair{std::move(*repaired), *plan, {}, {}};
+        best = PlannedRepair{std::move(*repaired), *plan, {}, {}, {}};
         return {};
     };
     for (const SurfacePlan& plan : plans) {
@@ -400,7 +403,7 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
         if (!repaired) return std::move(repaired).why();
         if (!is_mended(*repaired)) continue;
         if (tolerance > wider->limit) best->would_close = tolerance;
-        else best = PlannedRepair{std::move(*repaired), std::move(plan), {}, {}};
+        else best = PlannedRepair{std::move(*repaired), std::move(plan), {}, {}, {}};
         break;
     }
     const bool is_open = left_by(best->repair).errors > 0 && !best->would_close && best->repair.should_close;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,6 +43,12 @@ struct PlannedRepair {
     std::optional<double> would_close;
     /// A gap with which it would, where borders stop short by more than is closed unasked.
     std::optional<double> would_close_gap;
+    /// Sheets that face each other in a sound result, and would be one by a tolerance that is not taken without being asked for.
+    struct WouldJoin {
+        double tolerance = 0;
+        std::uint64_t regions = 0;  ///< no thicker than that, which would be gone
+    };
+    std::optional<WouldJoin> would_join{};
 };
 
 /// Takes the steps of one plan after the other until a model has no errors and is closed where it should be. Of several that end

@@ -26,20 +26,22 @@ using test::write_file;
 
 constexpr double side = 100;
 
-/// A place of two cubes in a row, turned about two axes, in single precision.
-Vec3 placed(const Vec3& p, double turn) {
+/// A place of two cubes in a row, turned about two axes, in single precision or to whole metres.
+Vec3 placed(const Vec3& p, double turn, bool whole) {
     const double c = std::cos(turn), s = std::sin(turn), d = std::cos(0.3 * turn), e = std::sin(0.3 * turn);
     const Vec3 q{c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]};
     const Vec3 r{4000 + q[0], 6000 + d * q[1] - e * q[2], -900 + e * q[1] + d * q[2]};
+    if (whole) return {std::round(r[0]), std::round(r[1]), std::round(r[2])};
     return {static_cast<float>(r[0]), static_cast<float>(r[1]), static_cast<float>(r[2])};
 }
 
 /// A cube as a legacy VTK file; the sides of the second one are split along other diagonals, and it is a quarter longer across.
-std::string cube_text(bool second, double turn) {
+std::string cube_text(bool second, double turn, bool whole = false) {
     const double low = second ? side : 0, wide = second ? 1.25 * side : side;
-    std::string text = "# vtk DataFile Version 3.0\ncube\nASCII\nDATASET POLYDATA\nPOINTS 8 float\n";
+    std::string text =
+        "# vtk DataFile Version 3.0\ncube\nASCII\nDATASET POLYDATA\nPOINTS 8 " + std::string(whole ? "double" : "float") + '\n';
     for (std::size_t i = 0; i < 8; ++i) {
-        const Vec3 p = placed({low + ((i & 1U) != 0 ? side : 0), (i & 2U) != 0 ? wide : 0, (i & 4U) != 0 ? side : 0}, turn);
+        const Vec3 p = placed({low + ((i & 1U) != 0 ? side : 0), (i & 2U) != 0 ? wide : 0, (i & 4U) != 0 ? side : 0}, turn, whole);
         for (const double x : p) text += number_text(x) + ' ';
         text += '\n';
     }
@@ -75,6 +77,25 @@ TEST(Neighbours, WithACommonSideBecomeTwoRegionsInWhateverOrder) {
             EXPECT_NEAR(sum, 2.25e6, 100) << turn;  // a step of the coordinates is 0.5 mm
             EXPECT_NEAR(least, 1e6, 100) << turn;
         }
+    }
+}
+
+// The steps are too large for cubes of that size to be taken as one unasked; what is written says how far it takes, and that does it.
+TEST(Neighbours, RoundedTooCoarselyAreNamedWithTheLengthThatJoinsThem) {
+    const TemporaryFolder folder;
+    const std::string words = ": with --tolerance ";
+    for (int i = 1; i <= 6; ++i) {
+        const double turn = 0.37 * i;
+        write_file(folder / "a.vtk", cube_text(false, turn, true));
+        write_file(folder / "b.vtk", cube_text(true, turn, true));
+        const auto run = run_geomend({"repair", folder / "a.vtk", folder / "b.vtk", "-o", folder / "out.ml"});
+        const auto at = run.out.find(words);
+        if (run.status == 0 && region_volumes(folder / "out.ml").size() == 2) continue;
+        ASSERT_NE(at, std::string::npos) << turn << '\n' << run.out;
+        const std::string length = run.out.substr(at + words.size(), run.out.find(' ', at + words.size()) - at - words.size());
+        const auto again = run_geomend({"repair", folder / "a.vtk", folder / "b.vtk", "-o", folder / "out.ml", "--tolerance", length});
+        ASSERT_EQ(again.status, 0) << turn << ' ' << length << '\n' << again.out << again.err;
+        EXPECT_EQ(region_volumes(folder / "out.ml").size(), 2u) << turn << '\n' << again.out;
     }
 }
 
