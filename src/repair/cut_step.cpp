@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "arrangement/arrange.h"
+#include "base/monitor.h"
 #include "base/wording.h"
+#include "repair/known_cuts.h"
 #include "repair/lay_borders.h"
 #include "repair/overlaps.h"
 #include "repair/soup_edges.h"
@@ -57,9 +59,14 @@ Result<arrangement::Arrangement> arranged(const TriangleSoup& soup, const Surfac
                                           double reach, bool sheets) {
     // Where all within the tolerance is one, and does not settle soon, it does not settle.
     const unsigned most_rounds = sheets ? arrangement::ArrangeOptions().most_rounds : 8;
-    return arrangement::arrange(
-        soup,
-        {.tolerance = model.lengths.tolerance, .reach = reach, .most_rounds = most_rounds, .sheets = sheets, .monitor = options.monitor});
+    const arrangement::ArrangeOptions of_cut{
+        .tolerance = model.lengths.tolerance, .reach = reach, .most_rounds = most_rounds, .sheets = sheets, .monitor = options.monitor};
+    if (options.cuts == nullptr) return arrangement::arrange(soup, of_cut);
+    if (const auto known = options.cuts->find(soup, of_cut)) return arrangement::Arrangement(*known);
+    auto cut = arrangement::arrange(soup, of_cut);
+    const bool stopped = options.monitor != nullptr && options.monitor->stopped();
+    if (cut && !stopped) options.cuts->add(soup, of_cut, *cut);
+    return cut;
 }
 
 /// Puts what was cut in place of the soup. \param nothing what the report says where nothing was done

@@ -13,6 +13,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "repair/facing_sheets.h"
+#include "repair/known_cuts.h"
 #include "repair/soup_edges.h"
 #include "repair/surviving_regions.h"
 #include "topology/lengths.h"
@@ -351,9 +352,11 @@ Result<PlannedRepair> repair_by_plans(const Dataset& dataset, std::span<const Fi
                                       const SurfaceDriverOptions& options, bool search) {
     std::optional<PlannedRepair> best;
     UndoneSteps undone;
+    KnownCuts cuts;
     const auto attempt = [&](const SurfacePlan& plan, std::optional<double> gap = {}) -> Result<SurfaceRepair> {
         SurfaceDriverOptions own = options;
         own.undone = &undone;
+        own.steps.cuts = &cuts;
         if (plan.tolerance >= 0) own.checks.tolerance = plan.tolerance;
         if (gap) own.steps.max_gap = *gap;
         auto repaired = repair_surfaces(dataset, before, plan.steps, own);

@@ -16,6 +16,8 @@
 
 namespace geomend::repair {
 
+class KnownCuts;
+
 /// What the user decides about the borders of a surface, or about those of them that lie near another one.
 struct ContactWish {
     std::string border, on;  ///< names of surfaces; `on` empty: any
@@ -33,6 +35,7 @@ struct SurfaceStepOptions {
     double micro_volume = -1;                 ///< smaller regions are merged into others; negative: a millionth of the whole
     std::span<const SurfaceEdit> edits{};     ///< what the user wants changed
     const Monitor* monitor = nullptr;
+    KnownCuts* cuts = nullptr;  ///< of plans that were tried; nullptr: none are kept
 };
 
 /// The largest gap that is closed, hole that is filled and overshoot that is trimmed: as given, but a tenth of D at most; else a
