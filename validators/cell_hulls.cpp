@@ -72,14 +72,16 @@ std::vector<Vec3> part_inside(std::span<const Vec3> polygon, const Vec3& on_plan
     return part;
 }
 
-/// Whether a part of a triangle lies farther than a distance from all faces inside a tetrahedron, however that is wound.
-bool holds_part(const std::array<Vec3, 4>& t, std::span<const Vec3> triangle, double distance) {
+/// Whether a part of a triangle lies inside a tetrahedron, however that is wound, and farther than a distance from all of its faces, or
+/// from that opposite to its first corner: the others may be between pieces of one cell, and what lies in such a face is inside the cell.
+bool holds_part(const std::array<Vec3, 4>& t, std::span<const Vec3> triangle, double distance, bool is_piece) {
     constexpr std::array<std::array<unsigned, 4>, 4> faces{{{0, 1, 2, 3}, {0, 1, 3, 2}, {1, 2, 3, 0}, {0, 2, 3, 1}}};  // the last: across
     std::vector<Vec3> part(triangle.begin(), triangle.end());
     for (const auto& f : faces) {
         Vec3 normal = cross(minus(t[f[1]], t[f[0]]), minus(t[f[2]], t[f[0]]));
         if (dot(normal, minus(t[f[3]], t[f[0]])) < 0) normal = times(-1, normal);
-        part = part_inside(part, t[f[0]], normal, distance);
+        const bool is_between = is_piece && f[3] != 0;
+        part = part_inside(part, t[f[0]], normal, is_between ? -1e-3 * distance : distance);
         if (part.empty()) return false;
     }
     return true;
@@ -213,7 +215,8 @@ bool CellHulls::holds_part_of(std::uint32_t i, const std::array<Vec3, 3>& triang
     const Vec3 origin = scope_.mesh().points[scope_.mesh().cell_nodes(scope_.volume_cells()[i])[0]];
     const std::array near{minus(triangle[0], origin), minus(triangle[1], origin), minus(triangle[2], origin)};
     const double distance = tolerance + bend_of(i);
-    return std::ranges::any_of(tetrahedra_of(i, origin), [&](const Tetrahedron& t) { return holds_part(t, near, distance); });
+    const bool is_one = linear_type(scope_.mesh().types[scope_.volume_cells()[i]]) == CellType::tetrahedron;
+    return std::ranges::any_of(tetrahedra_of(i, origin), [&](const Tetrahedron& t) { return holds_part(t, near, distance, !is_one); });
 }
 
 }  // namespace geomend::validators

@@ -28,7 +28,7 @@ public:
     /// judged by themselves; other cells by tetrahedra between their middle and the triangles of their faces.
     bool overlap(std::uint32_t i, std::uint32_t j, double tolerance, Scratch& scratch) const;
     /// True where a part of a triangle lies inside the i-th of scope.volume_cells(), farther than the tolerance, and than its faces are
-    /// bent, from the faces of one of its pieces.
+    /// bent, from its faces.
     bool holds_part_of(std::uint32_t i, const std::array<Vec3, 3>& triangle, double tolerance) const;
 
 private:

@@ -114,6 +114,22 @@ void check_faults(const CornerPointGrid& grid, std::vector<Finding>& findings) {
     if (too_long > 0) findings.push_back(std::move(long_names));
 }
 
+/// Multipliers of faults, of pairs of regions and of stated connections below 0 make conductances negative, as those of cells do.
+void check_negative_factors(const CornerPointGrid& grid, std::vector<Finding>& findings) {
+    const auto tell = [&](const std::string& what) { findings.push_back(about(grid, "S05", what + ": conductances become negative")); };
+    for (const auto& fault : grid.faults) {
+        for (const auto& multiplier : {fault.multiplier, fault.edit_multiplier}) {
+            if (multiplier && *multiplier < 0) tell("MULTFLT multiplies fault " + quoted(fault.name) + " by " + rounded(*multiplier));
+        }
+    }
+    for (const auto& m : grid.region_multipliers) {
+        if (m.value < 0) return tell("MULTREGT multiplies connections of regions by " + rounded(m.value));
+    }
+    for (const auto& f : grid.connection_factors) {
+        if (f.value < 0) return tell("a connection of two cells is multiplied by " + rounded(f.value) + " (EDITNNC)");
+    }
+}
+
 void check_map_unit(const CornerPointGrid& grid, std::vector<Finding>& findings) {
     constexpr std::array<std::string_view, 3> known = {"METRES", "FEET", "CM"};
     if (!grid.map_axes || grid.map_unit.empty() || std::ranges::find(known, grid.map_unit) != known.end()) return;
@@ -173,6 +189,7 @@ void check_grid_for_flow(const CornerPointGrid& grid, std::vector<Finding>& find
     check_faults(grid, findings);
     check_region_multipliers(grid, findings);
     check_connection_factors(grid, findings);
+    check_negative_factors(grid, findings);
     check_map_unit(grid, findings);
     if (grid.unit_system.empty())
         findings.push_back(about(grid, "S12", "no unit system is stated: METRIC is assumed (metres, millidarcy, bar)"));

@@ -86,16 +86,23 @@ bool is_models_text(std::string_view structure) {
     return words && std::ranges::all_of(*words, [](const ModelWords& one) { return is_model_text(one.structure); });
 }
 
-std::optional<Dataset> models_from_blocks(std::string_view structure, Dataset blocks) {
+Dataset models_from_blocks(std::string_view structure, Dataset blocks, std::vector<std::string>& misfits) {
     const auto words = words_of_models(structure);
-    if (!words) return std::nullopt;
     Dataset all = std::move(blocks);
     Dataset rest;
     std::swap(all.objects, rest.objects);
-    for (const ModelWords& one : *words) {
-        auto model = model_from_blocks(one.structure, one.dataset, take_group(rest, one.group));
-        if (!model) return std::nullopt;
-        append(all, std::move(*model));
+    for (const ModelWords& one : words.value_or(std::vector<ModelWords>{})) {
+        const Dataset own = take_group(rest, one.group);
+        if (auto model = model_from_blocks(one.structure, one.dataset, own)) {
+            append(all, std::move(*model));
+            continue;
+        }
+        misfits.push_back(one.group);
+        for (const Object& object : own.objects) {
+            rest.objects.push_back(object);
+            auto& path = info_of(rest.objects.back()).groups;
+            path.insert(path.begin(), one.group);
+        }
     }
     std::ranges::move(rest.objects, std::back_inserter(all.objects));
     return all;

@@ -22,7 +22,8 @@ std::string models_text(std::span<const ModelBlocks> models, std::span<const std
 bool is_models_text(std::string_view structure);
 
 /// The Dataset behind blocks that were read: that of each model (see model_from_blocks), one after the other, and then what is in no
-/// group of one. Nothing where a model does not fit its blocks (the blocks are used up either way).
-std::optional<Dataset> models_from_blocks(std::string_view structure, Dataset blocks);
+/// group of one. The blocks of a model that does not fit them stay single objects, and its group is added to `misfits`.
+/// \pre is_models_text(structure)
+Dataset models_from_blocks(std::string_view structure, Dataset blocks, std::vector<std::string>& misfits);
 
 }  // namespace geomend::vtk

@@ -2,6 +2,7 @@
 // .vtm: named blocks within blocks, each a file of its own.
 #include <algorithm>
 
+#include "base/wording.h"
 #include "formats/drop.h"
 #include "formats/vtk/vtk_models.h"
 #include "formats/vtk/xml_read.h"
@@ -83,13 +84,21 @@ Result<Dataset> read_multiblock(const XmlDocument& document, const Input& input,
     dataset.format = "vtk";
     dataset.variant = "XML multi-block";
     if (dataset.objects.empty()) return unreadable("F017", document.where(*blocks), "the file names no blocks with data");
-    const bool of_several = is_models_text(own.structure);
-    if (of_several || is_model_text(own.structure)) {
-        auto model = of_several ? models_from_blocks(own.structure, dataset) : model_from_blocks(own.structure, own.dataset, dataset);
-        if (model) return std::move(*model);
-        Finding finding = make_finding("F113", "the blocks do not fit the model that the file states: they are read as single objects",
-                                       {document.file}, 0);
-        dataset.findings.push_back(std::move(finding));
+    const auto tell_misfit = [&](Dataset& to, const std::string& model) {
+        to.findings.push_back(make_finding("F113",
+                                           "the blocks" + (model.empty() ? "" : " of model " + geomend::quoted(model)) +
+                                               " do not fit the model that the file states: they are read as single objects",
+                                           {document.file}, 0));
+    };
+    if (is_models_text(own.structure)) {
+        std::vector<std::string> misfits;
+        Dataset models = models_from_blocks(own.structure, std::move(dataset), misfits);
+        for (const std::string& group : misfits) tell_misfit(models, group);
+        return models;
+    }
+    if (is_model_text(own.structure)) {
+        if (auto model = model_from_blocks(own.structure, own.dataset, dataset)) return std::move(*model);
+        tell_misfit(dataset, {});
         return dataset;
     }
     if (!own.dataset.empty()) apply_own_text(own.dataset, dataset);

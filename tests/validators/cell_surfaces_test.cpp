@@ -57,6 +57,20 @@ TEST(SurfacesInCells, ThoseThroughCellsAreCounted) {
     }
 }
 
+TEST(SurfacesInCells, ThoseAcrossCellsByTheirDiagonalsAreCounted) {
+    for (const Kind kind : {Kind::hexahedra, Kind::wedges}) {
+        for (const std::uint32_t m : {1u, 4u, 7u}) {  // upright, from one edge of the block to that opposite to it
+            CellMesh mesh = block_with_square(kind, {0, 0, 0}, 100, m, true);
+            const std::size_t first = mesh.points.size() - (m + 1) * (m + 1);
+            for (std::size_t i = first; i < mesh.points.size(); ++i) {
+                const double along = mesh.points[i][0], up = mesh.points[i][1];
+                mesh.points[i] = kind == Kind::hexahedra ? Vec3{along, along, up} : Vec3{along, 100 - along, up};
+            }
+            EXPECT_EQ(codes_in_all_frames(mesh), (Codes{{"M39", 2 * m * m}})) << int(kind) << ' ' << m;
+        }
+    }
+}
+
 TEST(SurfacesInCells, ThoseOnCellsWithTrianglesOfTheirOwnAreCounted) {
     for (const Kind kind : kinds_of_cells) {
         for (const double z : {0.0, 50.0, 100.0})

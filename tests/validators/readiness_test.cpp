@@ -98,6 +98,23 @@ TEST(ReadinessForFlow, FindsNegativeMultipliersAndTransmissibilities) {
     }
 }
 
+TEST(ReadinessForFlow, FindsNegativeFactorsOfFaultsRegionsAndConnections) {
+    CornerPointGrid grid = flow_grid();
+    grid.faults.emplace_back();
+    grid.faults[0].name = "F";
+    grid.faults[0].boxes.emplace_back();
+    grid.faults[0].multiplier = 0.5;
+    EXPECT_EQ(codes_of(ready(of(grid), "flow")), Codes{});
+    grid.faults[0].edit_multiplier = -0.5;
+    EXPECT_EQ(find(ready(of(grid), "flow"), "S05", Severity::error).message,
+              "MULTFLT multiplies fault 'F' by -0.5: conductances become negative");
+    grid = flow_grid();
+    grid.region_multipliers.emplace_back();
+    grid.region_multipliers[0].regions = 'M';
+    grid.region_multipliers[0].value = -2;
+    EXPECT_EQ(codes_of(ready(of(grid), "flow")), Codes{"S05 error"});
+}
+
 TEST(ReadinessForFlow, TellsWhatItDoesNotKnow) {
     CornerPointGrid grid = flow_grid();
     grid.porosity = CornerPointGrid::Porosity::dual_porosity;

@@ -558,6 +558,29 @@ TEST(XmlModel, SeveralComeBackEachByItselfAlsoWithOneName) {
     EXPECT_EQ(std::get<PointSet>(back.objects[5]).points, beside.points);
 }
 
+TEST(XmlModel, OfSeveralOnlyThatOfWhichABlockIsGoneIsReadBlockByBlock) {
+    Dataset data = model_dataset(false);
+    BrepData moved = tetrahedron_model(false);
+    moved.name = "another";
+    for (Vec3& v : moved.vertices) v[0] += 5;
+    data.breps.push_back(Brep::make(std::move(moved)).value());
+    const TemporaryFolder folder;
+    const auto path = write_xml(data, folder, "vtm");
+    std::string index = read_file(path);
+    const std::size_t line = index.find("<DataSet index=\"1\" name=\"c1\"", index.find("name=\"another\""));
+    ASSERT_NE(line, std::string::npos);
+    index.erase(line, index.find('\n', line) - line);
+    write_file(path, index);
+    const auto back = read_xml_file(path);
+    ASSERT_TRUE(back.ok());
+    ASSERT_EQ(back->models.size(), 1u);
+    EXPECT_EQ(back->models[0].name, "one tet");
+    EXPECT_EQ(back->objects.size(), 2u + 14u);
+    ASSERT_FALSE(back->findings.empty());
+    EXPECT_EQ(back->findings.back().code, "F113");
+    EXPECT_NE(back->findings.back().message.find("'another'"), std::string::npos) << back->findings.back().message;
+}
+
 TEST(XmlModel, IsReadBlockByBlockWhereOneIsGone) {
     const TemporaryFolder folder;
     const auto path = write_xml(model_dataset(false), folder, "vtm");
