@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace geomend::meshes {
 
@@ -46,6 +47,56 @@ constexpr std::array collapsed = {
     AbaqusElement{CellType::tetrahedron, "C3D8", collapsed_tetrahedron, collapsed_tetrahedron_faces},
 };
 
+using Corners = std::array<std::uint8_t, 8>;
+
+/// All ways to turn a hexahedron: at each corner the one that was there.
+std::vector<Corners> ways_to_turn() {
+    constexpr Corners as_it_is{0, 1, 2, 3, 4, 5, 6, 7}, about_z{1, 2, 3, 0, 5, 6, 7, 4}, about_edge{0, 4, 5, 1, 3, 7, 6, 2};
+    std::vector<Corners> ways{as_it_is};
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+        for (const Corners& turn : {about_z, about_edge}) {
+            Corners next{};
+            for (std::size_t k = 0; k < 8; ++k) next[k] = ways[w][turn[k]];
+            if (std::ranges::find(ways, next) == ways.end()) ways.push_back(next);
+        }
+    }
+    return ways;
+}
+
+/// The number of Abaqus' face that has, in a turned hexahedron, the corners that one has in it as it is.
+std::uint8_t turned_face(std::uint8_t number, const Corners& way) {
+    constexpr std::array<std::array<std::uint8_t, 4>, 6> faces{
+        {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 4, 5}, {1, 2, 5, 6}, {2, 3, 6, 7}, {0, 3, 4, 7}}};
+    std::array<std::uint8_t, 4> corners{};
+    for (std::uint8_t k = 0, n = 0; k < 8; ++k) {
+        const auto& own = faces[number - 1u];
+        if (std::ranges::find(own, way[k]) != own.end()) corners[n++] = k;
+    }
+    return static_cast<std::uint8_t>(std::ranges::find(faces, corners) - faces.begin() + 1);
+}
+
+/// A C3D8 that is a cell of another type, in one of the ways in which it may be turned.
+struct TurnedElement {
+    Corners order{};
+    std::array<std::uint8_t, 5> faces{};
+    AbaqusElement row{};
+};
+
+std::vector<TurnedElement> all_collapsed() {
+    std::vector<TurnedElement> all;
+    const auto ways = ways_to_turn();
+    all.reserve(ways.size() * collapsed.size());  // rows point into it
+    for (const Corners& way : ways) {
+        for (const AbaqusElement& base : collapsed) {
+            TurnedElement& made = all.emplace_back();
+            for (std::size_t k = 0; k < 8; ++k) made.order[k] = base.order[way[k]];
+            for (std::size_t f = 0; f < base.faces.size(); ++f) made.faces[f] = turned_face(base.faces[f], way);
+            made.row = {base.type, base.name, made.order, std::span(made.faces).first(base.faces.size())};
+        }
+    }
+    return all;
+}
+
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 /// The row of a name, where nothing but letters follow it: "C3D8" of "C3D8RH", not "C3D2" of "C3D20".
@@ -78,8 +129,9 @@ const AbaqusElement* abaqus_collapsed(std::span<const std::int64_t> nodes) {
         }
         return true;
     };
-    const auto* found = std::ranges::find_if(collapsed, is_so);
-    return found == collapsed.end() ? nullptr : found;
+    static const std::vector<TurnedElement> all = all_collapsed();
+    const auto found = std::ranges::find_if(all, is_so, &TurnedElement::row);
+    return found == all.end() ? nullptr : &found->row;
 }
 
 const AbaqusElement* abaqus_element_called(std::string_view name) {

@@ -26,7 +26,8 @@ const AbaqusElement* abaqus_element_of(CellType type);
 /// The same as it is written: pyramids as collapsed C3D8, since CalculiX and Abaqus/Standard of old know no C3D5.
 const AbaqusElement* abaqus_element_written(CellType type);
 
-/// What a C3D8 is that names nodes several times: a tetrahedron, a pyramid or a prism. nullptr where it is none of these.
+/// What a C3D8 is that names nodes several times, whichever way it is turned: a tetrahedron, a pyramid or a prism. nullptr where it is none
+/// of these.
 /// \pre eight nodes
 const AbaqusElement* abaqus_collapsed(std::span<const std::int64_t> nodes);
 

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <set>
 
 #include "formats/meshes/meshes.h"
 #include "geometry/cell_volume.h"
+#include "geometry/measures.h"
 #include "meshes/cell_samples.h"
 #include "meshes/written_mesh.h"
 #include "support/temporary_folder.h"
@@ -346,6 +349,43 @@ TEST(Abaqus, HexahedraThatNameNodesSeveralTimesAreWhatTheyAre) {
             std::vector<std::uint32_t> found = nodes(mesh, f + 1);
             std::ranges::sort(found);
             EXPECT_EQ(found, c.faces[f].second) << c.element << ' ' << c.faces[f].first;
+        }
+    }
+}
+
+// Any face of a cube may become an edge in two ways, or a point; the faces that are left keep their numbers.
+TEST(Abaqus, CollapsedHexahedraAreReadWhicheverWayTheyAreTurned) {
+    const std::string points =
+        "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n*ELEMENT,TYPE=C3D8,ELSET=a\n";
+    constexpr std::array<std::array<std::uint32_t, 4>, 6> faces{
+        {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}};
+    for (const auto& f : faces) {
+        for (int way = 0; way < 3; ++way) {
+            std::array<std::uint32_t, 8> h{0, 1, 2, 3, 4, 5, 6, 7};
+            if (way == 0) h[f[1]] = f[0], h[f[2]] = f[3];
+            if (way == 1) h[f[3]] = f[0], h[f[2]] = f[1];
+            if (way == 2) h[f[1]] = h[f[2]] = h[f[3]] = f[0];
+            std::string text = points + "1";
+            for (const std::uint32_t node : h) text += "," + std::to_string(node + 1);
+            text += "\n";
+            std::vector<std::vector<std::uint32_t>> left;
+            for (std::size_t s = 0; s < 6; ++s) {
+                std::set<std::uint32_t> corners;
+                for (const std::uint32_t k : faces[s]) corners.insert(h[k]);
+                if (corners.size() < 3) continue;
+                text += "*SURFACE, NAME=f" + std::to_string(s + 1) + "\n1,S" + std::to_string(s + 1) + "\n";
+                left.emplace_back(corners.begin(), corners.end());
+            }
+            const Dataset data = read_text("abaqus", text);
+            const CellMesh& mesh = mesh_in(data);
+            ASSERT_EQ(mesh.cell_count(), 1 + left.size()) << text;
+            EXPECT_EQ(mesh.types[0], way == 2 ? CellType::pyramid : CellType::wedge) << text;
+            EXPECT_NEAR(cell_volume(mesh, 0), way == 2 ? 1.0 / 3 : 0.5, 1e-15) << text;
+            for (std::uint32_t s = 0; s < left.size(); ++s) {
+                std::vector<std::uint32_t> found = nodes(mesh, s + 1);
+                std::ranges::sort(found);
+                EXPECT_EQ(found, left[s]) << text;
+            }
         }
     }
 }
