@@ -15,8 +15,14 @@ namespace {
 constexpr std::string_view include_extensions[] = {".grdecl", ".inc", ".prop"};
 constexpr std::string_view deck_extensions[] = {".data"};
 
-/// The first keyword of a text: alone on its line. Nothing where the text begins in another way.
-std::string first_keyword(std::string_view head) {
+/// The first keyword of a text.
+struct FirstKeyword {
+    std::string name;       ///< empty where the text begins in another way
+    bool is_upper = false;  ///< written in capitals
+    bool is_alone = false;  ///< on its line
+};
+
+FirstKeyword first_keyword(std::string_view head) {
     std::size_t line = 0;
     while (line < head.size()) {
         const std::size_t end = std::min(head.find('\n', line), head.size());
@@ -27,7 +33,8 @@ std::string first_keyword(std::string_view head) {
         if (text.empty()) continue;
         const std::string_view word = text.substr(0, text.find_first_of(" \t"));
         if (!is_keyword(word)) return {};
-        return known_name(word);
+        const bool is_upper = std::ranges::none_of(word, [](char c) { return c >= 'a' && c <= 'z'; });
+        return {std::string(known_name(word)), is_upper, word.size() == text.size()};
     }
     return {};
 }
@@ -36,14 +43,16 @@ bool is_text(std::string_view head) { return head.find('\0') == std::string_view
 
 int sniff_include(std::string_view head, std::string_view) {
     if (!is_text(head)) return 0;
-    const std::string word = first_keyword(head);
+    const auto [word, is_upper, is_alone] = first_keyword(head);
     if (word.empty() || !is_known(word)) return 0;
     constexpr std::array strong = {"SPECGRID", "COORD",  "ZCORN", "MAPAXES", "MAPUNITS", "GRIDUNIT",
                                    "ACTNUM",   "NOECHO", "PINCH", "FAULTS",  "GRID",     "INCLUDE"};
-    return std::ranges::find(strong, word) != strong.end() ? 90 : 60;
+    // "import os", "copy files" and "title" begin other texts.
+    if (std::ranges::find(strong, word) != strong.end()) return is_upper || is_alone ? 90 : 0;
+    return is_upper && is_alone ? 60 : 0;
 }
 
-int sniff_deck(std::string_view head, std::string_view) { return is_text(head) && first_keyword(head) == "RUNSPEC" ? 95 : 0; }
+int sniff_deck(std::string_view head, std::string_view) { return is_text(head) && first_keyword(head).name == "RUNSPEC" ? 95 : 0; }
 
 constexpr Keeps grid_keeps() {
     Keeps keeps;

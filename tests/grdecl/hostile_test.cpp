@@ -162,6 +162,11 @@ TEST(BrokenDecks, HugeNumbersAnywhereGiveAnAnswer) {
 TEST(Sniffing, TellsDecksFromOtherText) {
     EXPECT_GE(row("grdecl").sniff("-- a grid\r\n\r\n  SPECGRID -- of ours\r\n 1 1 1 /\n", "x"), 90);
     EXPECT_GE(row("grdecl").sniff("ACTNUM\n 1 /", "x"), 60);
+    EXPECT_GE(row("grdecl").sniff("SPECGRID 2 2 2 1 F /\n", "x"), 90);
+    EXPECT_GE(row("grdecl").sniff("specgrid\n 2 2 2 1 F /\n", "x"), 90);
+    for (const char* other :
+         {"import os\n", "copy files\n", "title Field study\n", "include \"a.h\"\n", "end\n", "BOX of tools\n", "grid layout\n"})
+        EXPECT_EQ(row("grdecl").sniff(other, "x"), 0) << other;
     EXPECT_GE(row("data").sniff("-- c\nRUNSPEC\n", "x"), 95);
     for (const char* other : {"GOCAD TSurf 1\n", "roff-asc\n", " 'FILEHEAD'         100 'INTE'\n", "# vtk DataFile Version 3.0\n",
                               "$MeshFormat\n", "\xff\xfe\x01", "1 2 3\n"})
