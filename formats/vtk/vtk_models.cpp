@@ -58,7 +58,7 @@ void append(Dataset& into, Dataset more) {
     }
     std::ranges::move(more.objects, std::back_inserter(into.objects));
     std::ranges::move(more.annotations, std::back_inserter(into.annotations));
-    for (Loss& loss : more.losses) add_loss(into.losses, std::move(loss));
+    std::ranges::move(more.losses, std::back_inserter(into.losses));
 }
 
 }  // namespace

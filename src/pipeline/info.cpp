@@ -240,7 +240,9 @@ FileSummary summarise(const std::string& path, const Dataset& dataset) {
     }
     for (const Brep& brep : dataset.breps) summary.breps.push_back(summarise_brep(*brep));
     const auto take = [&](const CoordinateSystem& crs) {
-        if (!summary.crs.stated && crs.stated) summary.crs = crs;
+        if (summary.crs.stated || !crs.stated) return;
+        summary.crs = crs;
+        summary.crs.z_positive = frame_of(dataset, crs);
     };
     for (const StatedModel& model : dataset.models) take(model.crs);
     for (const Object& object : dataset.objects) take(info_of(object).crs);

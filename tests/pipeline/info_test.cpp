@@ -40,6 +40,9 @@ TEST(Info, GivesElevationsForFilesThatStoreThem) {
     const auto o = only_object(d);
     EXPECT_EQ(o["z_positive"], "elevation");
     EXPECT_EQ(o["bounds"][0][2], -100);
+    EXPECT_NE(info_text(summarise("a.vtp", d), false).find("z is elevation"), std::string::npos) << "as the bounds are";
+    d.format = "gocad";
+    EXPECT_NE(info_text(summarise("a.ts", d), false).find("z is depth"), std::string::npos);
 }
 
 TEST(Info, MeasuresOnlyWhereTheUnitsOfTheAxesAgree) {
