@@ -13,6 +13,7 @@
 #include "base/wording.h"
 #include "geometry/triangle_tree.h"
 #include "geometry/vectors.h"
+#include "topology/faces_from_mesh.h"
 #include "topology/near_weld.h"
 #include "validators/cell_checks.h"
 #include "validators/cell_regions.h"
@@ -121,9 +122,7 @@ void tell_loose_contacts(const CellScope& scope, const OuterFaces& outer, const 
     std::vector<std::uint32_t> part_at(scope.mesh().points.size(), no_index);
     std::vector<std::uint8_t> meets(scope.mesh().points.size(), 0);
     const auto each_corner = [&](std::uint32_t cell, const auto& visit) {
-        const auto nodes = scope.mesh().cell_nodes(cell);
-        const std::uint32_t corners = node_count(linear_type(scope.mesh().types[cell]));
-        for (const std::uint32_t node : corners == 0 ? nodes : nodes.first(corners)) visit(scope.vertex_of()[node]);
+        for (const std::uint32_t node : topology::corner_nodes(scope.mesh(), cell)) visit(scope.vertex_of()[node]);
     };
     for (const std::uint32_t cell : scope.volume_cells()) {
         const std::uint32_t part = parts.root(cell);

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "geometry/cell_volume.h"
 #include "geometry/vectors.h"
+#include "topology/faces_from_mesh.h"
 
 namespace geomend::validators {
 
@@ -102,12 +104,9 @@ CellHulls::CellHulls(const CellScope& scope) : scope_(scope) {
 
 void CellHulls::points_of(std::uint32_t i, const Vec3& origin, std::vector<Vec3>& points) const {
     const CellMesh& mesh = scope_.mesh();
-    const std::uint32_t cell = scope_.volume_cells()[i];
-    auto nodes = mesh.cell_nodes(cell);
-    const std::uint32_t corners = node_count(linear_type(mesh.types[cell]));
-    if (corners != 0 && corners < nodes.size()) nodes = nodes.first(corners);
     points.clear();
-    for (const std::uint32_t node : nodes) points.push_back(minus(mesh.points[node], origin));
+    for (const std::uint32_t node : topology::corner_nodes(mesh, scope_.volume_cells()[i]))
+        points.push_back(minus(mesh.points[node], origin));
 }
 
 void CellHulls::normals_of(std::uint32_t i, std::vector<Vec3>& normals) const {
@@ -185,6 +184,14 @@ std::array<Vec3, 2> CellHulls::box(std::uint32_t i) const {
         }
     }
     return box;
+}
+
+std::vector<std::array<Vec3, 2>> CellHulls::boxes() const {
+    std::vector<std::array<Vec3, 2>> all(scope_.volume_cells().size());
+    parallel_blocks(all.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) all[i] = box(static_cast<std::uint32_t>(i));
+    });
+    return all;
 }
 
 bool CellHulls::overlap(std::uint32_t i, std::uint32_t j, double tolerance, Scratch& scratch) const {

@@ -22,6 +22,12 @@ public:
 
     /// The box along the axes around the i-th of scope.volume_cells().
     std::array<Vec3, 2> box(std::uint32_t i) const;
+    /// Those of all, for a tree. Cost: linear.
+    std::vector<std::array<Vec3, 2>> boxes() const;
+    /// Its faces.
+    std::span<const VolumeFace> faces_of(std::uint32_t i) const {
+        return scope_.faces().subspan(first_face_[i], first_face_[i + 1] - first_face_[i]);
+    }
     /// True where the i-th and the j-th of scope.volume_cells() have a body in common that is thicker than the tolerance in each
     /// direction in which one of their pieces could be parted from one of the other: what touches only has none. Where faces are
     /// bent, it is to be thicker than what the triangles of both cells differ from their faces, too. Tetrahedra are
@@ -36,9 +42,6 @@ private:
     /// By how much the faces of a cell with four corners are bent: the largest distance between the diagonals of one. What lies between
     /// them is the matter of how two cells split the face (M24), and no body that they have in common.
     double bend_of(std::uint32_t i) const;
-    std::span<const VolumeFace> faces_of(std::uint32_t i) const {
-        return scope_.faces().subspan(first_face_[i], first_face_[i + 1] - first_face_[i]);
-    }
     void points_of(std::uint32_t i, const Vec3& origin, std::vector<Vec3>& points) const;
     void normals_of(std::uint32_t i, std::vector<Vec3>& normals) const;
     std::vector<Tetrahedron> tetrahedra_of(std::uint32_t i, const Vec3& origin) const;

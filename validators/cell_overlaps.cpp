@@ -74,10 +74,7 @@ void check_cell_overlaps(const CellScope& scope, std::vector<Finding>& findings)
         if (asks[i] != 0) asking.push_back(i);
     }
     const CellHulls hulls(scope);
-    std::vector<BoxTree::Corners> boxes(cells.size());
-    parallel_blocks(cells.size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) boxes[i] = hulls.box(static_cast<std::uint32_t>(i));
-    });
+    const auto boxes = hulls.boxes();
     const BoxTree tree(boxes);
     const double tolerance = scope.lengths().tolerance;
     std::vector<std::atomic<std::uint8_t>> wrong(cells.size());

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "base/parallel.h"
 #include "base/wording.h"
 #include "geometry/box_tree.h"
+#include "topology/faces_from_mesh.h"
 #include "topology/near_weld.h"
 #include "validators/cell_checks.h"
 #include "validators/cell_hulls.h"
@@ -24,12 +24,6 @@ namespace geomend::validators {
 namespace {
 
 enum class Fit : std::uint8_t { clear, on_faces, through };
-
-std::span<const std::uint32_t> corners_of_element(const CellMesh& mesh, std::uint32_t element) {
-    const auto nodes = mesh.cell_nodes(element);
-    const std::uint32_t corners = node_count(linear_type(mesh.types[element]));
-    return corners == 0 ? nodes : nodes.first(corners);
-}
 
 /// Corners as sorted vertices.
 void sorted_vertices(std::span<const std::uint32_t> vertex_of, std::span<const std::uint32_t> nodes, std::vector<std::uint32_t>& vertices) {
@@ -45,7 +39,7 @@ public:
         : scope_(scope), vertex_of_(vertex_of), first_(scope.mesh().points.size() + 1, 0) {
         std::vector<std::uint8_t> is_asked(scope.mesh().points.size(), 0);
         for (const std::uint32_t element : elements) {
-            for (const std::uint32_t node : corners_of_element(scope.mesh(), element)) is_asked[vertex_of[node]] = 1;
+            for (const std::uint32_t node : topology::corner_nodes(scope.mesh(), element)) is_asked[vertex_of[node]] = 1;
         }
         const auto each = [&](const auto& visit) {
             for (std::uint32_t f = 0; f < scope.faces().size(); ++f) {
@@ -64,7 +58,7 @@ public:
 
     /// Whether an element is a face of a cell, half of one, or two together: whether one has all corners of the other.
     bool hold(std::uint32_t element) const {
-        const auto nodes = corners_of_element(scope_.mesh(), element);
+        const auto nodes = topology::corner_nodes(scope_.mesh(), element);
         std::vector<std::uint32_t> own, theirs;
         sorted_vertices(vertex_of_, nodes, own);
         for (const std::uint32_t node : nodes.first(std::min<std::size_t>(nodes.size(), 2))) {
@@ -104,7 +98,7 @@ std::vector<std::uint32_t> elements_without_face(const CellScope& scope) {
     const CellMesh& mesh = scope.mesh();
     std::vector<std::uint32_t> elements;
     for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
-        if (dimension(mesh.types[c]) == 2 && corners_of_element(mesh, c).size() >= 3) elements.push_back(c);
+        if (dimension(mesh.types[c]) == 2 && topology::corner_nodes(mesh, c).size() >= 3) elements.push_back(c);
     }
     if (!elements.empty()) take_off_faces(scope, scope.vertex_of(), elements);
     if (elements.empty() || !(scope.lengths().tolerance > 0)) return elements;
@@ -116,21 +110,10 @@ std::vector<std::uint32_t> elements_without_face(const CellScope& scope) {
 /// Tells how elements lie among the cells.
 class CellsAround {
 public:
-    explicit CellsAround(const CellScope& scope) : scope_(scope), hulls_(scope), boxes_(scope.volume_cells().size()) {
-        parallel_blocks(boxes_.size(), 4096, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) boxes_[i] = hulls_.box(static_cast<std::uint32_t>(i));
-        });
-        std::size_t f = 0;
-        for (const std::uint32_t cell : scope.volume_cells()) {
-            first_face_.push_back(f);
-            while (f < scope.faces().size() && scope.faces()[f].cell == cell) ++f;
-        }
-        first_face_.push_back(f);
-        tree_.emplace(boxes_);
-    }
+    explicit CellsAround(const CellScope& scope) : scope_(scope), hulls_(scope), tree_(hulls_.boxes()) {}
 
     Fit fit(std::uint32_t element) const {
-        const auto nodes = corners_of_element(scope_.mesh(), element);
+        const auto nodes = topology::corner_nodes(scope_.mesh(), element);
         Fit most = Fit::clear;
         for (std::size_t k = 1; k + 1 < nodes.size() && most != Fit::through; ++k) {
             most = std::max(most, fit(std::array{point(nodes[0]), point(nodes[k]), point(nodes[k + 1])}));
@@ -142,9 +125,7 @@ private:
     using Corners3 = std::array<Vec3, 3>;
     const CellScope& scope_;
     CellHulls hulls_;
-    std::vector<BoxTree::Corners> boxes_;
-    std::vector<std::size_t> first_face_;
-    std::optional<BoxTree> tree_;
+    BoxTree tree_;
 
     const Vec3& point(std::uint32_t node) const { return scope_.mesh().points[node]; }
 
@@ -152,7 +133,7 @@ private:
         const double tolerance = scope_.lengths().tolerance;
         const Bounds around = bounds_around(triangle);
         Fit most = Fit::clear;
-        tree_->visit({around.low, around.high}, -tolerance, [&](std::uint32_t i) {
+        tree_.visit({around.low, around.high}, -tolerance, [&](std::uint32_t i) {
             if (most == Fit::through) return;
             if (hulls_.holds_part_of(i, triangle, tolerance)) most = Fit::through;
             else if (most == Fit::clear && lies_on_faces(i, triangle, tolerance)) most = Fit::on_faces;
@@ -161,8 +142,8 @@ private:
     }
 
     bool lies_on_faces(std::uint32_t i, const Corners3& triangle, double tolerance) const {
-        for (std::size_t f = first_face_[i]; f < first_face_[i + 1]; ++f) {
-            const auto nodes = scope_.nodes_of(scope_.faces()[f]);
+        for (const VolumeFace& face : hulls_.faces_of(i)) {
+            const auto nodes = scope_.nodes_of(face);
             for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
                 if (lie_on_each_other(triangle, {point(nodes[0]), point(nodes[k]), point(nodes[k + 1])}, tolerance)) return true;
             }

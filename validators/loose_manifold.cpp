@@ -15,6 +15,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "topology/face_edges.h"
+#include "topology/faces_from_mesh.h"
 #include "topology/surface_array.h"
 #include "validators/cell_findings.h"
 
@@ -228,11 +229,7 @@ Belongs surfaces_of_polygons(const ModelScope& scope, std::span<const std::uint3
 Surface cells_as_polygons(const CellMesh& mesh) {
     Surface faces;
     faces.points = mesh.points;
-    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-        const auto nodes = mesh.cell_nodes(c);
-        const std::uint32_t corners = node_count(linear_type(mesh.types[c]));
-        faces.polygons.push_back(corners == 0 || corners > nodes.size() ? nodes : nodes.first(corners));
-    }
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) faces.polygons.push_back(topology::corner_nodes(mesh, c));
     return faces;
 }
 

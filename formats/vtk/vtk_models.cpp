@@ -7,29 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "model/append_objects.h"
+
 namespace geomend::vtk {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// What one model is made of: its group, the words of its dataset, and its structure.
-struct ModelWords {
-    std::string group, dataset, structure;
-};
-
-std::optional<std::vector<ModelWords>> words_of_models(std::string_view structure) {
-    const Json j = Json::parse(structure, nullptr, false);
-    std::vector<ModelWords> all;
-    try {
-        for (const Json& one : j.at("models"))
-            all.push_back(
-                {one.at("group").get<std::string>(), one.at("dataset").get<std::string>(), one.at("structure").get<std::string>()});
-    } catch (const Json::exception&) {
-        return std::nullopt;
-    }
-    return all;
-}
 
 /// Takes the blocks of a group out of all, and the group off their paths.
 Dataset take_group(Dataset& blocks, const std::string& group) {
@@ -49,14 +33,7 @@ Dataset take_group(Dataset& blocks, const std::string& group) {
 }
 
 void append(Dataset& into, Dataset more) {
-    const auto shift = static_cast<std::uint32_t>(into.objects.size());
-    for (StatedModel& model : more.models) {
-        for (StatedModel::Face& face : model.faces) {
-            if (face.object != no_index) face.object += shift;
-        }
-        into.models.push_back(std::move(model));
-    }
-    std::ranges::move(more.objects, std::back_inserter(into.objects));
+    append_objects(into, more);
     std::ranges::move(more.annotations, std::back_inserter(into.annotations));
     std::ranges::move(more.losses, std::back_inserter(into.losses));
 }
@@ -81,17 +58,25 @@ std::string models_text(std::span<const ModelBlocks> models, std::span<const std
     return Json{{"models", std::move(all)}}.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
-bool is_models_text(std::string_view structure) {
-    const auto words = words_of_models(structure);
-    return words && std::ranges::all_of(*words, [](const ModelWords& one) { return is_model_text(one.structure); });
+std::optional<std::vector<ModelWords>> words_of_models(std::string_view structure) {
+    const Json j = Json::parse(structure, nullptr, false);
+    std::vector<ModelWords> all;
+    try {
+        for (const Json& one : j.at("models"))
+            all.push_back(
+                {one.at("group").get<std::string>(), one.at("dataset").get<std::string>(), one.at("structure").get<std::string>()});
+    } catch (const Json::exception&) {
+        return std::nullopt;
+    }
+    const bool are_models = std::ranges::all_of(all, [](const ModelWords& one) { return is_model_text(one.structure); });
+    return are_models ? std::optional(std::move(all)) : std::nullopt;
 }
 
-Dataset models_from_blocks(std::string_view structure, Dataset blocks, std::vector<std::string>& misfits) {
-    const auto words = words_of_models(structure);
+Dataset models_from_blocks(std::span<const ModelWords> words, Dataset blocks, std::vector<std::string>& misfits) {
     Dataset all = std::move(blocks);
     Dataset rest;
     std::swap(all.objects, rest.objects);
-    for (const ModelWords& one : words.value_or(std::vector<ModelWords>{})) {
+    for (const ModelWords& one : words) {
         const Dataset own = take_group(rest, one.group);
         if (auto model = model_from_blocks(one.structure, one.dataset, own)) {
             append(all, std::move(*model));

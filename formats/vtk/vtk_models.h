@@ -19,11 +19,16 @@ std::vector<std::string> groups_of_models(std::span<const std::string> names);
 /// The text that brings several models back; the i-th has its blocks in the i-th group.
 std::string models_text(std::span<const ModelBlocks> models, std::span<const std::string> groups);
 
-bool is_models_text(std::string_view structure);
+/// What one model is made of: its group, the words of its dataset, and its structure.
+struct ModelWords {
+    std::string group, dataset, structure;
+};
+
+/// What models_text() wrote, model by model; nothing where the text is another.
+std::optional<std::vector<ModelWords>> words_of_models(std::string_view structure);
 
 /// The Dataset behind blocks that were read: that of each model (see model_from_blocks), one after the other, and then what is in no
 /// group of one. The blocks of a model that does not fit them stay single objects, and its group is added to `misfits`.
-/// \pre is_models_text(structure)
-Dataset models_from_blocks(std::string_view structure, Dataset blocks, std::vector<std::string>& misfits);
+Dataset models_from_blocks(std::span<const ModelWords> words, Dataset blocks, std::vector<std::string>& misfits);
 
 }  // namespace geomend::vtk

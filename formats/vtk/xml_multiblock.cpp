@@ -90,9 +90,9 @@ Result<Dataset> read_multiblock(const XmlDocument& document, const Input& input,
                                                " do not fit the model that the file states: they are read as single objects",
                                            {document.file}, 0));
     };
-    if (is_models_text(own.structure)) {
+    if (const auto words = words_of_models(own.structure)) {
         std::vector<std::string> misfits;
-        Dataset models = models_from_blocks(own.structure, std::move(dataset), misfits);
+        Dataset models = models_from_blocks(*words, std::move(dataset), misfits);
         for (const std::string& group : misfits) tell_misfit(models, group);
         return models;
     }

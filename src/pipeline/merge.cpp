@@ -3,6 +3,8 @@
 
 #include <iterator>
 
+#include "model/append_objects.h"
+
 namespace geomend {
 
 namespace {
@@ -26,14 +28,7 @@ void append(std::vector<T>& into, std::vector<T>& more) {
 }  // namespace
 
 void merge(Dataset& into, Dataset more) {
-    const auto shift = static_cast<std::uint32_t>(into.objects.size());
-    for (StatedModel& model : more.models) {
-        for (StatedModel::Face& face : model.faces) {
-            if (face.object != no_index) face.object += shift;
-        }
-    }
-    append(into.objects, more.objects);
-    append(into.models, more.models);
+    append_objects(into, more);
     append(into.groups, more.groups);
     append(into.annotations, more.annotations);
     append(into.findings, more.findings);

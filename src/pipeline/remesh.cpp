@@ -9,6 +9,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "exchange/model_from_brep.h"
+#include "model/append_objects.h"
 #include "pipeline/json_parts.h"
 #include "pipeline/shape.h"
 #include "pipeline/validate.h"
@@ -48,14 +49,7 @@ Result<std::vector<Finding>> remesh_errors(const Dataset& dataset, const RemeshR
 /// New surfaces in place of the objects that they were made from.
 void put_in_place(Dataset& dataset, std::vector<Dataset> made, const std::vector<std::uint8_t>& is_part) {
     Dataset all;
-    for (Dataset& one : made) {
-        const auto first = static_cast<std::uint32_t>(all.objects.size());
-        for (StatedModel& model : one.models) {
-            for (auto& face : model.faces) face.object += first;
-            all.models.push_back(std::move(model));
-        }
-        for (Object& object : one.objects) all.objects.push_back(std::move(object));
-    }
+    for (Dataset& one : made) append_objects(all, one);
     for (std::size_t o = 0; o < dataset.objects.size(); ++o) {
         if (is_part[o] == 0) all.objects.push_back(std::move(dataset.objects[o]));
     }

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "exchange/model_from_brep.h"
+#include "model/append_objects.h"
 #include "topology/brep_from_dataset.h"
 #include "topology/flat_objects.h"
 #include "topology/region_surfaces.h"
@@ -107,16 +108,6 @@ std::vector<Object> objects_outside(Dataset& dataset) {
     return outside;
 }
 
-// Adds a model and the objects that it stands on.
-void append(Dataset& dataset, Dataset model) {
-    const auto shift = static_cast<std::uint32_t>(dataset.objects.size());
-    for (StatedModel& stated : model.models) {
-        for (StatedModel::Face& face : stated.faces) face.object += shift;
-        dataset.models.push_back(std::move(stated));
-    }
-    std::ranges::move(model.objects, std::back_inserter(dataset.objects));
-}
-
 // Puts in place of what a dataset's boundary representations were made from what add(brep) makes of each; objects outside of them
 // stay behind them.
 template <class Add>
@@ -134,14 +125,19 @@ void replace_sources(Dataset& dataset, const Add& add) {
 // Replaces what the models of the file were made from.
 void to_faced_models(Dataset& dataset) {
     topology::build_breps(dataset);
-    replace_sources(dataset, [&](const Brep& brep) { append(dataset, exchange::faced_model(brep, dataset.losses)); });
+    replace_sources(dataset, [&](const Brep& brep) {
+        Dataset model = exchange::faced_model(brep, dataset.losses);
+        append_objects(dataset, model);
+    });
 }
 
 void to_tagged_meshes(Dataset& dataset, const Format& target) {
     topology::build_breps(dataset);
     replace_sources(dataset, [&](const Brep& brep) {
-        if (target.statements) append(dataset, exchange::tagged_model(brep, dataset.losses));
-        else dataset.objects.emplace_back(exchange::tagged_mesh(brep, dataset.losses));
+        if (target.statements) {
+            Dataset model = exchange::tagged_model(brep, dataset.losses);
+            append_objects(dataset, model);
+        } else dataset.objects.emplace_back(exchange::tagged_mesh(brep, dataset.losses));
     });
 }
 
@@ -184,7 +180,10 @@ void state_models(Dataset& dataset, std::vector<Brep> found) {
     if (found.empty()) return;
     topology::build_breps(dataset);
     std::ranges::move(found, std::back_inserter(dataset.breps));
-    replace_sources(dataset, [&](const Brep& brep) { append(dataset, exchange::faced_model(brep, dataset.losses)); });
+    replace_sources(dataset, [&](const Brep& brep) {
+        Dataset model = exchange::faced_model(brep, dataset.losses);
+        append_objects(dataset, model);
+    });
 }
 
 void shape_for(Dataset& dataset, const Format& target) {

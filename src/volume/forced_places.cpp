@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/bounds.h"
 #include "base/length.h"
 #include "base/vectors.h"
 #include "geometry/closest_points.h"
@@ -50,14 +51,8 @@ const std::vector<std::uint32_t>& ForcedPlaces::facing(std::uint32_t f) {
     if (facing_[f]) return *facing_[f];
     std::vector<std::uint32_t>& found = facing_[f].emplace();
     const auto t = corners(f);
-    Vec3 low = t[0], high = t[0];
-    for (const Vec3& p : t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
-    }
-    tree_.visit_triangles(tree_.box(low, high, size_ / 2), [&](std::size_t i) {
+    const Bounds around = bounds_around(t);
+    tree_.visit_triangles(tree_.box(around.low, around.high, size_ / 2), [&](std::size_t i) {
         const std::uint32_t other = tree_.number(i);
         for (const std::uint32_t v : facets_.triangles[other]) {
             if (std::ranges::find(facets_.triangles[f], v) != facets_.triangles[f].end()) return;
