@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "base/big_array.h"
 #include "base/fetch_pages.h"
@@ -11,6 +13,7 @@
 #include "base/parallel.h"
 #include "formats/eclipse/arrays.h"
 #include "formats/eclipse/byte_order.h"
+#include "formats/eclipse/wide_loops.h"
 
 namespace geomend::eclipse {
 
@@ -75,24 +78,30 @@ Result<void> for_each_record(const ArrayFile& file, const Array& array, const Bo
 }
 
 /// Values of a binary array from its front to its back, on one thread: to fetch memory costs most of it, and least where
-/// it is filled while it is still in the cache. convert(to, count, bytes) sets the values of a record.
+/// it is filled while it is still in the cache. convert(to, first, count, bytes) sets values from the index `first` on.
 template <class T, class Convert>
 Result<void> read_records(const ArrayFile& file, const Array& array, std::vector<T>& values, const Convert& convert) {
-    constexpr std::uint64_t piece = (std::uint64_t{1} << 18) / sizeof(T);
+    constexpr std::uint64_t piece = (std::uint64_t{1} << 18) / sizeof(T), few = 1024;
+    std::array<T, few> some;
+    std::uint64_t fetched = 0;
     values.reserve(array.count);
     return for_each_record(file, array, [&](std::uint64_t first, std::uint64_t count, const char* p) {
-        if (first + count > values.size()) {
-            const std::uint64_t end = std::min(array.count, std::max(first + count, values.size() + piece));
-            fetch_pages(values, values.size(), end - values.size());
-            values.resize(end);
+        for (const std::uint64_t end = first + count; first != end; first = values.size()) {
+            const std::uint64_t n = std::min(few, end - first);
+            if (first + n > fetched) {
+                fetch_pages(values, fetched, std::min(piece, array.count - fetched));
+                fetched = std::min(array.count, fetched + piece);
+            }
+            convert(some.data(), first, n, p);
+            values.insert(values.end(), some.data(), some.data() + n);
+            p += n * array.element_size;
         }
-        convert(values.data() + first, count, p);
     });
 }
 
 template <class Stored>
 Result<void> read_binary(const ArrayFile& file, const Array& array, std::vector<typename Stored::type>& values) {
-    return read_records(file, array, values, [](typename Stored::type* to, std::uint64_t count, const char* p) {
+    return read_records(file, array, values, [](typename Stored::type* to, std::uint64_t, std::uint64_t count, const char* p) {
         for (std::uint64_t i = 0; i != count; ++i) to[i] = Stored::at(p + i * Stored::size);
     });
 }
@@ -223,42 +232,36 @@ Failure not_finite(const ArrayFile& file, const Array& array, std::uint64_t inde
         "expected a finite number, found " + number_text(value) + " as value " + std::to_string(index + 1) + " of '" + array.name + "'");
 }
 
-/// Bits of the exponent, all of which are set where a real is not finite.
+/// Values of a record as doubles; whether all are finite.
 template <class Stored>
-struct Exponent;
-template <>
-struct Exponent<AsFloat> {
-    static constexpr std::uint32_t mask = 0x7f800000u;
-    static std::uint32_t word(const char* p) { return word_at(p); }
-};
-template <>
-struct Exponent<AsDouble> {
-    static constexpr std::uint64_t mask = 0x7ff0000000000000u;
-    static std::uint64_t word(const char* p) { return long_word_at(p); }
-};
+bool take_finite(const char* p, std::uint64_t count, double* to) {
+    if constexpr (std::is_same_v<Stored, AsFloat>) {
+        return widen(p, count, to);
+    } else {
+        bool finite = true;
+        for (std::uint64_t i = 0; i != count; ++i) {
+            to[i] = Stored::at(p + i * Stored::size);
+            finite &= std::isfinite(to[i]);
+        }
+        return finite;
+    }
+}
 
 /// Values as doubles; the first that is not finite is a failure.
 template <class Stored>
 Result<void> read_finite(const ArrayFile& file, const Array& array, std::vector<double>& values) {
-    const double* special = nullptr;  // not after the first value that is not finite
+    std::uint64_t special = nowhere;  // not after the first value that is not finite
     if (file.formatted) {
         if (auto done = read_formatted<Stored>(file, array, values); !done) return done;
-        special = values.data();
+        special = 0;
     } else {
-        const auto done = read_records(file, array, values, [&](double* to, std::uint64_t count, const char* p) {
-            constexpr auto mask = Exponent<Stored>::mask;
-            bool any = false;
-            for (std::uint64_t i = 0; i != count; ++i) {
-                const auto word = Exponent<Stored>::word(p + i * Stored::size);
-                any |= (word & mask) == mask;
-                to[i] = static_cast<double>(std::bit_cast<typename Stored::type>(word));
-            }
-            if (any && special == nullptr) special = to;
+        const auto done = read_records(file, array, values, [&](double* to, std::uint64_t first, std::uint64_t count, const char* p) {
+            if (!take_finite<Stored>(p, count, to)) special = std::min(special, first);
         });
         if (!done) return done;
-        if (special == nullptr) return {};
+        if (special == nowhere) return {};
     }
-    for (auto i = static_cast<std::size_t>(special - values.data()); i < values.size(); ++i) {
+    for (std::uint64_t i = special; i < values.size(); ++i) {
         if (!std::isfinite(values[i])) return not_finite(file, array, i, values[i]);
     }
     return {};
@@ -275,12 +278,8 @@ Result<std::vector<std::uint8_t>> flags(const ArrayFile& file, const Array& arra
     if (!file.formatted && array.type == ArrayType::integer) {
         std::vector<std::uint8_t> values;
         std::uint32_t bits = 0;
-        const auto done = read_records(file, array, values, [&](std::uint8_t* to, std::uint64_t count, const char* p) {
-            for (std::uint64_t i = 0; i != count; ++i) {
-                const std::uint32_t word = word_at(p + i * AsInteger::size);
-                bits |= word;
-                to[i] = static_cast<std::uint8_t>(word);
-            }
+        const auto done = read_records(file, array, values, [&](std::uint8_t* to, std::uint64_t, std::uint64_t count, const char* p) {
+            bits |= narrow(p, count, to);
         });
         if (!done) return done.why();
         if (bits <= 255) return values;

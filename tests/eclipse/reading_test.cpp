@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -6,6 +8,7 @@
 #include "eclipse_testing.h"
 #include "formats/eclipse/array_writer.h"
 #include "formats/eclipse/arrays.h"
+#include "formats/eclipse/byte_order.h"
 #include "formats/eclipse/kept_arrays.h"
 #include "support/corner_point_samples.h"
 
@@ -131,6 +134,73 @@ TEST(ReadEgrid, NonFiniteCoordinatesAreRefusedAtTheirOffset) {
     EXPECT_EQ(bytes.substr(at, 2), "\x7f\xc0");
     cube.zcorn[3] = 1e30F;  // large ones are for the checks
     EXPECT_EQ(code_of(read_bytes(cube.bytes(), "egrid")), "");
+}
+
+/// An array in records of a length that is asked for, as other programs write them.
+std::string in_records(const char* name, const char* type, const std::vector<std::uint32_t>& words, std::size_t block) {
+    std::string bytes;
+    const auto put = [&bytes](std::uint32_t v) {
+        bytes.resize(bytes.size() + 4);
+        eclipse::put_word(bytes.data() + bytes.size() - 4, v);
+    };
+    put(16);
+    bytes += name;
+    put(static_cast<std::uint32_t>(words.size()));
+    bytes += type;
+    put(16);
+    for (std::size_t first = 0; first < words.size(); first += block) {
+        const std::size_t n = std::min(block, words.size() - first);
+        put(static_cast<std::uint32_t>(4 * n));
+        for (std::size_t i = first; i != first + n; ++i) put(words[i]);
+        put(static_cast<std::uint32_t>(4 * n));
+    }
+    return bytes;
+}
+
+TEST(ReadEgrid, ValuesAreTheSameInRecordsOfAnyLength) {
+    std::vector<std::uint32_t> reals(5003), integers(5003);
+    for (std::size_t i = 0; i != reals.size(); ++i) {
+        reals[i] = std::bit_cast<std::uint32_t>(static_cast<float>(i) * -0.37F);
+        integers[i] = i * 7 % 256;
+    }
+    for (const std::size_t block : {1, 7, 1000, 1024, 1025, 5003}) {
+        SCOPED_TRACE(block);
+        const std::string bytes = in_records("ZCORN   ", "REAL", reals, block) + in_records("ACTNUM  ", "INTE", integers, block);
+        const auto file = eclipse::find_arrays(Input::from_memory(bytes, "x"), nullptr);
+        ASSERT_TRUE(file.ok());
+        const auto values = eclipse::reals(*file, file->arrays[0]);
+        const auto flags = eclipse::flags(*file, file->arrays[1]);
+        ASSERT_TRUE(values.ok() && flags.ok());
+        ASSERT_EQ(values->size(), reals.size());
+        ASSERT_EQ(flags->size(), reals.size());
+        for (std::size_t i = 0; i != reals.size(); ++i) {
+            EXPECT_EQ((*values)[i], static_cast<double>(std::bit_cast<float>(reals[i])));
+            EXPECT_EQ((*flags)[i], integers[i]);
+        }
+    }
+}
+
+TEST(ReadEgrid, TheFirstWrongValueIsFoundWhereverItStands) {
+    const std::vector<std::uint32_t> good(3001, 0x3f800000u);
+    for (const std::size_t at : {0, 1, 31, 1023, 1024, 2999, 3000}) {
+        for (const std::uint32_t wrong : {0x7f800000u, 0xff800000u, 0x7fc00000u, 0xff800001u}) {
+            SCOPED_TRACE(at);
+            auto words = good;
+            words[at] = wrong;
+            words[3000] = wrong;
+            const std::string bytes = in_records("ZCORN   ", "REAL", words, 700);
+            const auto file = eclipse::find_arrays(Input::from_memory(bytes, "x"), nullptr);
+            ASSERT_TRUE(file.ok());
+            const auto values = eclipse::reals(*file, file->arrays[0]);
+            ASSERT_FALSE(values.ok());
+            EXPECT_EQ(values.why().error.where.offset, static_cast<std::int64_t>(28 + 4 * at + 8 * (at / 700)));
+        }
+        auto words = std::vector<std::uint32_t>(3001, 1);
+        words[at] = 256;
+        const auto file = eclipse::find_arrays(Input::from_memory(in_records("ACTNUM  ", "INTE", words, 700), "x"), nullptr);
+        ASSERT_TRUE(file.ok());
+        EXPECT_FALSE(eclipse::flags(*file, file->arrays[0]).ok());
+    }
 }
 
 TEST(ReadEgrid, RecordsThatDoNotFitAreRefused) {
