@@ -61,7 +61,6 @@ public:
         end_part();
         if (auto failed = add_surfaces(input)) return std::move(*failed);
         name_bodies(input);
-        name_both_sides();
         if (faces_again_ > 0)
             list_dropped(data_.losses, {LossClass::style, "", "faces of *SURFACE from their other side, or again",
                                         "a surface is there once", faces_again_});
@@ -520,18 +519,16 @@ private:
         return std::nullopt;
     }
 
-    /// Surfaces of which both sides were stated as "X_front" and "X_back", or as hanging wall and footwall, are called X.
-    void name_both_sides() {
+    /// A surface of which both sides are stated as "X_front" and "X_back", or as hanging wall and footwall, is X, unless that is another.
+    std::string surface_of_side(const std::string& name) const {
         for (const auto& [one, other] : {std::pair("_front", "_back"), std::pair("_hanging_wall", "_footwall")}) {
-            for (CellMesh::Entity& entity : mesh_.entities) {
-                for (const std::string suffix : {one, other}) {
-                    if (entity.dimension != 2 || !entity.name.ends_with(suffix)) continue;
-                    const std::string name = entity.name.substr(0, entity.name.size() - suffix.size());
-                    const bool has_both = surfaces_.contains(name + one) && surfaces_.contains(name + other);
-                    if (has_both) entity.name = name;
-                }
+            for (const std::string suffix : {one, other}) {
+                if (!name.ends_with(suffix)) continue;
+                const std::string whole = name.substr(0, name.size() - suffix.size());
+                if (surfaces_.contains(whole + one) && surfaces_.contains(whole + other) && !surfaces_.contains(whole)) return whole;
             }
         }
+        return name;
     }
 
     bool add_face(std::uint32_t element, const WaitingFace& waiting) {
@@ -552,7 +549,7 @@ private:
             ++faces_again_;
             return true;
         }
-        grown_.add(nodes.size() == 3 ? CellType::triangle : CellType::quad, nodes, entity_of(2, waiting.surface));
+        grown_.add(nodes.size() == 3 ? CellType::triangle : CellType::quad, nodes, entity_of(2, surface_of_side(waiting.surface)));
         return true;
     }
 

@@ -98,26 +98,57 @@ void join_face_sets(Data::FaceSet& to, const Data::FaceSet& from) {
     if (to.side != from.side) to.side = FaceSide::none;
 }
 
-/// Leaves a face to the first set that has it, whichever of its cells names it, and lists what later sets lose: faces, or only their
-/// side where the first set is of the same surface.
+/// Where a face stays that several sets have, or one from both of its cells.
+struct FaceOwner {
+    std::size_t set = 0;
+    CellFaceRef face;
+};
+using FaceOwners = std::map<std::vector<std::uint32_t>, FaceOwner>;
+
+std::vector<std::uint32_t> known_by(const Data& mesh, const CellFaceRef& face) {
+    auto nodes = nodes_of(mesh, face);
+    std::ranges::sort(nodes);
+    return nodes;
+}
+
+std::uint32_t region_of(const Data& mesh, std::uint32_t cell) {
+    const auto block = std::ranges::upper_bound(mesh.blocks, cell, {}, &Data::Block::first) - 1;
+    return block->region;
+}
+
+/// The first set that has a face. Where sides are not told apart, of the sets of one surface the one on the side of the lower region: so
+/// a surface looks one way wherever it lies between the same regions, and inside a region as its first set does.
+FaceOwners owners_of_faces(const Data& mesh, const MeshNeeds& needs) {
+    FaceOwners owners;
+    for (std::size_t s = 0; s < mesh.face_sets.size(); ++s) {
+        for (const CellFaceRef& face : mesh.face_sets[s].faces) {
+            const auto [at, is_new] = owners.emplace(known_by(mesh, face), FaceOwner{s, face});
+            if (is_new || needs.face_sides) continue;
+            const std::uint32_t surface = mesh.face_sets[at->second.set].surface;
+            const bool of_one = at->second.set == s || (surface != no_index && surface == mesh.face_sets[s].surface);
+            if (of_one && region_of(mesh, face.cell) < region_of(mesh, at->second.face.cell)) at->second = {s, face};
+        }
+    }
+    return owners;
+}
+
+/// Leaves a face to one set, and lists what the others lose: faces, or only their side where the owner is of the same surface.
 void leave_faces_once(Data& mesh, const MeshNeeds& needs, std::vector<Loss>& losses) {
-    std::map<std::vector<std::uint32_t>, std::size_t> owner;
+    const FaceOwners owners = owners_of_faces(mesh, needs);
     const std::string why = std::string(needs.target) + " has a face in one set only";
     for (std::size_t s = 0; s < mesh.face_sets.size(); ++s) {
         Data::FaceSet& set = mesh.face_sets[s];
         std::uint64_t lost = 0, other_sides = 0;
         std::erase_if(set.faces, [&](const CellFaceRef& face) {
-            auto nodes = nodes_of(mesh, face);
-            std::ranges::sort(nodes);
-            const auto [at, is_new] = owner.emplace(std::move(nodes), s);
-            if (is_new || at->second == s) return !is_new;  // a set of both sides has a face once, too
-            const Data::FaceSet& first = mesh.face_sets[at->second];
+            const FaceOwner& owner = owners.at(known_by(mesh, face));
+            if (owner.set == s) return owner.face != face;  // a set of both sides has a face once, too
+            const Data::FaceSet& first = mesh.face_sets[owner.set];
             if (first.surface != no_index && first.surface == set.surface) ++(first.side == set.side ? lost : other_sides);
             else if (first.name != set.name) ++lost;  // sets of one name become one
             return true;
         });
         if (lost > 0) add_loss(losses, {LossClass::substance, set.name, "faces of a set", why, lost});
-        if (other_sides > 0) add_loss(losses, {LossClass::identity, set.name, "side of faces", why, other_sides});
+        if (other_sides > 0 && needs.face_sides) add_loss(losses, {LossClass::identity, set.name, "side of faces", why, other_sides});
     }
     std::erase_if(mesh.face_sets, [](const Data::FaceSet& set) { return set.faces.empty(); });
 }
@@ -127,8 +158,8 @@ void join_sets(Data& mesh, const MeshNeeds& needs, std::vector<Loss>& losses) {
     if (!needs.face_sets) mesh.face_sets.clear();
     if (!needs.edge_sets) mesh.edge_sets.clear();
     if (!needs.node_sets) mesh.node_sets.clear();
+    if (needs.faces_once) leave_faces_once(mesh, needs, losses);  // first, so that all faces of a surface look to one side
     if (!needs.face_sides) join_sides(mesh.surfaces, mesh.face_sets);
-    if (needs.faces_once) leave_faces_once(mesh, needs, losses);
     join_names(mesh.face_sets, join_face_sets);
     join_names(mesh.edge_sets,
                [](Data::EdgeSet& to, const Data::EdgeSet& from) { std::ranges::copy(from.edges, std::back_inserter(to.edges)); });

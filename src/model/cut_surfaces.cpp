@@ -10,33 +10,14 @@
 #include <unordered_map>
 #include <utility>
 
-#include "model/cell_faces.h"
+#include "model/face_corners.h"
+#include "model/split_sides.h"
 
 namespace geomend {
 
 namespace {
 
-using Corners = std::array<std::uint32_t, 4>;  // ascending; no_index in the place of a fourth one
 using Regions = std::array<std::uint32_t, 2>;  // entities, ascending; no_index where there is none
-
-struct CornersHash {
-    std::size_t operator()(const Corners& c) const {
-        std::size_t hash = 0;
-        for (const std::uint32_t v : c) hash = (hash ^ v) * 0x9e3779b97f4a7c15u;
-        return hash ^ hash >> 32;
-    }
-};
-
-Corners corners_of(std::span<const std::uint32_t> nodes, std::size_t count) {
-    Corners corners{no_index, no_index, no_index, no_index};
-    std::copy_n(nodes.begin(), std::min({count, nodes.size(), corners.size()}), corners.begin());
-    std::ranges::sort(corners);
-    return corners;
-}
-
-Corners corners_of_face(const CellMesh& mesh, std::size_t cell) {
-    return corners_of(mesh.cell_nodes(cell), linear_type(mesh.types[cell]) == CellType::triangle ? 3 : 4);
-}
 
 class Cutter {
 public:
@@ -52,7 +33,7 @@ public:
         for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
             if (!is_of_a_set(c)) continue;
             const std::uint32_t surface = mesh_.cell_entity[c];
-            Regions between = regions_[corners_of_face(mesh_, c)];
+            Regions between = regions_[face_corners(mesh_, c)];
             std::ranges::sort(between);
             const auto [at, is_new] = piece_of.try_emplace({surface, between}, surface);
             if (is_new) {
@@ -82,18 +63,25 @@ private:
         std::vector<std::uint8_t> is_on_a_set(mesh_.points.size(), 0);
         for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
             if (!is_of_a_set(c)) continue;
-            regions_[corners_of_face(mesh_, c)] = {no_index, no_index};
+            regions_[face_corners(mesh_, c)] = {no_index, no_index};
             for (const std::uint32_t node : mesh_.cell_nodes(c)) is_on_a_set[node] = 1;
         }
-        std::vector<std::uint32_t> nodes;
-        for (std::size_t c = 0; c < mesh_.cell_count() && !regions_.empty(); ++c) {
-            for (const LocalFace& face : faces_of(mesh_.types[c])) {
-                nodes.clear();
-                for (const std::uint8_t corner : face.corners()) nodes.push_back(mesh_.cell_nodes(c)[corner]);
-                if (!std::ranges::all_of(nodes, [&](std::uint32_t node) { return is_on_a_set[node] != 0; })) continue;
-                const auto at = regions_.find(corners_of(nodes, nodes.size()));
-                if (at != regions_.end()) at->second[at->second[0] == no_index ? 0 : 1] = mesh_.cell_entity[c];
-            }
+        if (regions_.empty()) return;
+        each_marked_face(mesh_, is_on_a_set, [&](std::size_t cell, const FaceCorners& corners) {
+            const auto at = regions_.find(corners);
+            if (at != regions_.end()) at->second[at->second[0] == no_index ? 0 : 1] = mesh_.cell_entity[cell];
+        });
+        join_sides();
+    }
+
+    /// The faces on both sides of a split are one, between the regions of both.
+    void join_sides() {
+        const std::vector<std::uint32_t> side_of = other_sides(mesh_);
+        for (std::size_t c = 0; c < side_of.size(); ++c) {
+            if (side_of[c] == no_index) continue;
+            Regions &a = regions_[face_corners(mesh_, side_of[c])], &b = regions_[face_corners(mesh_, c)];
+            a[1] = b[0];
+            b = a;
         }
     }
 
@@ -115,7 +103,7 @@ private:
 
     CellMesh& mesh_;
     std::span<const std::uint8_t> may_be_cut_;
-    std::unordered_map<Corners, Regions, CornersHash> regions_;
+    std::unordered_map<FaceCorners, Regions, FaceCornersHash> regions_;
     std::int64_t next_tag_ = 0;
 };
 

@@ -9,15 +9,40 @@
 #include <utility>
 
 #include "base/wording.h"
+#include "model/split_sides.h"
 #include "topology/faces_from_mesh.h"
 
 namespace geomend::topology {
 
+namespace {
+
+/// A surface along which the cells are split is one surface, also where the mesh states it from both sides.
+void leave_out_other_sides(MeshParts& parts) {
+    const std::vector<std::uint32_t> side_of = other_sides(*parts.mesh);
+    if (side_of.empty()) return;
+    parts.numbers.resize(parts.entity_cells.size());
+    for (std::size_t e = 0; e < parts.entity_cells.size(); ++e) {
+        auto& cells = parts.entity_cells[e];
+        std::vector<std::uint32_t> kept, numbers;
+        for (std::uint32_t i = 0; i < cells.size(); ++i) {
+            if (side_of[cells[i]] != no_index) continue;
+            kept.push_back(cells[i]);
+            numbers.push_back(i);
+        }
+        if (kept.size() == cells.size()) continue;
+        cells = std::move(kept);
+        parts.numbers[e] = std::move(numbers);
+    }
+}
+
+}  // namespace
+
 MeshParts parts_of_mesh(const CellMesh& mesh, std::uint32_t object) {
-    MeshParts parts{&mesh, object, cells_by_entity(mesh)};
+    MeshParts parts{&mesh, object, cells_by_entity(mesh), {}};
     for (std::size_t e = 0; e < mesh.entities.size(); ++e) {
         parts.filled |= mesh.entities[e].dimension == 3 && !parts.entity_cells[e].empty();
     }
+    if (parts.filled) leave_out_other_sides(parts);
     return parts;
 }
 
@@ -36,6 +61,7 @@ SurfaceComplex::Face face_of_entity(const MeshParts& parts, std::uint32_t entity
                                     parts.mesh->twins ? &*parts.mesh->twins : nullptr, point_attributes_here);
     face.surface.source_object = parts.object;
     face.surface.source_part = entity;
+    if (entity < parts.numbers.size()) face.source_polygons = parts.numbers[entity];
     face.shared_nodes = !parts.mesh->twins;
     face.tolerance = points.tolerance.at(parts.object);
     return face;

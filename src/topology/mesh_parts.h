@@ -17,7 +17,8 @@ namespace geomend::topology {
 struct MeshParts {
     const CellMesh* mesh = nullptr;
     std::uint32_t object = no_index;                       ///< its number in the Dataset
-    std::vector<std::vector<std::uint32_t>> entity_cells;  ///< per entity its cells
+    std::vector<std::vector<std::uint32_t>> entity_cells;  ///< per entity its cells, a face that is stated from both sides of a split once
+    std::vector<std::vector<std::uint32_t>> numbers;       ///< per entity the numbers of its cells in it, where some are left out
     bool filled = false;                                   ///< some volume entity has cells
 };
 MeshParts parts_of_mesh(const CellMesh& mesh, std::uint32_t object);

@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "support/program.h"
+#include "support/real_data.h"
 #include "support/temporary_folder.h"
 
 // `mesh --split` as a user runs it.
@@ -44,6 +48,29 @@ TEST(MeshSplit, AlongAllSurfacesEachPairIsTwoFacesOfAbaqus) {
     EXPECT_EQ(again.status, 0) << again.err;
     EXPECT_EQ(points_of(folder / "m.vtu"), points_of(folder / "m.inp"));
     EXPECT_GT(report["pairs"].get<std::uint64_t>(), 0u);
+}
+
+/// Errors and triangles of the model that a file is found to hold.
+std::pair<int, std::uint64_t> judged(const std::string& file) {
+    return {run_geomend({"validate", file}).status, test::info(file)["brep"]["triangles"].get<std::uint64_t>()};
+}
+
+TEST(MeshSplit, ASurfaceThatIsStatedFromBothSidesIsOneWhenReadBack) {
+    const TemporaryFolder folder;
+    std::vector<std::string> models{sample};
+    if (const auto real = test::real_data("gocad/modelA4.so")) models.push_back(real->string());  // faults end in regions
+    for (const std::string& model : models) {
+        std::uint64_t triangles = 0;
+        for (const char* extension : {".vtu", ".msh", ".mesh", ".meshb", ".inp"}) {
+            SCOPED_TRACE(model + extension);
+            const std::string whole = folder / (std::string("whole") + extension), split = folder / (std::string("split") + extension);
+            ASSERT_EQ(run_geomend({"mesh", model, "-o", whole, "--lossy", "--split", "none"}).status, 0);
+            ASSERT_EQ(run_geomend({"mesh", model, "-o", split, "--lossy", "--split", "all"}).status, 0);
+            if (triangles == 0) triangles = judged(whole).second;
+            EXPECT_EQ(judged(whole), (std::pair<int, std::uint64_t>(0, triangles)));
+            EXPECT_EQ(judged(split), (std::pair<int, std::uint64_t>(0, triangles)));
+        }
+    }
 }
 
 /// The sample with a word in place of another, everywhere.
