@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "base/wording.h"
@@ -13,6 +14,7 @@
 #include "geometry/vectors.h"
 #include "validators/cell_findings.h"
 #include "validators/polyline_join.h"
+#include "validators/triangle_overlap.h"
 
 namespace geomend::validators {
 
@@ -24,24 +26,28 @@ struct Owner {
     auto operator<=>(const Owner&) const = default;
 };
 
-struct Crossing {
-    std::uint64_t pairs = 0;
+/// What two surfaces have in common.
+struct Common {
+    std::uint64_t pairs = 0;  // that cross
     double deepest = 0;
     std::vector<std::array<Vec3, 2>> segments;
+    std::unordered_set<std::uint32_t> lying;  // triangles of the one that is of no model, on the other
 };
-using Crossings = std::map<std::pair<Owner, Owner>, Crossing>;
+using AllCommon = std::map<std::pair<Owner, Owner>, Common>;
 
 /// The triangles of all models over their vertices one after the other.
 struct AllTriangles {
     std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
-    std::vector<Owner> owners;  // per triangle
+    std::vector<Owner> owners;         // per triangle
+    std::vector<std::uint32_t> first;  // per model, its first triangle
 };
 
 AllTriangles triangles_of(std::span<const ModelScope* const> models) {
     AllTriangles all;
     for (std::uint32_t m = 0; m < models.size(); ++m) {
         const auto first = static_cast<std::uint32_t>(all.vertices.size());
+        all.first.push_back(static_cast<std::uint32_t>(all.triangles.size()));
         const BrepData& brep = models[m]->brep();
         all.vertices.insert(all.vertices.end(), brep.vertices.begin(), brep.vertices.end());
         for (std::uint32_t s = 0; s < brep.surfaces.size(); ++s) {
@@ -53,6 +59,11 @@ AllTriangles triangles_of(std::span<const ModelScope* const> models) {
         }
     }
     return all;
+}
+
+std::array<Vec3, 3> corners_of(const AllTriangles& all, std::uint32_t triangle) {
+    const auto& [a, b, c] = all.triangles[triangle];
+    return {all.vertices[a], all.vertices[b], all.vertices[c]};
 }
 
 /// How far a triangle reaches through the plane of another one, on the side where it reaches less.
@@ -74,8 +85,8 @@ public:
     Search(std::span<const ModelScope* const> models, const AllTriangles& all)
         : models_(models), all_(all), tree_(all.vertices, all.triangles), parts_(intersection_parts(tree_)) {}
 
-    Crossings run(const Monitor* monitor) {
-        Crossings found;
+    AllCommon run(const Monitor* monitor) {
+        AllCommon found;
         visit_intersections(
             tree_, [&](std::size_t part) -> PairTaker& { return taker_of(parts_[part]); },
             [&](std::size_t first, std::size_t last) {
@@ -88,35 +99,47 @@ public:
         return found;
     }
 
+    /// The number in its surface's model of a triangle.
+    std::uint32_t number_in_model(std::uint32_t triangle) const { return triangle - all_.first[all_.owners[triangle].model]; }
+
 private:
     static constexpr std::size_t most_segments = 100000;
 
     struct Part {
         PairTaker taker;
-        Crossings found;
+        AllCommon found;
     };
+
+    bool is_beside(std::uint32_t triangle) const { return !models_[all_.owners[triangle].model]->model().stated; }
 
     PairTaker& taker_of(Part& part) {
         part.taker.is_choosy = true;
         part.taker.wants = [this](std::uint32_t a, std::uint32_t b) { return all_.owners[a].model != all_.owners[b].model; };
-        part.taker.take = [this, &part](const TriangleMeetingPair& pair) {
-            if (pair.how.kind != Meeting::crossing) return;
-            const Owner a = all_.owners[pair.a], b = all_.owners[pair.b];
-            const double tolerance =
-                std::max(models_[a.model]->lengths(a.surface).tolerance, models_[b.model]->lengths(b.surface).tolerance);
-            const double deep = std::min(reach(all_, pair.a, pair.b), reach(all_, pair.b, pair.a));
-            if (deep <= tolerance) return;
-            Crossing& crossing = part.found[std::minmax(a, b)];
-            crossing.deepest = std::max(crossing.deepest, deep);
-            ++crossing.pairs;
-            crossing.segments.push_back(pair.how.segment);
-        };
+        part.taker.take = [this, &part](const TriangleMeetingPair& pair) { take(part, pair); };
         return part.taker;
     }
 
-    static void add(Crossing& all, const Crossing& part) {
+    void take(Part& part, const TriangleMeetingPair& pair) const {
+        const Owner a = all_.owners[pair.a], b = all_.owners[pair.b];
+        const double tolerance = std::max(models_[a.model]->lengths(a.surface).tolerance, models_[b.model]->lengths(b.surface).tolerance);
+        if (is_beside(pair.a) != is_beside(pair.b) &&
+            (pair.how.kind == Meeting::overlap || lie_on_each_other(corners_of(all_, pair.a), corners_of(all_, pair.b), tolerance))) {
+            part.found[std::minmax(a, b)].lying.insert(is_beside(pair.a) ? pair.a : pair.b);
+            return;
+        }
+        if (pair.how.kind != Meeting::crossing) return;
+        const double deep = std::min(reach(all_, pair.a, pair.b), reach(all_, pair.b, pair.a));
+        if (deep <= tolerance) return;
+        Common& common = part.found[std::minmax(a, b)];
+        common.deepest = std::max(common.deepest, deep);
+        ++common.pairs;
+        common.segments.push_back(pair.how.segment);
+    }
+
+    static void add(Common& all, const Common& part) {
         all.pairs += part.pairs;
         all.deepest = std::max(all.deepest, part.deepest);
+        all.lying.insert(part.lying.begin(), part.lying.end());
         const std::size_t room = std::min(part.segments.size(), most_segments - std::min(most_segments, all.segments.size()));
         all.segments.insert(all.segments.end(), part.segments.begin(), part.segments.begin() + static_cast<std::ptrdiff_t>(room));
     }
@@ -131,27 +154,54 @@ std::string model_text(const ModelScope& scope) {
     return scope.model().stated ? "model " + quoted(scope.brep().name) : "surfaces of no model";
 }
 
+/// B32, where two surfaces run through each other by more than the search length: two meshes of one bent surface between
+/// neighbours pass through each other by little.
+void report_crossing(const ModelScope& one, std::uint32_t a, const ModelScope& other, std::uint32_t b, const Common& common,
+                     std::vector<Finding>& findings) {
+    if (common.deepest <= std::max(one.lengths(a).near, other.lengths(b).near)) return;
+    Finding finding = finding_of("B32", quoted(one.brep().surfaces[a].name) + " of " + model_text(one) + " and " +
+                                            quoted(other.brep().surfaces[b].name) + " of " + model_text(other) +
+                                            " run through each other: " + counted(common.pairs, "pair", "pairs") + " of triangles cross");
+    finding.entities = {{"surface", one.brep().surfaces[a].name}, {"surface", other.brep().surfaces[b].name}};
+    finding.count = common.pairs;
+    finding.element_kind = "pair";
+    finding.measures = {{"depth", common.deepest}};
+    finding.polylines = join_segments(common.segments);
+    if (finding.polylines.size() > listed_elements) finding.polylines.resize(listed_elements);
+    findings.push_back(std::move(finding));
+}
+
+/// B33. \param lying triangles of the surface that is of no model
+void report_lying(const ModelScope& beside, std::uint32_t a, const ModelScope& stated, std::uint32_t b,
+                  std::span<const std::uint32_t> lying, std::vector<Finding>& findings) {
+    std::vector<std::uint32_t> polygons;
+    for (const std::uint32_t t : lying) polygons.push_back(beside.polygon_of(t));
+    std::ranges::sort(polygons);
+    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+    const std::string& name = stated.brep().surfaces[b].name;
+    Finding finding = polygons_finding(beside, "B33", a,
+                                       quoted(beside.brep().surfaces[a].name) + ", which is of no model, lies on " + quoted(name) + " of " +
+                                           model_text(stated) + " with " + counted(polygons.size(), "triangle", "triangles"),
+                                       polygons);
+    finding.entities = {{"surface", beside.brep().surfaces[a].name}, {"surface", name}};
+    findings.push_back(std::move(finding));
+}
+
 }  // namespace
 
 void report_crossing_models(std::span<const ModelScope* const> models, std::vector<Finding>& findings) {
     if (models.size() < 2) return;
     const AllTriangles all = triangles_of(models);
-    for (auto& [pair, crossing] : Search(models, all).run(models[0]->monitor())) {
+    Search search(models, all);
+    for (const auto& [pair, common] : search.run(models[0]->monitor())) {
         const auto& [a, b] = pair;
         const ModelScope &one = *models[a.model], &other = *models[b.model];
-        // Two meshes of one bent surface between neighbours pass through each other by little.
-        if (crossing.deepest <= std::max(one.lengths(a.surface).near, other.lengths(b.surface).near)) continue;
-        Finding finding =
-            finding_of("B32", quoted(one.brep().surfaces[a.surface].name) + " of " + model_text(one) + " and " +
-                                  quoted(other.brep().surfaces[b.surface].name) + " of " + model_text(other) +
-                                  " run through each other: " + counted(crossing.pairs, "pair", "pairs") + " of triangles cross");
-        finding.entities = {{"surface", one.brep().surfaces[a.surface].name}, {"surface", other.brep().surfaces[b.surface].name}};
-        finding.count = crossing.pairs;
-        finding.element_kind = "pair";
-        finding.measures = {{"depth", crossing.deepest}};
-        finding.polylines = join_segments(crossing.segments);
-        if (finding.polylines.size() > listed_elements) finding.polylines.resize(listed_elements);
-        findings.push_back(std::move(finding));
+        report_crossing(one, a.surface, other, b.surface, common, findings);
+        if (common.lying.empty()) continue;
+        std::vector<std::uint32_t> lying;
+        for (const std::uint32_t t : common.lying) lying.push_back(search.number_in_model(t));
+        if (one.model().stated) report_lying(other, b.surface, one, a.surface, lying, findings);
+        else report_lying(one, a.surface, other, b.surface, lying, findings);
     }
 }
 

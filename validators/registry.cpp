@@ -99,6 +99,9 @@ constexpr std::array table = {
     Check{"B32",
           "triangles of surfaces of different models of one file, or of a model and surfaces beside it, cross, some by more than the "
           "search length"},
+    Check{"B33",
+          "a triangle of a surface that no model of the file states lies on one of a model's surfaces, within the tolerance of its plane "
+          "and with an area in common"},
     Check{"C01", "the length of an array is not what the dimensions require; nothing else is then checked"},
     Check{
         "C02",
@@ -369,7 +372,7 @@ Result<Checked> judge_models(const Dataset& as_read, const CheckOptions& options
         std::ranges::move(findings, std::back_inserter(result.findings));
         if (scope.stopped()) return stopped();
     }
-    if (wanted(options, "B32")) {
+    if (wanted(options, "B32") || wanted(options, "B33")) {
         std::vector<const ModelScope*> all;
         for (const auto& scope : scopes) all.push_back(scope.get());
         report_crossing_models(all, result.findings);

@@ -49,6 +49,7 @@ constexpr std::array catalogue = {
              OtherSeverity{warning, "the signs of all regions mean the other side, or key triangles are reversed"}},
     CodeInfo{"B31", error, "the Universe as stated is not the outside of the regions"},
     CodeInfo{"B32", error, "models of one file, or a model and a surface beside it, intersect"},
+    CodeInfo{"B33", warning, "a surface beside a model lies on one of the model's surfaces"},
     // Corner-point grids, numbered as in the rules that they come from.
     CodeInfo{"C01", error, "the length of an array does not fit the dimensions"},
     CodeInfo{"C02", error, "a coordinate is not finite, as large as 1e20, or a number that stands for no value"},

@@ -13,6 +13,7 @@
 #include "repair/code_steps.h"
 #include "repair/grid_steps.h"
 #include "repair/plans.h"
+#include "topology/brep_from_dataset.h"
 #include "topology/lengths.h"
 #include "topology/region_surfaces.h"
 #include "validators/check_selection.h"
@@ -162,6 +163,9 @@ std::optional<validators::CheckOptions> strict_options(const Dataset& dataset, c
     return strict;
 }
 
+// Whether models that may be sound each by itself, or a model and surfaces beside it, become one.
+bool is_of_several_models(const Dataset& dataset) { return topology::model_sources(dataset).size() > 1; }
+
 std::vector<repair::SurfacePlan> plans_of(const Dataset& dataset, const FoundBefore& before, const repair::Recipe& recipe) {
     if (!recipe.steps.empty()) return {{recipe.steps, -1, {}}};
     repair::PlanFacts facts;
@@ -169,7 +173,7 @@ std::vector<repair::SurfacePlan> plans_of(const Dataset& dataset, const FoundBef
     facts.strict = before.judged();
     facts.close_gaps = recipe.max_gap.has_value();
     facts.box = recipe.box.has_value() || recipe.automatic_box;
-    facts.several_models = dataset.models.size() > 1;
+    facts.several_models = is_of_several_models(dataset);
     if (before.asked.closing && !recipe.tolerance) {
         facts.closing = before.asked.closing->tolerance;
         facts.closes_whole = before.asked.closing->left == 0;

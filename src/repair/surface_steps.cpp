@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array<std::string_view, 13> clean_mends = {"B01", "M02", "M03", "M04", "M05", "M08", "B26",
                                                           "M20", "M22", "M26", "M27", "M28", "M35"};
-constexpr std::array<std::string_view, 15> cut_mends = {"B05", "B06", "B09", "B12", "B23", "B02", "B08", "B10",
-                                                        "B11", "B20", "B22", "B26", "B27", "B28", "B32"};
+constexpr std::array<std::string_view, 16> cut_mends = {"B05", "B06", "B09", "B12", "B23", "B02", "B08", "B10",
+                                                        "B11", "B20", "B22", "B26", "B27", "B28", "B32", "B33"};
 constexpr std::array<std::string_view, 5> holes_mends = {"B05", "B06", "B12", "B29", "M07"};
 constexpr std::array<std::string_view, 7> weld_mends = {"M01", "M03", "B05", "B07", "B11", "B12", "B27"};
 constexpr std::array<std::string_view, 7> close_mends = {"B05", "B06", "B07", "B09", "B12", "B23", "B29"};

@@ -73,6 +73,7 @@ constexpr std::array advice = {
     Advice{"B30", "change the sign of the surface in the list of the region that the finding names"},
     Advice{"B31", "list the sides of surfaces that bound the model from outside, and no others, in the Universe"},
     Advice{"B32", "cut them along the line that the finding shows, or write them into files of their own"},
+    Advice{"B33", "remove the surface, if it is a copy; or repair --steps cut,tails makes it part of the model's surface"},
     // Corner-point grids, numbered as in the rules that they come from.
     Advice{"C01", "correct SPECGRID or the array that the finding names"},
     Advice{"C02", "export the grid again, or make the cells inactive"},

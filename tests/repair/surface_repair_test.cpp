@@ -316,6 +316,33 @@ TEST(SurfaceRepair, SeveralInputsAreOneModel) {
     EXPECT_EQ(brep_of(folder / "out.ml")["regions"], 2);
 }
 
+TEST(SurfaceRepair, AModelAndASurfaceThatLiesOnOneOfItsOwnBecomeOneModel) {
+    const TemporaryFolder folder;
+    write_file(folder / "box.ts", cube_of_squares(0));
+    ASSERT_EQ(run_geomend({"repair", folder / "box.ts", "-o", folder / "box.ml"}).status, 0);
+    const Triangles other_halves = {{0, 1, 3}, {1, 2, 3}};
+    const std::vector<std::pair<std::vector<Point>, Triangles>> copies = {
+        {{{0, 0, 10}, {10, 0, 10}, {10, 10, 10}, {0, 10, 10}}, halves},
+        {{{0, 0, 10}, {10, 0, 10}, {10, 10, 10}, {0, 10, 10}}, other_halves},
+        {{{2, 3, 10}, {7, 3, 10}, {7, 8, 10}, {2, 8, 10}}, halves},
+        {{{10, 2, 3}, {10, 7, 3}, {10, 7, 12}, {10, 2, 12}}, halves}};
+    for (const auto& [points, triangles] : copies) {
+        write_file(folder / "copy.ts", tsurf("copy", points, triangles));
+        const std::string both = read_file(folder / "box.ml") + read_file(folder / "copy.ts");
+        write_file(folder / "both.ml", both);
+        EXPECT_NE(run_geomend({"validate", folder / "both.ml"}).out.find("B33"), std::string::npos);
+        for (const auto& inputs : {std::vector<std::string>{"box.ml", "copy.ts"}, {"both.ml"}}) {
+            std::vector<std::string> words{"repair", "-o", folder / "out.ml"};
+            for (const std::string& input : inputs) words.push_back(folder / input);
+            const auto run = run_geomend(words);
+            EXPECT_EQ(run.status, 0) << run.out << run.err;
+            EXPECT_EQ(brep_of(folder / "out.ml")["regions"], 1);
+            EXPECT_NEAR(total_volume(brep_of(folder / "out.ml")), 1000, 1e-6);
+            std::filesystem::remove(folder / "out.ml");
+        }
+    }
+}
+
 TEST(SurfaceRepair, ABoxMakesAVolumeOfAnOpenSetOfSurfaces) {
     const TemporaryFolder folder;
     write_file(folder / "in.ts", tsurf("H1", {{0, 0, 5}, {10, 0, 5}, {10, 10, 5}, {0, 10, 5}}, halves));

@@ -390,6 +390,12 @@ Dataset beside_the_model(double low) {
     model.data().objects.emplace_back(loose_surface("beside", {{{{1, 0.4, low}, {1.5, 0.4, low}, {1, 1, 0.4}}}}));
     return model.data();
 }
+/// The same, at a height above the bottom of the model, which lies at 0.
+Dataset level_beside_the_model(double z) {
+    LayeredModel model;
+    model.data().objects.emplace_back(loose_surface("beside", {{{{1, 0.4, z}, {1.5, 0.4, z}, {1, 1, z}}}}));
+    return model.data();
+}
 Dataset layer_without_region() {
     return renamed([](StatedModel& m) { m.layers[1].regions.clear(); });
 }
@@ -517,6 +523,7 @@ constexpr Fixture fixtures[] = {
     {"B30", side_turned, layered},
     {"B31", universe_open, layered},
     {"B32", [] { return beside_the_model(-0.4); }, [] { return beside_the_model(0.2); }},
+    {"B33", [] { return level_beside_the_model(0); }, [] { return level_beside_the_model(0.2); }},
     {"G01", region_name_twice, layered},
     {"G02", layer_without_region, layered},
     {"G03", fault_without_throw, fault_with_throw},

@@ -271,5 +271,33 @@ TEST(ALooseFaultBesideAModel, ThatRunsThroughItIsReported) {
     EXPECT_TRUE(worse_than_notes(with_second(fault(1.0))).empty()) << "within one region";
 }
 
+TEST(ALooseSurfaceBesideAModel, ThatLiesOnOneOfItsSurfacesIsReported) {
+    const Dataset model = LayeredModel().data();
+    const auto copied = [&](double up) {
+        Dataset copy = moved(model, [&](const Vec3& p) { return Vec3{p[0], p[1], p[2] + up}; });
+        copy.models.clear();
+        copy.objects.resize(1);
+        info_of(copy.objects[0]).name = "copy";
+        return with_second(copy);
+    };
+    for (const Dataset& data : rewritten(copied(0))) {
+        EXPECT_EQ(worse_than_notes(data), Codes{"B33 warning"});
+        std::uint64_t triangles = 0;  // on either side of the fault
+        for (const Finding& f : judged(data)) {
+            if (f.code != "B33") continue;
+            ASSERT_EQ(f.entities.size(), 2u);
+            EXPECT_TRUE(f.entities[0].name.starts_with("copy")) << f.entities[0].name;
+            EXPECT_FALSE(f.points.empty());
+            triangles += f.count;
+        }
+        EXPECT_EQ(triangles, std::get<Surface>(model.objects[0]).polygons.size());
+    }
+    // Away from the model, and models with a wall in common.
+    EXPECT_TRUE(worse_than_notes(copied(50)).empty());
+    EXPECT_FALSE(worse_than_notes(with_second(moved(model, [](const Vec3& p) {
+                     return Vec3{p[0] + 4, p[1], p[2]};
+                 }))).contains("B33 warning"));
+}
+
 }  // namespace
 }  // namespace geomend
