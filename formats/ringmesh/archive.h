@@ -42,6 +42,10 @@ std::vector<Interface> interfaces_of(const GmArchive& archive, Dataset& data);
 /// file states a cut there, but its meshes share the nodes. Linear in the surfaces that are cut.
 void cut_surfaces(GmArchive& archive);
 
+/// Reports where lines do not end at the corners, or surfaces are not bounded by the lines, that are stated to bound them: F113, once for
+/// lines and once for surfaces.
+void check_bound_lists(const GmArchive& archive, Dataset& data);
+
 /// Makes a Surface of each interface, with a part for each of its surfaces, and a StatedModel over them. Lines and corners that lie on
 /// no surface become polyline and point sets.
 void build_from_surfaces(GmArchive archive, Dataset& data);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "formats/byte_order_mark.h"
 #include "formats/text_reading.h"
 
 namespace geomend::ringmesh {
@@ -36,7 +37,7 @@ std::optional<Failure> whole(const Input& text, const TextCursor& cursor, std::s
 
 class EntityReader {
 public:
-    explicit EntityReader(const Input& text) : text_(text), cursor_(text.bytes()) {}
+    explicit EntityReader(const Input& text) : text_(text), cursor_(without_byte_order_mark(text.bytes())) {}
 
     Result<EntityText> run() {
         while (cursor_.next_line()) {
@@ -175,7 +176,7 @@ Result<EntityText> read_entity_text(const Input& text) { return EntityReader(tex
 
 Result<std::vector<GeologicalText>> read_geological_text(const Input& text) {
     std::vector<GeologicalText> all;
-    TextCursor cursor(text.bytes());
+    TextCursor cursor(without_byte_order_mark(text.bytes()));
     while (cursor.next_line()) {
         const auto words = words_of(cursor);
         if (words.empty() || words[0] == "Nb" || words[0] == "No") continue;  // counts of what follows, or that nothing does

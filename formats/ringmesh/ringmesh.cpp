@@ -26,6 +26,7 @@ Result<Dataset> read_gm(const Input& input, const ReadOptions& options) {
     data.variant = "RINGMesh model";
     auto archive = read_archive(input, options.monitor, data);
     if (!archive) return std::move(archive).why();
+    check_bound_lists(*archive, data);
     const auto& regions = archive->meshes[EntityText::region];
     const bool filled = std::ranges::any_of(regions, [](const auto& mesh) { return mesh && !mesh->cell_types.empty(); });
     if (filled) {

@@ -93,7 +93,7 @@ constexpr std::array catalogue = {
     CodeInfo{"F003", error, "the format is not recognised"},
     CodeInfo{"F004", error, "the file ends inside an object"},
     CodeInfo{"F005", error, "a number is malformed"},
-    CodeInfo{"F006", error, "a coordinate is not finite"},
+    CodeInfo{"F006", error, "a number is not finite"},
     CodeInfo{"F007", error, "a reference names something that is not defined"},
     CodeInfo{"F008", error, "a count does not match what follows"},
     CodeInfo{"F009", error, "an id is defined twice"},

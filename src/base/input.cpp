@@ -89,6 +89,19 @@ bool ends_lines_by_returns(std::string_view bytes) {
     return bytes.substr(0, first).find('\r') != std::string_view::npos && std::ranges::all_of(bytes, is_of_text);
 }
 
+/// The byte behind the end of a text of DOS (Ctrl-Z), which some programs still write: no part of it. Only behind what is text at both of
+/// its ends: in a binary file it is a byte as any other.
+std::string_view without_end_mark(std::string_view bytes) {
+    constexpr char mark = '\x1a';
+    constexpr std::size_t looked_at = 4096;
+    if (!bytes.ends_with(mark)) return bytes;
+    std::string_view text = bytes;
+    while (text.ends_with(mark)) text.remove_suffix(1);
+    const auto is_of_text = [](char c) { return static_cast<unsigned char>(c) >= ' ' || (c >= '\t' && c <= '\r'); };
+    const std::string_view last = text.substr(text.size() - std::min(text.size(), looked_at));
+    return std::ranges::all_of(text.substr(0, looked_at), is_of_text) && std::ranges::all_of(last, is_of_text) ? text : bytes;
+}
+
 bool is_utf_16(std::string_view bytes) { return bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"); }
 
 }  // namespace
@@ -129,6 +142,7 @@ Result<Input> Input::open(const std::string& path) {
         input.bytes_ = unpacked->buffer;
         storage = std::move(unpacked);
     }
+    input.bytes_ = without_end_mark(input.bytes_);
     if (is_utf_16(input.bytes_)) return unreadable("F013", {input.name_}, "the text is UTF-16, of which nothing is read: save it as UTF-8");
     if (ends_lines_by_returns(input.bytes_)) {
         auto text = std::make_shared<Storage>();

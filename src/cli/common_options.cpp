@@ -85,7 +85,7 @@ CLI::Validator is_length() {
     const auto check = [](const std::string& text) {
         double value = 0;
         const bool good = parse_real(text, value) == NumberStatus::ok && value >= 0 && value <= 1e20;
-        return good ? std::string() : "expected a length, a number of at least 0; found '" + text + "'";
+        return good ? std::string() : "expected a length, a number from 0 to 1e20; found '" + text + "'";
     };
     return CLI::Validator(check, std::string());
 }
@@ -94,7 +94,7 @@ CLI::Validator is_positive_length() {
     const auto check = [](const std::string& text) {
         double value = 0;
         const bool good = parse_real(text, value) == NumberStatus::ok && value > 0 && value <= 1e20;
-        return good ? std::string() : "expected a length, a number above 0; found '" + text + "'";
+        return good ? std::string() : "expected a length, a number above 0 and at most 1e20; found '" + text + "'";
     };
     return CLI::Validator(check, std::string());
 }

@@ -105,7 +105,7 @@ constexpr std::array advice = {
     Advice{"F003", "name it with --from"},
     Advice{"F004", "the file was cut short: copy or export it again"},
     Advice{"F005", "correct the number"},
-    Advice{"F006", "correct or remove the point"},
+    Advice{"F006", "correct the number, or remove the point that has it"},
     Advice{"F007", "define it or correct the reference"},
     Advice{"F008", "make both agree: correct the count, or what follows it"},
     Advice{"F009", "renumber"},

@@ -73,6 +73,20 @@ TEST(Input, EndsLinesOfOldTextsByLineFeeds) {
         EXPECT_EQ(read(other), other);
 }
 
+TEST(Input, TheEndMarkOfDosIsNoPartOfAText) {
+    const TemporaryFolder folder;
+    const auto bytes_of = [&](const std::string& content) {
+        write_file(folder / "f", content);
+        return std::string(Input::open((folder / "f").string())->bytes());
+    };
+    EXPECT_EQ(bytes_of("1 2 3\r\n\x1a"), "1 2 3\r\n");
+    EXPECT_EQ(bytes_of("1 2 3\x1a\x1a"), "1 2 3");
+    EXPECT_EQ(bytes_of(std::string("\0\x10 1\x1a", 5)), std::string("\0\x10 1\x1a", 5)) << "binary";
+    const std::string long_text(10000, 'a'), binary_end = long_text + std::string(1, '\0') + "\x1a";
+    EXPECT_EQ(bytes_of(long_text + "\x1a"), long_text);
+    EXPECT_EQ(bytes_of(binary_end), binary_end);
+}
+
 TEST(Input, RefusesUtf16) {
     const TemporaryFolder folder;
     for (const std::string& bytes : {std::string("\xff\xfeS\0", 4), std::string("\xfe\xff\0S", 4)}) {

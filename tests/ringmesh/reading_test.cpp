@@ -41,6 +41,54 @@ TEST(RingmeshReading, TheBoundaryRepresentationIsThatOfTheFile) {
     EXPECT_NEAR(brep.regions[1].volume, 2.0 / 3, 1e-12);
 }
 
+/// The two halves, with lists of the lines around each surface.
+TwoHalves with_lines() {
+    TwoHalves model;
+    const std::vector<std::string> lines{"0 1 2 ", "5 0 3 ", "3 2 7 ", "7 1 5 ", "0 6 4 ", "4 8 2 ", "6 1 8 "};
+    for (std::size_t s = 0; s < lines.size(); ++s) {
+        const std::string head = "Surface " + std::to_string(s) + " No_name GeogramSurfaceMesh\nboundary ";
+        TwoHalves::replace(model.entities, head + "\n", head + lines[s] + "\n");
+    }
+    return model;
+}
+
+TEST(RingmeshReading, ListsOfLinesAndCornersThatDoNotFitTheGeometryAreReported) {
+    EXPECT_TRUE(good_gm(with_lines().bytes()).findings.empty());
+    struct Row {
+        const char *what, *by, *begins;
+    };
+    const Row rows[] = {
+        {"boundary 0 1 2 \n", "boundary 0 1 \n", "Surface 0 has a border at (0, 0, 2)"},
+        {"boundary 0 1 2 \n", "boundary 0 1 8 \n", "Surface 0 is stated to be bounded by Line 8"},
+        {"GeogramLineMesh\nboundary 4 2 \n", "GeogramLineMesh\nboundary 4 3 \n",
+         "Line 0 is stated to end at Corner 3, which lies at (0, 0, 2)"},
+    };
+    for (const Row& row : rows) {
+        TwoHalves model = with_lines();
+        TwoHalves::replace(model.entities, row.what, row.by);
+        const Dataset data = good_gm(model.bytes());
+        ASSERT_EQ(data.findings.size(), 1u) << row.by;
+        EXPECT_EQ(data.findings[0].code, "F113");
+        EXPECT_TRUE(data.findings[0].message.starts_with(row.begins)) << data.findings[0].message;
+        EXPECT_EQ(data.findings[0].points.size(), 1u);
+    }
+    TwoHalves swapped = with_lines();
+    std::swap(swapped.mesh("Line_0.geogram"), swapped.mesh("Line_8.geogram"));
+    const Dataset data = good_gm(swapped.bytes());
+    ASSERT_EQ(data.findings.size(), 2u);
+    EXPECT_EQ(data.findings[0].count, 2u) << "lines";
+    EXPECT_EQ(data.findings[1].count, 5u) << "surfaces";
+}
+
+TEST(RingmeshReading, ByteOrderMarksBeforeTheTextsAreNoPartOfThem) {
+    TwoHalves model;
+    model.entities = "\xEF\xBB\xBF" + model.entities;
+    model.geology = "\xEF\xBB\xBF" + model.geology;
+    const Dataset data = good_gm(model.bytes());
+    EXPECT_EQ(data.models[0].regions.size(), 3u);
+    EXPECT_TRUE(data.findings.empty());
+}
+
 TEST(RingmeshReading, EarlierVersionsStateTheFeatureInEachRecord) {
     TwoHalves model;
     for (const char* mesh : {"", " GeogramMesh2D"}) {  // versions 0 and 1
