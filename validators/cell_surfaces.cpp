@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Surfaces in a mesh of cells whose triangles and quadrangles are not faces of its cells: they run through cells, or lie on faces that
-// are divided in another way. What is set on them reaches no cell. Those that keep clear of all cells are something else, and fine.
+// are divided in another way, or use a node twice. What is set on them reaches no cell. Those that keep clear of all cells are something
+// else, and fine.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -23,13 +24,20 @@ namespace geomend::validators {
 
 namespace {
 
-enum class Fit : std::uint8_t { clear, on_faces, through };
+enum class Fit : std::uint8_t { clear, without_area, on_faces, through };
 
 /// Corners as sorted vertices.
 void sorted_vertices(std::span<const std::uint32_t> vertex_of, std::span<const std::uint32_t> nodes, std::vector<std::uint32_t>& vertices) {
     vertices.clear();
     for (const std::uint32_t node : nodes) vertices.push_back(vertex_of[node]);
     std::ranges::sort(vertices);
+}
+
+/// Whether two quadrangles of the same vertices run around them in one order: a bow-tie does not.
+bool run_alike(std::span<const std::uint32_t> vertex_of, std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+    const auto at = std::ranges::find_if(b, [&](std::uint32_t node) { return vertex_of[node] == vertex_of[a[0]]; });
+    const auto i = static_cast<std::size_t>(at - b.begin());
+    return i < 4 && vertex_of[b[(i + 2) % 4]] == vertex_of[a[2]];
 }
 
 /// The faces of cells at each vertex that an element has.
@@ -64,7 +72,9 @@ public:
         for (const std::uint32_t node : nodes.first(std::min<std::size_t>(nodes.size(), 2))) {
             const std::uint32_t v = vertex_of_[node];
             for (std::uint64_t k = first_[v]; k < first_[v + 1]; ++k) {
-                sorted_vertices(vertex_of_, scope_.nodes_of(scope_.faces()[faces_[k]]), theirs);
+                const auto face = scope_.nodes_of(scope_.faces()[faces_[k]]);
+                sorted_vertices(vertex_of_, face, theirs);
+                if (nodes.size() == 4 && own == theirs && !run_alike(vertex_of_, nodes, face)) continue;
                 if (own.size() < theirs.size() ? std::ranges::includes(theirs, own) : std::ranges::includes(own, theirs)) return true;
             }
         }
@@ -114,6 +124,9 @@ public:
 
     Fit fit(std::uint32_t element) const {
         const auto nodes = topology::corner_nodes(scope_.mesh(), element);
+        std::vector<std::uint32_t> own;
+        sorted_vertices(scope_.vertex_of(), nodes, own);
+        if (std::ranges::adjacent_find(own) != own.end()) return Fit::without_area;
         Fit most = Fit::clear;
         for (std::size_t k = 1; k + 1 < nodes.size() && most != Fit::through; ++k) {
             most = std::max(most, fit(std::array{point(nodes[0]), point(nodes[k]), point(nodes[k + 1])}));
@@ -176,9 +189,12 @@ void check_cell_surfaces(const CellScope& scope, std::vector<Finding>& findings)
         }
         return some;
     };
-    const auto through = with(Fit::through), on_faces = with(Fit::on_faces);
+    const auto through = with(Fit::through), on_faces = with(Fit::on_faces), without_area = with(Fit::without_area);
     tell(scope, through, through.size() == 1 ? " runs through cells" : " run through cells", findings);
     tell(scope, on_faces, on_faces.size() == 1 ? " lies on cells without being a face of one" : " lie on cells without being faces of them",
+         findings);
+    tell(scope, without_area,
+         without_area.size() == 1 ? " uses a node twice, and is no face of a cell" : " use a node twice, and are no faces of cells",
          findings);
 }
 

@@ -2,8 +2,10 @@
 // Surfaces in meshes of cells: faces of the cells, beside them, on them with triangles of their own, through them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "cell_blocks.h"
 
@@ -78,6 +80,24 @@ TEST(SurfacesInCells, ThoseOnCellsWithTrianglesOfTheirOwnAreCounted) {
         EXPECT_EQ(codes_in_all_frames(block_with_square(kind, {0, 0, 100}, 200, 8, false)), Codes{})
             << "beyond the block they are clear of it";
     }
+}
+
+TEST(SurfacesInCells, ThoseThatUseANodeTwiceOrCrossThemselvesAreNoFaces) {
+    for (const Kind kind : kinds_of_cells) {
+        for (const double z : {50.0, 130.0}) {  // on faces, and clear of all cells
+            CellMesh mesh = block_with_square(kind, {0, 0, z}, 100, 4, true);
+            const std::size_t last = mesh.nodes.size() - 1;
+            mesh.nodes[last] = mesh.nodes[last - 1];
+            EXPECT_EQ(codes_in_all_frames(mesh), (Codes{{"M39", 1}})) << int(kind) << ' ' << z;
+        }
+    }
+    CellMesh mesh = block_with_square(Kind::hexahedra, {0, 0, 50}, 100, 4, false);
+    const std::size_t end = mesh.nodes.size();
+    std::swap(mesh.nodes[end - 1], mesh.nodes[end - 2]);
+    EXPECT_EQ(codes_in_all_frames(mesh), (Codes{{"M39", 1}})) << "a bow-tie";
+    std::rotate(mesh.nodes.end() - 8, mesh.nodes.end() - 7, mesh.nodes.end() - 4);
+    std::reverse(mesh.nodes.end() - 8, mesh.nodes.end() - 4);
+    EXPECT_EQ(codes_in_all_frames(mesh), (Codes{{"M39", 1}})) << "any turning of the others is a face";
 }
 
 TEST(SurfacesInCells, NodesOfTheirOwnThatAreTheSameWithinTheToleranceMatch) {
