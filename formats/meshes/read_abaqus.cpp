@@ -519,13 +519,17 @@ private:
         return std::nullopt;
     }
 
-    /// A surface of which both sides are stated as "X_front" and "X_back", or as hanging wall and footwall, is X, unless that is another.
+    /// A surface of which both sides are stated as "X_front" and "X_back", or as hanging wall and footwall, is X; with a number where that
+    /// is another one.
     std::string surface_of_side(const std::string& name) const {
         for (const auto& [one, other] : {std::pair("_front", "_back"), std::pair("_hanging_wall", "_footwall")}) {
             for (const std::string suffix : {one, other}) {
                 if (!name.ends_with(suffix)) continue;
                 const std::string whole = name.substr(0, name.size() - suffix.size());
-                if (surfaces_.contains(whole + one) && surfaces_.contains(whole + other) && !surfaces_.contains(whole)) return whole;
+                if (!surfaces_.contains(whole + one) || !surfaces_.contains(whole + other)) continue;
+                std::string free = whole;
+                for (int n = 2; surfaces_.contains(free); ++n) free = whole + "_" + std::to_string(n);
+                return free;
             }
         }
         return name;

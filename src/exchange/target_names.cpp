@@ -36,17 +36,26 @@ std::string cut(const std::string& name, std::size_t longest) {
 /// How the names of sets on one side of a surface end; what is shortened keeps that.
 constexpr std::array<std::string_view, 4> sides{"_front", "_back", "_hanging_wall", "_footwall"};
 
+/// How much longer than a name each of them is at most: what is shortened leaves that much, so that both sides are shortened alike.
+constexpr std::size_t room_for_side = 13;
+
 std::string_view side_of(std::string_view name) {
     const auto found =
         std::ranges::find_if(sides, [&](std::string_view side) { return name.ends_with(side) && name.size() > side.size(); });
     return found == sides.end() ? std::string_view() : *found;
 }
 
+/// Bytes of a name, the longest side in the place of its own.
+std::size_t size_with_side(std::string_view name) {
+    const std::string_view side = side_of(name);
+    return side.empty() ? name.size() : name.size() - side.size() + room_for_side;
+}
+
 /// A name with an end behind it, at most so many bytes. The side of a name that has to be shortened stays last.
 std::string fitted(const std::string& name, const std::string& end, std::size_t longest) {
-    if (name.size() + end.size() <= longest) return name + end;
+    if (size_with_side(name) + end.size() <= longest) return name + end;
     const std::string_view side = side_of(name);
-    const std::size_t kept = end.size() + side.size();
+    const std::size_t kept = end.size() + (end.size() + room_for_side < longest ? room_for_side : side.size());
     if (side.empty() || kept >= longest) return cut(name, longest - std::min(longest, end.size())) + end;
     return cut(name.substr(0, name.size() - side.size()), longest - kept) + end + std::string(side);
 }
@@ -57,7 +66,7 @@ public:
 
     /// True where the name could stay as it is.
     bool keep(const std::string& name) {
-        const bool fits = (longest_ == 0 || name.size() <= longest_) && (!words_ || as_word(name) == name) && !name.empty();
+        const bool fits = (longest_ == 0 || size_with_side(name) <= longest_) && (!words_ || as_word(name) == name) && !name.empty();
         return fits && used_.insert(key(name)).second;
     }
 

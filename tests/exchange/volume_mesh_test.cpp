@@ -175,7 +175,10 @@ TEST(Prepare, NamesAreWordsShortEnoughAndStayApart) {
     // Sets on the two sides of a surface keep their side.
     EXPECT_EQ(
         target_names({"a_long_fault_name_hanging_wall", "a_long_fault_name_footwall", "a_long_fault_nick_footwall"}, Naming::words, 20),
-        (Names{"a_long__hanging_wall", "a_long_faul_footwall", "a_long_fa_2_footwall"}));
+        (Names{"a_long__hanging_wall", "a_long__footwall", "a_lon_2_footwall"}))
+        << "both sides of one name are shortened alike";
+    EXPECT_EQ(target_names({"abcdefghijklmno_front", "abcdefghijklmno_back"}, Naming::words, 20), (Names{"abcdefg_front", "abcdefg_back"}));
+    EXPECT_EQ(target_names({"fault_front", "fault_back"}, Naming::words, 8), (Names{"fa_front", "fau_back"})) << "no room for more";
     EXPECT_EQ(target_names({"Gr\xc3\xbcn", "a b", ""}, Naming::texts, 3), (Names{"Gr", "a b", "unn"}));
 }
 
