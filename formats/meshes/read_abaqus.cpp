@@ -485,7 +485,7 @@ private:
 
     std::optional<Failure> surface_line(const DeckKeyword& keyword, DeckLines& lines) {
         const auto& fields = lines.fields();
-        surfaces_.insert(std::string(keyword.value("NAME")));
+        surfaces_.insert(upper_case(keyword.value("NAME")));
         faces_.push_back({std::string(keyword.value("NAME")), std::string(fields[0]),
                           fields.size() > 1 ? upper_case(fields[1]) : std::string(), lines.line()});
         return std::nullopt;
@@ -522,13 +522,14 @@ private:
     /// A surface of which both sides are stated as "X_front" and "X_back", or as hanging wall and footwall, is X; with a number where that
     /// is another one.
     std::string surface_of_side(const std::string& name) const {
+        const auto is_there = [this](const std::string& surface) { return surfaces_.contains(upper_case(surface)); };
         for (const auto& [one, other] : {std::pair("_front", "_back"), std::pair("_hanging_wall", "_footwall")}) {
             for (const std::string suffix : {one, other}) {
                 if (!name.ends_with(suffix)) continue;
                 const std::string whole = name.substr(0, name.size() - suffix.size());
-                if (!surfaces_.contains(whole + one) || !surfaces_.contains(whole + other)) continue;
+                if (!is_there(whole + one) || !is_there(whole + other)) continue;
                 std::string free = whole;
-                for (int n = 2; surfaces_.contains(free); ++n) free = whole + "_" + std::to_string(n);
+                for (int n = 2; is_there(free); ++n) free = whole + "_" + std::to_string(n);
                 return free;
             }
         }
