@@ -50,7 +50,7 @@ void make_faces(SoupModel& model, const std::vector<std::uint32_t>& vertex_of, S
         auto& patch = model.patches[p];
         auto& face = complex.faces[p];
         face.interface_name = patch.interface_name.empty() ? patch.name : std::move(patch.interface_name);
-        face.surface.name = std::move(patch.name);
+        if (patch.name != face.interface_name) face.surface.name = std::move(patch.name);  // else assemble() tells the pieces apart
         face.surface.role = patch.role;
         face.surface.role_text = std::move(patch.role_text);
         face.surface.attributes = std::move(patch.attributes);
