@@ -8,6 +8,7 @@
 #include <optional>
 #include <unordered_set>
 
+#include "base/length.h"
 #include "geometry/cell_volume.h"
 #include "validators/cell_findings.h"
 #include "validators/model_checks.h"
@@ -90,12 +91,29 @@ std::array<Vec3, 3> corners_of(const ModelScope& scope, std::uint32_t triangle) 
     return {v[t[0]], v[t[1]], v[t[2]]};
 }
 
+/// The least height of a triangle.
+double least_height(const std::array<Vec3, 3>& t) {
+    const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    double longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, length(minus(t[(i + 1) % 3], t[i])));
+    return longest > 0 ? length(n) / longest : 0;
+}
+
+/// Whether two triangles share an edge, and one of them is flat: what they have in common beside it is for rounding to say, and that the
+/// triangle is flat is told by itself.
+bool is_flat_neighbour(const ModelScope& scope, const TriangleMeetingPair& pair, double tolerance) {
+    const auto &a = scope.triangles()[pair.a], &b = scope.triangles()[pair.b];
+    const auto shared = std::ranges::count_if(a, [&](std::uint32_t v) { return std::ranges::find(b, v) != b.end(); });
+    return shared == 2 && (least_height(corners_of(scope, pair.a)) <= tolerance || least_height(corners_of(scope, pair.b)) <= tolerance);
+}
+
 /// What two triangles have in common once the tolerance is granted, so that rounding (or a rotation) does not change the kind: a
 /// border that reaches through by no more only touches, and a segment as short as that is a point.
 Meeting judged_kind(const ModelScope& scope, const TriangleMeetingPair& pair) {
-    if (pair.how.kind == Meeting::none || pair.how.kind == Meeting::overlap) return pair.how.kind;
-    const auto a = corners_of(scope, pair.a), b = corners_of(scope, pair.b);
+    if (pair.how.kind == Meeting::none) return Meeting::none;
     const double tolerance = scope.tolerance(scope.surface_of(pair.a), scope.surface_of(pair.b));
+    if (pair.how.kind == Meeting::overlap) return is_flat_neighbour(scope, pair, tolerance) ? Meeting::none : Meeting::overlap;
+    const auto a = corners_of(scope, pair.a), b = corners_of(scope, pair.b);
     if (lie_on_each_other(a, b, tolerance)) return Meeting::overlap;
     const Vec3 way = minus(pair.how.segment[1], pair.how.segment[0]);  // none for a point
     if (dot(way, way) <= tolerance * tolerance) return Meeting::point;
@@ -277,11 +295,12 @@ private:
         const bool one_surface = surfaces_[pair.a] == surfaces_[pair.b];
         if (one_surface && scope_.polygon_of(pair.a) == scope_.polygon_of(pair.b)) return;  // a polygon that is not plane
         if (one_surface && are_repeats(pair)) return;                                       // M04
+        Meeting kind = judged_kind(scope_, pair);
+        if (kind == Meeting::none) return;
         Some& some = of_surfaces(part, pair.a, pair.b);
         Common& common = some.common;
         if (some.seen.insert(pair.a).second) common.polygons.push_back(scope_.polygon_of(pair.a));
         if (some.seen.insert(pair.b).second && one_surface) common.polygons.push_back(scope_.polygon_of(pair.b));
-        Meeting kind = judged_kind(scope_, pair);
         if ((kind == Meeting::point || kind == Meeting::touch) &&
             (pierces(scope_, lines(), pair.a, pair.b) || pierces(scope_, lines(), pair.b, pair.a)))
             kind = Meeting::crossing;

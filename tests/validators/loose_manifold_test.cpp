@@ -41,6 +41,21 @@ TEST(ALooseSurface, WithThreeTrianglesAtAnEdgeIsNoSurface) {
     EXPECT_TRUE(found_in(loose_triangles(five, {{0, 1, 2}, {1, 0, 3}})).code.empty());
 }
 
+TEST(ALooseSurface, WithAFlatTriangleOnAnotherOneHasTheSameCodesInEachFrame) {
+    const std::vector<Vec3> points = {{0, 0, 0}, {1000, 0, 0}, {500, 1000, 0}, {400, 1e-6, 0}};
+    const Dataset data = loose_triangles(points, {{0, 1, 2}, {0, 1, 3}});
+    for (const Dataset& one : {data, moved(data, rotated), on_the_map(data, 1000)}) {
+        auto checked = validators::check_models(one, {});
+        ASSERT_TRUE(checked);
+        EXPECT_EQ(find(checked->findings, "M03", Severity::warning).count, 1u);
+        EXPECT_TRUE(find(checked->findings, "B26", Severity::error).code.empty()) << "what it has in common is narrower than the tolerance";
+    }
+    auto wide = points;
+    wide[3][1] = 1;
+    auto checked = validators::check_models(loose_triangles(wide, {{0, 1, 2}, {0, 1, 3}}), {});
+    EXPECT_EQ(find(checked->findings, "B26", Severity::error).count, 1u);
+}
+
 TEST(ALooseSurface, WithTwoTrianglesThatShareAPointOnlyIsNoSurface) {
     const std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
     const Dataset data = loose_triangles(points, {{0, 1, 2}, {0, 3, 4}});
