@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "base/vectors.h"
@@ -208,6 +209,20 @@ Lattice lattice_of_region(const volumes::RegionFacets& facets, const Lattice& la
     own.base_step = lattice.steps[2];
     own.steps[2] = lattice.steps[2] * own.layers->median_height();
     return own;
+}
+
+std::vector<Vec3> along_layers(const Lattice& lattice, std::span<const Vec3> places) {
+    constexpr double grain = 1.0 / (1 << 30);  // of a step: less than what points are moved by, more than rounding on a map
+    constexpr double kept = 0.03;              // of the heights that they have
+    std::vector<Vec3> level;
+    if (!lattice.layers || !lattice.layers->in_all_columns()) return level;
+    for (const Vec3& p : places) {
+        Vec3 c = lattice.coordinates(p);
+        c[2] = (1 - kept) * c[2] + kept * dot(minus(p, lattice.origin), lattice.axes[2]) / lattice.steps[2];
+        Vec3& own = level.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) own[k] = lattice.steps[k] * (std::round(c[k] / grain) * grain);
+    }
+    return level;
 }
 
 std::vector<Vec3> points_inside(const volumes::RegionFacets& facets, const Lattice& lattice, double clear) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "hexes/layers.h"
@@ -33,6 +34,11 @@ Lattice lattice_of(const BrepData& brep, double size);
 
 /// The lattice of a region: with layer coordinates where it has a base and a top all over, else the one given. Cost: as of points_inside().
 Lattice lattice_of_region(const volumes::RegionFacets& facets, const Lattice& lattice);
+
+/// Places as they would be if all layers of a lattice were level and even, to a small part of a step, so that those on its planes share
+/// them, and with a little of their own heights, so that cells which would be flat by it turn the way in which they do; nothing for one
+/// without layers in all of its columns. \pre steps and layers are those of a region that holds the places
+std::vector<Vec3> along_layers(const Lattice& lattice, std::span<const Vec3> places);
 
 /// Those points of a lattice that lie in a region and no nearer to its facets and edges than `clear` of the least step, in the order of
 /// their coordinates. They are moved by a ten-millionth of a step, so that no eight of them lie on a sphere. Cost: n log n in facets and

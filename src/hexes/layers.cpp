@@ -9,8 +9,9 @@ namespace geomend::hexes {
 
 namespace {
 
-constexpr double least_whole = 0.6;                       // share of columns
+constexpr double least_whole = 0.6, nearly_all = 0.98;    // shares of columns
 constexpr double thinnest = 0.35, thickest = 2.2;         // layers, in steps
+constexpr double thinnest_in_all = 0.2;                   // of those in all columns, which cells are made along
 constexpr double lower_share = 0.02, upper_share = 0.98;  // of the columns that decide
 
 double share_of(const std::vector<double>& ascending, double share) {
@@ -29,7 +30,9 @@ std::shared_ptr<const Layers> Layers::of(std::span<const ColumnSpan> whole, std:
     layers->count_ = std::max(1.0, std::round(median));
     layers->least_ = share_of(thickness, lower_share) / layers->count_;
     layers->median_ = median / layers->count_;
-    if (layers->least_ < thinnest || share_of(thickness, upper_share) / layers->count_ > thickest) return nullptr;
+    layers->in_all_ = static_cast<double>(whole.size()) >= nearly_all * static_cast<double>(columns);
+    const double least = layers->in_all_ ? thinnest_in_all : thinnest;
+    if (layers->least_ < least || share_of(thickness, upper_share) / layers->count_ > thickest) return nullptr;
     std::int64_t last_i = whole.front().i, last_j = whole.front().j;
     layers->first_i_ = last_i;
     layers->first_j_ = last_j;
@@ -53,7 +56,7 @@ std::shared_ptr<const Layers> Layers::of(std::span<const ColumnSpan> whole, std:
     }
     layers->go_on(layers->base_, known);
     layers->go_on(layers->thickness_, known);
-    for (double& t : layers->thickness_) t = std::clamp(t, thinnest * layers->count_, thickest * layers->count_);
+    for (double& t : layers->thickness_) t = std::clamp(t, least * layers->count_, thickest * layers->count_);
     return layers;
 }
 

@@ -27,6 +27,7 @@ public:
     double count() const { return count_; }
     double least_height() const { return least_; }    ///< of a layer, in steps
     double median_height() const { return median_; }  ///< of a layer, in steps
+    bool in_all_columns() const { return in_all_; }   ///< but for a fiftieth: no fault cuts them off, and no wall that leans
     /// Whole numbers are layers' borders: 0 at the base, count() at the top.
     double level(double i, double j, double w) const;
     double height(double i, double j, double level) const;
@@ -36,6 +37,7 @@ private:
     std::size_t ni_ = 0, nj_ = 0;
     std::vector<double> base_, thickness_;  // j fastest
     double count_ = 1, least_ = 1, median_ = 1;
+    bool in_all_ = false;
 
     struct Column {
         double base, thickness;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 #include "base/cell_number.h"
@@ -65,6 +66,39 @@ LineSample sample_at(std::uint32_t segment, double share) {
     return share > 1 - nothing ? LineSample{segment + 1, 0} : LineSample{segment, share};
 }
 
+/// Where a function of a share from 0 to 1 is 0. \pre it is above 0 at one end and below at the other, but for rounding
+template <class Function>
+double zero_of(const Function& function) {
+    double low = 0, high = 1, at_low = function(low), at_high = function(high);
+    constexpr double none = 1e-11;
+    if (std::abs(at_low) < none) return low;
+    if (std::abs(at_high) < none) return high;
+    double share = low;
+    constexpr int most_steps = 60;
+    for (int step = 0; step < most_steps; ++step) {  // false position, by Illinois: an end that stays counts by half
+        share = (low * at_high - high * at_low) / (at_high - at_low);
+        const double value = function(share);
+        if (std::abs(value) < none) break;
+        if ((value > 0) != (at_high > 0)) {
+            low = high;
+            at_low = at_high;
+        } else {
+            at_low /= 2;
+        }
+        high = share;
+        at_high = value;
+    }
+    return share;
+}
+
+/// Where an edge has a coordinate between those of its ends: levels need not change evenly along it, where layers narrow.
+double share_at(const Lattice& lattice, const Vec3& from, const Vec3& to, std::size_t axis, double wanted) {
+    const auto beside = [&](double share) { return lattice.coordinates(plus(from, times(share, minus(to, from))))[axis] - wanted; };
+    if (lattice.layers && axis == 2) return zero_of(beside);
+    const double a = beside(0), b = beside(1);
+    return a / (a - b);
+}
+
 /// Crossings with the planes of the lattice, in order.
 std::vector<LineSample> crossings_of(const Lattice& lattice, std::span<const Vec3> points) {
     std::vector<Vec3> at;
@@ -82,7 +116,7 @@ std::vector<LineSample> crossings_of(const Lattice& lattice, std::span<const Vec
         const std::size_t axis = own[most] >= 0.5 * size ? most : greatest(own);
         const double a = at[i][axis], b = at[i + 1][axis];
         if (i > 0 && a == std::round(a)) all.push_back({i, 0});
-        visit_between(a, b, [&](double k) { all.push_back(sample_at(i, (k - a) / (b - a))); });
+        visit_between(a, b, [&](double k) { all.push_back(sample_at(i, share_at(lattice, points[i], points[i + 1], axis, k))); });
     }
     return all;
 }
@@ -200,27 +234,82 @@ private:
     }
 };
 
+/// A triangle with its corners in the coordinates of a lattice.
+struct TriangleOnLattice {
+    const Lattice& lattice;
+    std::array<Vec3, 3> places, at;
+
+    Vec3 place(const Weights& weights) const {
+        Vec3 p{};
+        for (std::size_t k = 0; k < 3; ++k) p = plus(p, times(weights[k], places[k]));
+        return p;
+    }
+};
+
+/// Weights of the point of a triangle that has coordinates i, j along the axes a, b, if levels change evenly between its corners.
+std::optional<Weights> even_weights_at(const TriangleOnLattice& triangle, std::size_t a, std::size_t b, double i, double j) {
+    const auto& at = triangle.at;
+    const double whole = (at[1][a] - at[0][a]) * (at[2][b] - at[0][b]) - (at[1][b] - at[0][b]) * (at[2][a] - at[0][a]);
+    if (whole == 0) return std::nullopt;
+    Weights weights{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 &p = at[(k + 1) % 3], &q = at[(k + 2) % 3];
+        weights[k] = ((q[a] - p[a]) * (j - p[b]) - (q[b] - p[b]) * (i - p[a])) / whole;
+    }
+    return weights;
+}
+
+/// The same where layers narrow: on the straight line over a triangle on which another coordinate is i, at the level j.
+std::optional<Weights> weights_at_level(const TriangleOnLattice& triangle, std::size_t axis, double i, double j) {
+    constexpr double slack = 1e-9;
+    std::array<Weights, 2> ends{};
+    std::array<double, 2> levels{HUGE_VAL, -HUGE_VAL};  // the lowest and the highest of the line
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = (k + 1) % 3;
+        const double p = triangle.at[k][axis] - i, q = triangle.at[next][axis] - i;
+        if (std::min(p, q) > slack || std::max(p, q) < -slack) continue;
+        const double share = std::abs(p - q) > slack ? std::clamp(p / (p - q), 0.0, 1.0) : 0;
+        Weights weights{};
+        weights[next] = share;
+        weights[k] = 1 - share;
+        const double level = triangle.lattice.coordinates(triangle.place(weights))[2];
+        if (level < levels[0]) ends[0] = weights, levels[0] = level;
+        if (level > levels[1]) ends[1] = weights, levels[1] = level;
+    }
+    if (!(levels[0] - slack <= j && j <= levels[1] + slack)) return std::nullopt;
+    const auto mixed = [&](double share) {
+        Weights weights{};
+        for (std::size_t k = 0; k < 3; ++k) weights[k] = (1 - share) * ends[0][k] + share * ends[1][k];
+        return weights;
+    };
+    if (j <= levels[0]) return ends[0];
+    if (j >= levels[1]) return ends[1];
+    return mixed(zero_of([&](double share) { return triangle.lattice.coordinates(triangle.place(mixed(share)))[2] - j; }));
+}
+
 /// Calls visit(weights) for each line of the lattice along an axis that crosses a triangle or touches it.
 template <class Visit>
-void visit_crossings(const std::array<Vec3, 3>& at, std::size_t axis, const Visit& visit) {
+void visit_crossings(const TriangleOnLattice& triangle, std::size_t axis, const Visit& visit) {
     constexpr double slack = 1e-9;
+    const auto& at = triangle.at;
     const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
-    const auto low = [&](std::size_t k) { return std::ceil(std::min({at[0][k], at[1][k], at[2][k]}) - slack); };
-    const auto high = [&](std::size_t k) { return std::floor(std::max({at[0][k], at[1][k], at[2][k]}) + slack); };
-    const double whole = (at[1][a] - at[0][a]) * (at[2][b] - at[0][b]) - (at[1][b] - at[0][b]) * (at[2][a] - at[0][a]);
-    if (whole == 0) return;
+    const bool uneven = triangle.lattice.layers && (a == 2 || b == 2);
+    // Between its corners a triangle may be at higher or lower levels than they are.
+    const auto beyond = [&](std::size_t k) { return k == 2 && uneven ? 0.5 : slack; };
+    const auto low = [&](std::size_t k) { return std::ceil(std::min({at[0][k], at[1][k], at[2][k]}) - beyond(k)); };
+    const auto high = [&](std::size_t k) { return std::floor(std::max({at[0][k], at[1][k], at[2][k]}) + beyond(k)); };
+    const auto weights_at = [&](double i, double j) {
+        if (!uneven) return even_weights_at(triangle, a, b, i, j);
+        return a == 2 ? weights_at_level(triangle, b, j, i) : weights_at_level(triangle, a, i, j);
+    };
     for (double i = low(a); i <= high(a); ++i) {
         for (double j = low(b); j <= high(b); ++j) {
-            Weights weights{};
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3 &p = at[(k + 1) % 3], &q = at[(k + 2) % 3];
-                weights[k] = ((q[a] - p[a]) * (j - p[b]) - (q[b] - p[b]) * (i - p[a])) / whole;
-            }
-            if (std::ranges::any_of(weights, [&](double w) { return w < -slack; })) continue;
+            auto weights = weights_at(i, j);
+            if (!weights || std::ranges::any_of(*weights, [&](double w) { return w < -slack; })) continue;
             double sum = 0;
-            for (double& w : weights) sum += w = w < nothing ? 0 : w;
-            for (double& w : weights) w /= sum;
-            visit(weights);
+            for (double& w : *weights) sum += w = w < nothing ? 0 : w;
+            for (double& w : *weights) w /= sum;
+            visit(*weights);
         }
     }
 }
@@ -294,7 +383,12 @@ std::vector<SurfacePoint> lattice_surface(const Lattice& lattice, const EdgeMesh
         for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
             const Vec3 own = shown(t);
             if ((own[most] < 0.5 * length(own)) != steep) continue;
-            visit_crossings(corners(t), steep ? greatest(own) : most, [&](const Weights& weights) {
+            const std::size_t c = 3 * std::size_t{t};
+            const TriangleOnLattice triangle{
+                lattice,
+                {surface.places[surface.corners[c]], surface.places[surface.corners[c + 1]], surface.places[surface.corners[c + 2]]},
+                corners(t)};
+            visit_crossings(triangle, steep ? greatest(own) : most, [&](const Weights& weights) {
                 const SurfacePoint point = remeshing::point_at(surface, t, weights);
                 if (!space.is_free(point.place)) return;
                 space.add(point.place);
@@ -332,6 +426,9 @@ remeshing::Pattern lattice_pattern(const RegionLattices& lattices) {
     };
     pattern.on_surface = [&](std::uint32_t surface, const EdgeMesh& mesh, std::span<const Vec3> taken) {
         return lattice_surface(lattices.at(surface < lattices.of_surface.size() ? lattices.of_surface[surface] : no_index), mesh, taken);
+    };
+    pattern.straightened = [&](std::uint32_t surface, std::span<const Vec3> places) {
+        return along_layers(lattices.at(surface < lattices.of_surface.size() ? lattices.of_surface[surface] : no_index), places);
     };
     pattern.is_better = [&](std::uint32_t surface, const Vec3& from, const Vec3& to) {
         const Lattice& lattice = lattices.at(surface < lattices.of_surface.size() ? lattices.of_surface[surface] : no_index);

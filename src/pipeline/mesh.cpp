@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <span>
 #include <type_traits>
 
 #include "base/nearest_word.h"
@@ -291,6 +292,9 @@ Result<void> fill(Dataset& dataset, const Format& target, const MeshRequest& ask
     volumes::FillOptions how = request.fill;
     if (lattices) {
         how.points = [&](const volumes::RegionFacets& facets) { return hexes::points_inside(facets, lattices->at(facets.region)); };
+        how.straightened = [&](const volumes::RegionFacets& facets, std::span<const Vec3> places) {
+            return hexes::along_layers(lattices->at(facets.region), places);
+        };
         how.improve = request.recombine && request.recombine->thin_only;  // else it would move points off their lattice
     }
     const remeshing::RuleSizes rules(*model->brep, request.size_by, request.fill.size);

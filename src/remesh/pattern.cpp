@@ -113,28 +113,64 @@ void flip_all(WorkSurface& work) {
     }
 }
 
+/// The corners of the two triangles at an edge: its ends, then its two tips.
+std::array<std::uint32_t, 4> corners_at(const EdgeMesh& mesh, std::uint32_t h) {
+    return {mesh.from(h), mesh.to(h), mesh.tip(h), mesh.tip(mesh.twins[h])};
+}
+
+/// Whether the surface does not fold where an edge is turned. \param least the cosine that its new triangles may have to the old ones
+bool can_turn(std::span<const Vec3> places, const std::array<std::uint32_t, 4>& corners, double least) {
+    const Vec3 &a = places[corners[0]], &b = places[corners[1]], &c = places[corners[2]], &d = places[corners[3]];
+    FoldGuard guard;
+    guard.add(a, b, c);
+    guard.add(b, a, d);
+    guard.least = least;
+    return guard.admits(d, c, a) && guard.admits(c, d, b);
+}
+
+/// Turns edges towards Delaunay triangles of vertices that are elsewhere for it.
+void turn_edges(WorkSurface& work, std::span<const Vec3> straight) {
+    const EdgeMesh& mesh = work.mesh;
+    const auto is_better_turned = [&](const std::array<std::uint32_t, 4>& corners) {
+        const Vec3 &a = straight[corners[0]], &b = straight[corners[1]], &c = straight[corners[2]], &d = straight[corners[3]];
+        if (!(cotangent(a, b, c) + cotangent(a, b, d) < -1e-6)) return false;
+        return std::min(shape_of(d, c, a), shape_of(c, d, b)) > std::min(shape_of(a, b, c), shape_of(b, a, d));
+    };
+    constexpr int most_rounds = 20;
+    std::size_t turned = 1;
+    for (int round = 0; round < most_rounds && turned > 0; ++round) {
+        turned = 0;
+        for (std::uint32_t h = 0; h < mesh.corners.size(); ++h) {
+            if (mesh.corners[h] == no_index || mesh.twins[h] == no_index || h > mesh.twins[h]) continue;
+            const auto corners = corners_at(mesh, h);
+            constexpr double even = 0.7;
+            if (!is_better_turned(corners) || !can_turn(straight, corners, even) || !can_turn(mesh.places, corners, even)) continue;
+            if (!can_flip(mesh, h)) continue;
+            flip_edge(work.mesh, h);
+            ++turned;
+        }
+    }
+}
+
 /// Whether the two triangles at an edge are halves of a near-square, by the angles at its four corners, which is near flat.
-bool is_near_square(const EdgeMesh& mesh, std::uint32_t h) {
-    const Vec3 &a = mesh.places[mesh.from(h)], &b = mesh.places[mesh.to(h)], &c = mesh.places[mesh.tip(h)];
-    const Vec3& d = mesh.places[mesh.tip(mesh.twins[h])];
+bool is_near_square(std::span<const Vec3> places, const std::array<std::uint32_t, 4>& corners) {
+    const Vec3 &a = places[corners[0]], &b = places[corners[1]], &c = places[corners[2]], &d = places[corners[3]];
     constexpr double slant = 0.5;
     for (const double cot : {cotangent(a, b, c), cotangent(b, a, d), cotangent(c, d, a), cotangent(d, c, b)}) {
         if (!(std::abs(cot) < slant)) return false;
     }
-    FoldGuard guard;
-    guard.add(a, b, c);
-    guard.add(b, a, d);
-    guard.least = 0.9;
-    return guard.admits(d, c, a) && guard.admits(c, d, b);
+    return can_turn(places, corners, 0.9);
 }
 
-/// Cuts near-squares along the diagonals that the pattern wants.
-void choose_diagonals(WorkSurface& work, const Pattern& pattern, std::uint32_t surface) {
+/// Cuts near-squares along the diagonals that the pattern wants. \param straight vertices where it is made of squares
+void choose_diagonals(WorkSurface& work, std::span<const Vec3> straight, const Pattern& pattern, std::uint32_t surface) {
     const EdgeMesh& mesh = work.mesh;
     for (std::uint32_t h = 0; h < mesh.corners.size(); ++h) {
-        if (mesh.corners[h] == no_index || mesh.twins[h] == no_index || h > mesh.twins[h] || !is_near_square(mesh, h)) continue;
-        const bool keeps = pattern.is_better(surface, mesh.places[mesh.from(h)], mesh.places[mesh.to(h)]);
-        const bool turns = pattern.is_better(surface, mesh.places[mesh.tip(h)], mesh.places[mesh.tip(mesh.twins[h])]);
+        if (mesh.corners[h] == no_index || mesh.twins[h] == no_index || h > mesh.twins[h]) continue;
+        const auto corners = corners_at(mesh, h);
+        if (!is_near_square(straight, corners) || !can_turn(mesh.places, corners, 0.9)) continue;
+        const bool keeps = pattern.is_better(surface, mesh.places[corners[0]], mesh.places[corners[1]]);
+        const bool turns = pattern.is_better(surface, mesh.places[corners[2]], mesh.places[corners[3]]);
         if (!keeps && turns && can_flip(mesh, h)) flip_edge(work.mesh, h);
     }
 }
@@ -161,7 +197,10 @@ void remesh_to_pattern(WorkSurface& work, const Pattern& pattern, std::uint32_t 
     }
     for (const SurfacePoint& point : pattern.on_surface(surface, *work.reference, taken)) put_vertex(work, point, point.triangle);
     leave_fixed_vertices(work);
-    if (pattern.is_better) choose_diagonals(work, pattern, surface);
+    std::vector<Vec3> straight;
+    if (pattern.straightened) straight = pattern.straightened(surface, work.mesh.places);
+    if (!straight.empty()) turn_edges(work, straight);
+    if (pattern.is_better) choose_diagonals(work, straight.empty() ? work.mesh.places : straight, pattern, surface);
 }
 
 }  // namespace geomend::remeshing

@@ -18,11 +18,14 @@ struct Pattern {
     std::function<std::vector<SurfacePoint>(std::uint32_t surface, const EdgeMesh& mesh, std::span<const Vec3> taken)> on_surface;
     /// Of the two diagonals of a near-square the better one, so that surfaces beside each other are cut alike; given from end to end.
     std::function<bool(std::uint32_t surface, const Vec3& from, const Vec3& to)> is_better;
+    /// Vertices as they would be where the pattern is made of squares; nothing: it is so where they are. Empty: it is so everywhere.
+    std::function<std::vector<Vec3>(std::uint32_t surface, std::span<const Vec3> places)> straightened;
 };
 
 /// Gives a surface the vertices of a pattern: they are put where they lie, all other vertices inside give way, and edges are turned
-/// towards Delaunay triangles. Vertices of borders are as of remesh_isotropic(). Vertices of the surface as it was stay where sizes have
-/// been lowered below `size`. Results depend on the input alone. Cost: linear for each of a few rounds.
+/// towards Delaunay triangles, at last where the pattern is made of squares. Vertices of borders are as of remesh_isotropic(). Vertices of
+/// the surface as it was stay where sizes have been lowered below `size`. Results depend on the input alone. Cost: linear for each of a few
+/// rounds.
 void remesh_to_pattern(WorkSurface& work, const Pattern& pattern, std::uint32_t surface, double size);
 
 /// Puts a point of the surface into the mesh, which is the surface still, only finer: into a triangle or onto one of its edges, whichever

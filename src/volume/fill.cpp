@@ -35,6 +35,7 @@ struct Rung {
     bool moves_points = false;  ///< a little, so that no four of them lie in a plane
     /// How many cells that lie flat on two facets may get a vertex beside them, of a thousand points: they break the lattice.
     std::uint64_t parts_flats = 0;
+    bool is_straightened = false;  ///< made where FillOptions::straightened puts them
 };
 
 double volume_of_regular(double edge) { return edge * edge * edge / (6 * std::sqrt(2.0)); }
@@ -54,6 +55,8 @@ std::vector<Rung> rungs_for(double edge, const FillOptions& options, bool with_p
     if (with_points) {
         // O0: flat cells between those of a lattice stay, which TetGen would else remove together with the lattice's own.
         const std::string all = options.improve ? "QpYMT1e-14" : "QpYMT1e-14O0/0", later = all + "i";
+        if (options.straightened)
+            rungs.push_back({"tetgen pY, points from the start, along layers", all, {}, true, true, false, false, 0, true});
         // Inserted later, points crash TetGen more often than when they are there from the start.
         rungs.push_back({"tetgen pY, points from the start", all, {}, true, true});
         constexpr std::uint64_t few = 4, any_number = 1000000;
@@ -116,17 +119,29 @@ Tetrahedra without_flats(const RegionFacets& facets, Tetrahedra all, std::uint64
     return {std::move(cells.new_vertices), std::move(cells.cells)};
 }
 
+/// Cells of vertices that are elsewhere for it. Failure, as where TetGen fails, where it adds others.
+Result<Tetrahedra> straightened_tetrahedra(const Rung& rung, RegionFacets facets, const Inside& inside, const FillOptions& options) {
+    const std::vector<Vec3> points = options.straightened(facets, inside.points);
+    facets.positions = options.straightened(facets, facets.positions);
+    auto made = tetrahedra_of(facets, {points, {}}, rung.switches, rung.order, options.limits, options.monitor);
+    if (!made) return made;
+    if (made->new_vertices != points) return failure(FailureKind::limit, "F026", {}, "vertices were added");
+    made->new_vertices.assign(inside.points.begin(), inside.points.end());
+    return made;
+}
+
 Result<RegionCells> cells_by(const Rung& rung, const RegionFacets& facets, const Inside& all, const FillOptions& options) {
     Inside inside;
     std::vector<Vec3> moved;
     if (rung.moves_points) moved = moved_a_little(all.points, facets.median_edge, rung.order.shuffle);
     if (rung.has_points) inside.points = rung.moves_points ? moved : all.points;
     if (rung.has_sizes) inside.sizes = all.sizes;
-    auto made = tetrahedra_of(facets, inside, rung.switches, rung.order, options.limits, options.monitor);
+    auto made = rung.is_straightened ? straightened_tetrahedra(rung, facets, inside, options)
+                                     : tetrahedra_of(facets, inside, rung.switches, rung.order, options.limits, options.monitor);
     if (!made) return std::move(made).why();
     if (!rung.has_points) return cells_of_region(facets, std::move(*made));
     auto proven = cells_of_region(facets, *made);
-    if (!proven) proven = cells_of_region(facets, without_flats(facets, *made, 0));
+    if (!proven || !lie_apart(proven->cells)) proven = cells_of_region(facets, without_flats(facets, *made, 0));
     const std::uint64_t few = (rung.parts_flats * inside.points.size() + 999) / 1000;
     return proven || few == 0 ? std::move(proven) : cells_of_region(facets, without_flats(facets, std::move(*made), few));
 }
@@ -221,6 +236,7 @@ OneRegion fill_one(const RegionFacets& facets, const FillOptions& options, Fille
         if (rung.switches == too_slow) continue;
         if (!facets.edges.empty() && rung.order.shuffle > most_shuffles_with_wells) continue;
         if (rung.has_sizes && sizes.empty()) continue;
+        if (rung.is_straightened && options.straightened(facets, points).empty()) continue;
         if (fill_by(rung, facets, wanted, options, too_slow, result, report)) break;
         if (result.stopped) return result;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,9 @@ struct FillOptions {
     /// Vertices that a region should have inside, on no facet of it, and no others but what is needed: shapes and sizes are theirs.
     /// Where cells are not improved, flat ones between points of a lattice stay.
     std::function<std::vector<Vec3>(const RegionFacets&)> points;
+    /// Where cells of such points are made first: somewhere else for each place, nearby ones near each other and turned the same way, so
+    /// that a lattice which dips or narrows is an even one there. Nothing for a region that has no such places; empty: none has.
+    std::function<std::vector<Vec3>(const RegionFacets&, std::span<const Vec3>)> straightened;
     /// Sizes of cells at points in and around a region, between which they change, in place of one size for all of it.
     std::function<std::vector<SizedPoint>(const RegionFacets&)> sizes;
     std::vector<WellPath> wells;  ///< that are to be chains of edges of cells

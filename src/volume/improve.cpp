@@ -188,6 +188,16 @@ public:
         }
     }
 
+    /// Flat cells that rounding has turned over: a vertex inside moves a little, or one of their edges goes.
+    void turn_flats_back() {
+        for (std::uint32_t c = 0; c < mesh_.size(); ++c) {
+            if (!mesh_.is_there(c) || mesh_.sine_of(c) >= flat_sine || mesh_.sine_of_new(mesh_.at(c)) > 0) continue;
+            const Cell cell = mesh_.at(c);
+            if (turn_back(cell)) ++done.moves;
+            else remove_inner_edge(cell);
+        }
+    }
+
     /// What flips cannot remove gets a vertex beside it, where it has no volume or is turned over.
     void part_flats(std::uint64_t most) {
         for (std::uint32_t c = 0; c < mesh_.size() && done.vertices < most; ++c) {
@@ -484,6 +494,7 @@ private:
 Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region, std::uint64_t most_vertices) {
     Improver improver(facets, region);
     improver.remove_flats();
+    improver.turn_flats_back();
     if (most_vertices > 0) improver.part_flats(most_vertices);
     improver.cells().put_back(facets, region);
     return improver.done;

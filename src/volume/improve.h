@@ -33,8 +33,8 @@ Improvement improve(const RegionFacets& facets, RegionCells& region, const Monit
 
 /// Removes cells that are flat on two facets, by the one edge inside that they have: where a surface is even all four vertices of a cell
 /// may lie in it. Where what takes their place would be turned over by rounding, between points inside, one of those moves by some
-/// millionths of an edge. Others stay as they are, but for so many that have no volume or are turned over: they get a new vertex beside
-/// them. Cost: linear, and as the cells around these.
+/// millionths of an edge; so do those of flat cells inside that are turned over. Others stay as they are, but for so many that have no
+/// volume or are turned over: they get a new vertex beside them. Cost: linear, and as the cells around these.
 Improvement remove_flat_cells(const RegionFacets& facets, RegionCells& region, std::uint64_t most_vertices = 0);
 
 }  // namespace geomend::volumes

@@ -70,32 +70,44 @@ TEST(HexDominant, SoTheyDoTurnedAndInMapCoordinates) {
     EXPECT_NEAR(volume(report), 4.8e8, 1e-9 * 4.8e8);
 }
 
-TEST(HexDominant, LayersThatDipBelowALevelTopBecomeHexahedra) {
-    struct Case {
-        std::vector<double> z;  ///< of the borders at x = 0
-        double dip;             ///< of those inside
-        const char* size;
-        double turn;
+struct DippingLayers {
+    std::vector<double> z;  ///< of the borders at x = 0
+    double dip;             ///< of those inside
+    const char* size;
+    double turn;
+};
+
+void expect_hexahedra(const DippingLayers& c) {
+    const TemporaryFolder folder;
+    const auto height = [&](std::size_t k, double x) { return c.z[k] + (k == 0 || k + 1 == c.z.size() ? 0 : c.dip * x); };
+    const auto turned = [&](const Vec3& p) {
+        return Vec3{500000 + std::cos(c.turn) * p[0] - std::sin(c.turn) * p[1], 6000000 + std::sin(c.turn) * p[0] + std::cos(c.turn) * p[1],
+                    p[2] - 3000};
     };
-    const std::vector<Case> cases{{{0, 150, 250, 330, 600}, 0.15, "40", 0},
-                                  {{0, 150, 250, 330, 600}, 0.15, "50", 0.5},
-                                  {{0, 100, 160, 220, 280, 340, 600}, 0.15, "40", 0},
-                                  {{0, 150, 250, 330, 700}, 0.25, "50", 0},
-                                  {{0, 350, 430, 520, 700}, -0.2, "45", 1.2}};
-    for (const Case& c : cases) {
-        const TemporaryFolder folder;
-        const auto height = [&](std::size_t k, double x) { return c.z[k] + (k == 0 || k + 1 == c.z.size() ? 0 : c.dip * x); };
-        const auto turned = [&](const Vec3& p) {
-            return Vec3{500000 + std::cos(c.turn) * p[0] - std::sin(c.turn) * p[1],
-                        6000000 + std::sin(c.turn) * p[0] + std::cos(c.turn) * p[1], p[2] - 3000};
-        };
-        const std::vector<double> ends(c.z.size() - 1, 1000);
-        const json report = meshed(folder, layers(c.z.size(), height, ends, turned), {"--cells", "hex-dominant", "--size", c.size});
-        ASSERT_TRUE(report.is_object());
-        EXPECT_GE(share(report, "hexahedron"), 0.99) << c.dip << " at " << c.size;
-        EXPECT_GE(report["quality"]["min_scaled_jacobian"].get<double>(), 0.3);
-        EXPECT_NEAR(volume(report), 8e5 * c.z.back(), 1e-9 * 8e5 * c.z.back());
-    }
+    const std::vector<double> ends(c.z.size() - 1, 1000);
+    const json report = meshed(folder, layers(c.z.size(), height, ends, turned), {"--cells", "hex-dominant", "--size", c.size});
+    ASSERT_TRUE(report.is_object());
+    EXPECT_GE(share(report, "hexahedron"), 0.99) << c.dip << " at " << c.size;
+    EXPECT_GE(report["quality"]["min_scaled_jacobian"].get<double>(), 0.3);
+    EXPECT_NEAR(volume(report), 8e5 * c.z.back(), 1e-9 * 8e5 * c.z.back());
+}
+
+TEST(HexDominant, LayersThatDipBelowALevelTopBecomeHexahedra) {
+    const std::vector<DippingLayers> cases{{{0, 150, 250, 330, 600}, 0.15, "40", 0},
+                                           {{0, 150, 250, 330, 600}, 0.15, "50", 0.5},
+                                           {{0, 100, 160, 220, 280, 340, 600}, 0.15, "40", 0},
+                                           {{0, 150, 250, 330, 700}, 0.25, "50", 0},
+                                           {{0, 350, 430, 520, 700}, -0.2, "45", 1.2}};
+    for (const DippingLayers& c : cases) expect_hexahedra(c);
+}
+
+// Layers inside of these are a third of a step thin on one side and twice as thick as one on the other.
+TEST(HexDominant, SoDoWedgesOfSixfoldThickness) {
+    const std::vector<DippingLayers> cases{{{0, 100, 700}, 0.5, "40", 0},
+                                           {{0, 100, 700}, 0.5, "60", 0.4},
+                                           {{0, 60, 160, 500}, 0.3, "50", 0},
+                                           {{0, 60, 160, 500}, 0.2, "60", 1}};
+    for (const DippingLayers& c : cases) expect_hexahedra(c);
 }
 
 // The sides and horizons of the sample are even: tetrahedra over a lattice are flat there but for rounding.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "base/vectors.h"
 #include "hexes/main_axes.h"
@@ -119,6 +121,60 @@ TEST(LatticeSampling, LinesAreNotPartedByTheThinnestOfLayers) {
     EXPECT_EQ(lattice_line(lattice, level, rules).size(), 13u);
     const std::vector<Vec3> upright{{12, 0, 0}, {12, 0, 8}};
     EXPECT_EQ(lattice_line(lattice, upright, rules).size(), 1 + static_cast<std::size_t>(lattice.layers->count()));
+}
+
+/// A lattice whose layers narrow from 8 steps together to 2, over 12 columns.
+Lattice wedge_lattice() {
+    std::vector<ColumnSpan> columns;
+    for (std::int64_t i = 0; i <= 12; ++i) {
+        for (std::int64_t j = 0; j <= 4; ++j) columns.push_back({i, j, 0, 8 - 0.5 * static_cast<double>(i)});
+    }
+    return {{0, 0, 0}, turned(0, 0), {1, 1, 1}, Layers::of(columns, columns.size()), 1};
+}
+
+TEST(LatticeSampling, PointsOfAWallLieOnLayersThatNarrow) {
+    // Two triangles for all of a wall: levels do not change evenly between their corners.
+    const Lattice lattice = wedge_lattice();
+    ASSERT_TRUE(lattice.layers);
+    const std::vector<Vec3> places{{0, 2, 0}, {12, 2, 0}, {12, 2, 2}, {0, 2, 8}};
+    const auto mesh = remeshing::fanned_mesh(places, std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3},
+                                             std::vector<std::uint32_t>{no_index, no_index, 1, 0, no_index, no_index});
+    ASSERT_TRUE(mesh);
+    const auto points = lattice_surface(lattice, mesh->mesh, {});
+    EXPECT_EQ(points.size(), 11u * (static_cast<std::size_t>(lattice.layers->count()) - 1));
+    for (const auto& point : points) {
+        const Vec3& p = point.place;
+        const double level = lattice.layers->count() * p[2] / (8 - 0.5 * p[0]);
+        EXPECT_NEAR(p[0], std::round(p[0]), 1e-9);
+        EXPECT_NEAR(level, std::round(level), 1e-9) << p[0];
+    }
+}
+
+TEST(LatticeSampling, SoDoThoseOfALineAcrossThem) {
+    const Lattice lattice = wedge_lattice();
+    const std::vector<Vec3> line{{3, 2, 0}, {5, 2, 5.5}};
+    remeshing::LineRules rules;
+    rules.max_distance = 0.1;
+    const auto samples = lattice_line(lattice, line, rules);
+    ASSERT_EQ(samples.size(), 1 + static_cast<std::size_t>(lattice.layers->count()));
+    for (const auto& sample : samples) {
+        const Vec3 p = remeshing::place_of(line, sample);
+        const double level = lattice.layers->count() * p[2] / (8 - 0.5 * p[0]);
+        EXPECT_NEAR(level, std::round(level), 1e-9);
+    }
+}
+
+TEST(Lattice, AlongLayersPlacesTurnAsTheyDoWhereTheyAre) {
+    // Four points of a square across the slope of a layer that narrows: in level layers they would lie in a plane.
+    const Lattice lattice = wedge_lattice();
+    ASSERT_TRUE(lattice.layers);
+    const std::vector<Vec3> places{lattice.place({3, 1, 1}), lattice.place({4, 1, 1}), lattice.place({3, 2, 2}), lattice.place({4, 2, 2})};
+    const auto level = along_layers(lattice, places);
+    ASSERT_EQ(level.size(), 4u);
+    const auto turn = [](std::span<const Vec3> p) { return dot(minus(p[1], p[0]), cross(minus(p[2], p[0]), minus(p[3], p[0]))); };
+    EXPECT_GT(turn(places) * turn(level), 0);
+    EXPECT_LT(std::abs(turn(level)), 0.1 * std::abs(turn(places)));  // nearly level all the same
+    EXPECT_TRUE(along_layers({{0, 0, 0}, turned(0, 0), {1, 1, 1}, nullptr, 0}, places).empty());
 }
 
 TEST(Lattice, StepsPartTheExtentEvenly) {

@@ -104,13 +104,13 @@ void expect_sound(const std::string& model, double size, double least_share, boo
     EXPECT_EQ(made["leftovers"]["flat"], 0);
     EXPECT_GE(made["made"]["hexahedron"]["volume_share"].get<double>(), least_share);
     EXPECT_GE(report["quality"]["min_scaled_jacobian"].get<double>(), 0.3);
-    // Quadrangles between regions bend: one gains what another loses.
+    // Quadrangles between regions bend: one gains what another loses. Those of uneven outer sides do, too, and nothing lies behind them.
     double volume = 0, inside = 0;
     for (const json& region : report["regions"]) {
         volume += region["volume"].get<double>();
         inside += region["surface_volume"].get<double>();
     }
-    EXPECT_NEAR(volume, inside, (has_even_sides ? 1e-9 : 1e-5) * inside);
+    EXPECT_NEAR(volume, inside, (has_even_sides ? 1e-9 : 2e-4) * inside);
     const Matching faces = match_faces(folder / "1.vtu");
     EXPECT_EQ(faces.most, 2);
     EXPECT_EQ(faces.open, 0u);

@@ -6,7 +6,10 @@
 
 #include <cmath>
 #include <set>
+#include <span>
+#include <vector>
 
+#include "base/vectors.h"
 #include "made_surfaces.h"
 
 // A surface that gets the vertices of a pattern has them, and no others inside.
@@ -73,6 +76,54 @@ TEST(Pattern, VerticesStayWhereSizesAreLower) {
     ASSERT_NE(lowered, 0u);
     EXPECT_TRUE(work.mesh.has_vertex(lowered));
     EXPECT_EQ(work.mesh.places[lowered], (Vec3{5, 5, 0}));
+}
+
+/// The corner of a sheet of squares of one that is elsewhere: each square is a parallelogram there.
+EdgeMesh leaning_sheet(double height, double lean) {
+    EdgeMesh mesh = test::sheet(8, 4);
+    for (Vec3& p : mesh.places) p = {p[0] + lean * p[1], height * p[1], 0};
+    return mesh;
+}
+
+TEST(Pattern, EdgesAreThoseOfSquaresWhereItIsMadeOfThem) {
+    const double height = 0.3, lean = 2;
+    const EdgeMesh reference = leaning_sheet(height, lean);
+    const std::vector<double> sizes(reference.places.size(), 1.0);
+    Pattern pattern;
+    pattern.on_surface = [](std::uint32_t, const EdgeMesh& surface, std::span<const Vec3>) {
+        std::vector<SurfacePoint> all;
+        for (std::uint32_t h = 0; h < surface.corners.size(); ++h) {
+            if (surface.on_border(surface.corners[h])) continue;
+            Weights weights{};
+            weights[h % 3] = 1;
+            all.push_back(point_at(surface, h / 3, weights));
+        }
+        return all;
+    };
+    const auto straight = [&](const Vec3& p) { return Vec3{p[0] - lean * p[1] / height, p[1] / height, 0}; };
+    const auto edges_of_squares = [&](bool straightens) {
+        WorkSurface work = work_surface(reference, {sizes, {}, 0});
+        for (VertexKind& kind : work.kinds) kind = kind == VertexKind::old ? VertexKind::fixed : kind;
+        if (straightens) {
+            pattern.straightened = [&](std::uint32_t, std::span<const Vec3> places) {
+                std::vector<Vec3> all;
+                for (const Vec3& p : places) all.push_back(straight(p));
+                return all;
+            };
+        }
+        remesh_to_pattern(work, pattern, 0, 1.0);
+        EXPECT_TRUE(is_consistent(work.mesh));
+        std::size_t count = 0;
+        for (std::uint32_t h = 0; h < work.mesh.corners.size(); ++h) {
+            if (work.mesh.corners[h] == no_index) continue;
+            const Vec3 d = minus(straight(work.mesh.places[work.mesh.to(h)]), straight(work.mesh.places[work.mesh.from(h)]));
+            if (dot(d, d) < 1.1) ++count;
+        }
+        return count;
+    };
+    const std::size_t wanted = 2 * (8 * 5 + 4 * 9) - 24;  // each side of a square from both sides, but for the border
+    EXPECT_LT(edges_of_squares(false), wanted);
+    EXPECT_EQ(edges_of_squares(true), wanted);
 }
 
 }  // namespace
