@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/length.h"
+#include "base/vectors.h"
 #include "topology/face_edges.h"
 
 namespace geomend::validators {
@@ -27,8 +29,16 @@ bool share_two_points(std::span<const std::uint32_t> a, std::span<const std::uin
     return std::ranges::count_if(a, [&](std::uint32_t point) { return std::ranges::find(b, point) != b.end(); }) >= 2;
 }
 
-/// Takes seams out that at both of their ends go on as contacts of the same two pieces with another surface: it is that surface which
-/// lacks something between.
+double length_of(const BrepData& brep, std::uint32_t line) {
+    const auto& vertices = brep.lines[line].vertices;
+    double sum = 0;
+    for (std::size_t i = 1; i < vertices.size(); ++i)
+        sum += length(minus(brep.vertices[vertices[i].value], brep.vertices[vertices[i - 1].value]));
+    return sum;
+}
+
+/// Takes seams out that at both of their ends go on as contacts of the same two pieces with another surface, and are not longer than
+/// these: it is that surface which lacks something between.
 void leave_out_gaps_of_others(const BrepData& brep, std::vector<std::uint8_t>& seam) {
     if (std::ranges::none_of(seam, [](std::uint8_t is) { return is != 0; })) return;
     std::vector<std::set<std::uint32_t>> surfaces(brep.lines.size());
@@ -40,16 +50,23 @@ void leave_out_gaps_of_others(const BrepData& brep, std::vector<std::uint8_t>& s
         for (const CornerId corner : brep.lines[l].corners) lines_at[corner.value].push_back(l);
     }
     const auto source = [&](std::uint32_t s) { return std::pair(brep.surfaces[s].source_object, brep.surfaces[s].source_part); };
-    const auto goes_on = [&](std::uint32_t l, CornerId corner) {
+    const auto goes_on = [&](std::uint32_t l, CornerId corner, std::set<std::uint32_t>& contacts) {
         const auto own = source(*surfaces[l].begin());  // that of both pieces
-        return std::ranges::any_of(lines_at[corner.value], [&](std::uint32_t next) {
-            return next != l && std::ranges::includes(surfaces[next], surfaces[l]) &&
-                   std::ranges::any_of(surfaces[next], [&](std::uint32_t s) { return source(s) != own; });
-        });
+        bool goes = false;
+        for (const std::uint32_t next : lines_at[corner.value]) {
+            const bool is_contact = next != l && std::ranges::includes(surfaces[next], surfaces[l]) &&
+                                    std::ranges::any_of(surfaces[next], [&](std::uint32_t s) { return source(s) != own; });
+            if (is_contact) contacts.insert(next), goes = true;
+        }
+        return goes;
     };
     for (std::uint32_t l = 0; l < seam.size(); ++l) {
         const auto& ends = brep.lines[l].corners;
-        if (seam[l] != 0 && ends[0] != ends[1] && goes_on(l, ends[0]) && goes_on(l, ends[1])) seam[l] = 0;
+        std::set<std::uint32_t> contacts;
+        if (seam[l] == 0 || ends[0] == ends[1] || !goes_on(l, ends[0], contacts) || !goes_on(l, ends[1], contacts)) continue;
+        double around = 0;
+        for (const std::uint32_t contact : contacts) around += length_of(brep, contact);
+        if (length_of(brep, l) <= around) seam[l] = 0;
     }
 }
 
