@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
-#include <unordered_set>
 #include <utility>
 
+#include "base/bounds.h"
 #include "base/wording.h"
+#include "geometry/box_tree.h"
 #include "geometry/intersections.h"
 #include "geometry/vectors.h"
 #include "validators/cell_findings.h"
@@ -31,7 +33,6 @@ struct Common {
     std::uint64_t pairs = 0;  // that cross
     double deepest = 0;
     std::vector<std::array<Vec3, 2>> segments;
-    std::unordered_set<std::uint32_t> lying;  // triangles of the one that is of no model, on the other
 };
 using AllCommon = std::map<std::pair<Owner, Owner>, Common>;
 
@@ -99,9 +100,6 @@ public:
         return found;
     }
 
-    /// The number in its surface's model of a triangle.
-    std::uint32_t number_in_model(std::uint32_t triangle) const { return triangle - all_.first[all_.owners[triangle].model]; }
-
 private:
     static constexpr std::size_t most_segments = 100000;
 
@@ -109,8 +107,6 @@ private:
         PairTaker taker;
         AllCommon found;
     };
-
-    bool is_beside(std::uint32_t triangle) const { return !models_[all_.owners[triangle].model]->model().stated; }
 
     PairTaker& taker_of(Part& part) {
         part.taker.is_choosy = true;
@@ -120,14 +116,11 @@ private:
     }
 
     void take(Part& part, const TriangleMeetingPair& pair) const {
+        if (pair.how.kind != Meeting::crossing) return;
         const Owner a = all_.owners[pair.a], b = all_.owners[pair.b];
         const double tolerance = std::max(models_[a.model]->lengths(a.surface).tolerance, models_[b.model]->lengths(b.surface).tolerance);
-        if (is_beside(pair.a) != is_beside(pair.b) &&
-            (pair.how.kind == Meeting::overlap || lie_on_each_other(corners_of(all_, pair.a), corners_of(all_, pair.b), tolerance))) {
-            part.found[std::minmax(a, b)].lying.insert(is_beside(pair.a) ? pair.a : pair.b);
-            return;
-        }
-        if (pair.how.kind != Meeting::crossing) return;
+        const bool one_is_beside = models_[a.model]->model().stated != models_[b.model]->model().stated;
+        if (one_is_beside && lie_on_each_other(corners_of(all_, pair.a), corners_of(all_, pair.b), tolerance)) return;  // B33
         const double deep = std::min(reach(all_, pair.a, pair.b), reach(all_, pair.b, pair.a));
         if (deep <= tolerance) return;
         Common& common = part.found[std::minmax(a, b)];
@@ -139,7 +132,6 @@ private:
     static void add(Common& all, const Common& part) {
         all.pairs += part.pairs;
         all.deepest = std::max(all.deepest, part.deepest);
-        all.lying.insert(part.lying.begin(), part.lying.end());
         const std::size_t room = std::min(part.segments.size(), most_segments - std::min(most_segments, all.segments.size()));
         all.segments.insert(all.segments.end(), part.segments.begin(), part.segments.begin() + static_cast<std::ptrdiff_t>(room));
     }
@@ -149,6 +141,39 @@ private:
     TriangleTree tree_;
     std::vector<Part> parts_;
 };
+
+/// By a surface of no model and one of a model the triangles of the first, by number, that lie on the other within the tolerance.
+using AllLying = std::map<std::pair<Owner, Owner>, std::set<std::uint32_t>>;
+
+AllLying lying_on_models(std::span<const ModelScope* const> models, const AllTriangles& all, const Monitor* monitor) {
+    std::vector<BoxTree::Corners> boxes;
+    std::vector<std::uint32_t> stated, beside;
+    double most = 0;
+    for (std::uint32_t t = 0; t < all.triangles.size(); ++t) {
+        const Owner owner = all.owners[t];
+        const bool is_stated = models[owner.model]->model().stated;
+        most = std::max(most, models[owner.model]->lengths(owner.surface).tolerance);
+        (is_stated ? stated : beside).push_back(t);
+        const Bounds box = bounds_around(corners_of(all, t));
+        if (is_stated) boxes.push_back({box.low, box.high});
+    }
+    AllLying lying;
+    if (stated.empty() || beside.empty()) return lying;
+    const BoxTree tree(boxes);
+    for (const std::uint32_t t : beside) {
+        if (monitor != nullptr && monitor->stopped()) return lying;
+        const auto corners = corners_of(all, t);
+        const Owner own = all.owners[t];
+        const Bounds box = bounds_around(corners);
+        tree.visit({box.low, box.high}, -2 * most, [&](std::uint32_t i) {
+            const Owner other = all.owners[stated[i]];
+            const double tolerance =
+                std::max(models[own.model]->lengths(own.surface).tolerance, models[other.model]->lengths(other.surface).tolerance);
+            if (lie_on_each_other(corners, corners_of(all, stated[i]), tolerance)) lying[{own, other}].insert(t);
+        });
+    }
+    return lying;
+}
 
 std::string model_text(const ModelScope& scope) {
     return scope.model().stated ? "model " + quoted(scope.brep().name) : "surfaces of no model";
@@ -192,16 +217,15 @@ void report_lying(const ModelScope& beside, std::uint32_t a, const ModelScope& s
 void report_crossing_models(std::span<const ModelScope* const> models, std::vector<Finding>& findings) {
     if (models.size() < 2) return;
     const AllTriangles all = triangles_of(models);
-    Search search(models, all);
-    for (const auto& [pair, common] : search.run(models[0]->monitor())) {
+    for (const auto& [pair, common] : Search(models, all).run(models[0]->monitor())) {
         const auto& [a, b] = pair;
-        const ModelScope &one = *models[a.model], &other = *models[b.model];
-        report_crossing(one, a.surface, other, b.surface, common, findings);
-        if (common.lying.empty()) continue;
-        std::vector<std::uint32_t> lying;
-        for (const std::uint32_t t : common.lying) lying.push_back(search.number_in_model(t));
-        if (one.model().stated) report_lying(other, b.surface, one, a.surface, lying, findings);
-        else report_lying(one, a.surface, other, b.surface, lying, findings);
+        report_crossing(*models[a.model], a.surface, *models[b.model], b.surface, common, findings);
+    }
+    for (const auto& [pair, triangles] : lying_on_models(models, all, models[0]->monitor())) {
+        const auto& [a, b] = pair;
+        std::vector<std::uint32_t> numbers;
+        for (const std::uint32_t t : triangles) numbers.push_back(t - all.first[a.model]);
+        report_lying(*models[a.model], a.surface, *models[b.model], b.surface, numbers, findings);
     }
 }
 

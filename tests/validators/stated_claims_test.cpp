@@ -292,6 +292,8 @@ TEST(ALooseSurfaceBesideAModel, ThatLiesOnOneOfItsSurfacesIsReported) {
         }
         EXPECT_EQ(triangles, std::get<Surface>(model.objects[0]).polygons.size());
     }
+    // Parallel, within the tolerance, without touching.
+    for (const double up : {1e-8, -1e-8}) EXPECT_EQ(worse_than_notes(copied(up)), Codes{"B33 warning"}) << up;
     // Away from the model, and models with a wall in common.
     EXPECT_TRUE(worse_than_notes(copied(50)).empty());
     EXPECT_FALSE(worse_than_notes(with_second(moved(model, [](const Vec3& p) {
