@@ -33,7 +33,7 @@ public:
         for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
             if (!is_of_a_set(c)) continue;
             const std::uint32_t surface = mesh_.cell_entity[c];
-            Regions between = regions_[face_corners(mesh_, c)];
+            Regions between = regions_[places(face_corners(mesh_, c))];
             std::ranges::sort(between);
             const auto [at, is_new] = piece_of.try_emplace({surface, between}, surface);
             if (is_new) {
@@ -58,31 +58,31 @@ private:
         return dimension(mesh_.types[cell]) == 2 && e < may_be_cut_.size() && may_be_cut_[e] != 0;
     }
 
-    /// The regions of the cells at each face of a set. Most cells have no face all of whose corners are on one.
+    /// The regions of the cells at each face of a set, also where the mesh is split there and they have nodes of their own. Most cells
+    /// have no face all of whose corners are on one.
     void find_regions() {
-        std::vector<std::uint8_t> is_on_a_set(mesh_.points.size(), 0);
-        for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
-            if (!is_of_a_set(c)) continue;
-            regions_[face_corners(mesh_, c)] = {no_index, no_index};
-            for (const std::uint32_t node : mesh_.cell_nodes(c)) is_on_a_set[node] = 1;
+        std::vector<std::uint32_t> faces;
+        for (std::uint32_t c = 0; c < mesh_.cell_count(); ++c) {
+            if (is_of_a_set(c)) faces.push_back(c);
         }
-        if (regions_.empty()) return;
+        if (faces.empty()) return;
+        first_ = first_at_places(mesh_, faces);
+        std::vector<std::uint8_t> is_on_a_set(mesh_.points.size(), 0);
+        for (const std::uint32_t c : faces) {
+            regions_[places(face_corners(mesh_, c))] = {no_index, no_index};
+            for (const std::uint32_t node : mesh_.cell_nodes(c)) is_on_a_set[first_[node]] = 1;
+        }
+        for (std::size_t p = 0; p < first_.size(); ++p) is_on_a_set[p] = is_on_a_set[first_[p]];
         each_marked_face(mesh_, is_on_a_set, [&](std::size_t cell, const FaceCorners& corners) {
-            const auto at = regions_.find(corners);
+            const auto at = regions_.find(places(corners));
             if (at != regions_.end()) at->second[at->second[0] == no_index ? 0 : 1] = mesh_.cell_entity[cell];
         });
-        join_sides();
     }
 
-    /// The faces on both sides of a split are one, between the regions of both.
-    void join_sides() {
-        const std::vector<std::uint32_t> side_of = other_sides(mesh_);
-        for (std::size_t c = 0; c < side_of.size(); ++c) {
-            if (side_of[c] == no_index) continue;
-            Regions &a = regions_[face_corners(mesh_, side_of[c])], &b = regions_[face_corners(mesh_, c)];
-            a[1] = b[0];
-            b = a;
-        }
+    FaceCorners places(FaceCorners corners) const {
+        for (std::uint32_t& p : corners) p = p == no_index ? p : first_[p];
+        std::ranges::sort(corners);
+        return corners;
     }
 
     std::uint32_t copy_of(std::uint32_t surface) {
@@ -103,6 +103,7 @@ private:
 
     CellMesh& mesh_;
     std::span<const std::uint8_t> may_be_cut_;
+    std::vector<std::uint32_t> first_;  // per point the first one at its place
     std::unordered_map<FaceCorners, Regions, FaceCornersHash> regions_;
     std::int64_t next_tag_ = 0;
 };

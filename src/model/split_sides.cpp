@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -16,6 +19,14 @@ namespace geomend {
 
 namespace {
 
+struct PlaceHash {
+    std::size_t operator()(const Vec3& p) const {
+        std::size_t hash = 0;
+        for (const double x : p) hash = (hash ^ std::hash<double>()(x)) * 0x9e3779b97f4a7c15u;
+        return hash ^ hash >> 32;
+    }
+};
+
 /// Faces of entities, by number.
 std::vector<std::uint32_t> faces_of_entities(const CellMesh& mesh) {
     std::vector<std::uint32_t> faces;
@@ -25,54 +36,62 @@ std::vector<std::uint32_t> faces_of_entities(const CellMesh& mesh) {
     return faces;
 }
 
-/// Per point that faces use the first one at its position; others are themselves. Empty where no two are at one.
-std::vector<std::uint32_t> first_at_position(const CellMesh& mesh, std::span<const std::uint32_t> faces) {
-    std::vector<std::uint8_t> used(mesh.points.size(), 0);
-    for (const std::uint32_t c : faces) {
-        for (const std::uint32_t node : mesh.cell_nodes(c)) used[node] = 1;
-    }
-    std::vector<std::uint32_t> points, first(mesh.points.size());
-    for (std::uint32_t p = 0; p < used.size(); ++p) {
-        first[p] = p;
-        if (used[p] != 0) points.push_back(p);
-    }
-    const auto key = [&](std::uint32_t p) { return std::pair(mesh.points[p], p); };
-    std::ranges::sort(points, {}, key);
-    bool any = false;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        if (!(mesh.points[points[i]] == mesh.points[points[i - 1]])) continue;
-        first[points[i]] = first[points[i - 1]];
-        any = true;
-    }
-    if (!any) first.clear();
-    return first;
-}
-
 using Pair = std::array<std::uint32_t, 2>;  // cells
 
+/// Which of two faces gives its surface the name where one is on the other side of the other: the same whatever their order.
+auto rank_of(const CellMesh& mesh, std::uint32_t face) {
+    const std::uint32_t e = mesh.cell_entity[face];
+    return std::tuple(std::string_view(mesh.entities[e].name), mesh.entities[e].tag, face);
+}
+
 struct PlacedFace {
-    FaceCorners places;
+    FaceCorners places, nodes;
     std::uint32_t entity, cell;
     auto operator<=>(const PlacedFace&) const = default;
 };
 
-/// Pairs of faces of one entity at the same positions on different nodes; lower number first.
-std::vector<Pair> pairs_of_faces(const CellMesh& mesh, std::span<const std::uint32_t> faces, std::span<const std::uint32_t> first) {
+/// Faces sorted by their places, then by their nodes.
+std::vector<PlacedFace> placed_faces(const CellMesh& mesh, std::span<const std::uint32_t> faces, std::span<const std::uint32_t> first) {
     std::vector<PlacedFace> placed;
     for (const std::uint32_t c : faces) {
-        FaceCorners places = face_corners(mesh, c);
+        const FaceCorners nodes = face_corners(mesh, c);
+        FaceCorners places = nodes;
         for (std::uint32_t& p : places) p = p == no_index ? p : first[p];
         std::ranges::sort(places);
-        placed.push_back({places, mesh.cell_entity[c], c});
+        placed.push_back({places, nodes, mesh.cell_entity[c], c});
     }
     std::ranges::sort(placed);
+    return placed;
+}
+
+/// Whether two faces of the same nodes run around them against each other. \pre they have as many
+bool run_against(const CellMesh& mesh, std::uint32_t a, std::uint32_t b) {
+    const std::size_t count = linear_type(mesh.types[a]) == CellType::triangle ? 3 : 4;
+    const auto one = mesh.cell_nodes(a).first(count), other = mesh.cell_nodes(b).first(count);
+    const auto at = static_cast<std::size_t>(std::ranges::find(other, one[0]) - other.begin());
+    return at < count && other[(at + 1) % count] == one[count - 1];
+}
+
+/// Pairs of faces at the same places, of one surface, or of two where no more than two faces are there: on different nodes, or on the same
+/// ones the other way round, as where all corners of a face are on the free border of a split.
+std::vector<Pair> pairs_of_faces(const CellMesh& mesh, const std::vector<PlacedFace>& placed) {
     std::vector<Pair> pairs;
-    for (std::size_t i = 1; i < placed.size(); ++i) {
-        const PlacedFace &a = placed[i - 1], &b = placed[i];
-        if (a.places != b.places || a.entity != b.entity) continue;
-        if (face_corners(mesh, a.cell) != face_corners(mesh, b.cell)) pairs.push_back({a.cell, b.cell}), ++i;
+    const auto add = [&](std::uint32_t a, std::uint32_t b) {
+        if (rank_of(mesh, b) < rank_of(mesh, a)) std::swap(a, b);
+        pairs.push_back({a, b});
+    };
+    for (auto group = placed.begin(); group != placed.end();) {
+        const auto end = std::find_if(group, placed.end(), [&](const PlacedFace& f) { return f.places != group->places; });
+        const auto other = std::find_if(group, end, [&](const PlacedFace& f) { return f.nodes != group->nodes; });
+        const bool two_sides = other != end && (end - 1)->nodes == other->nodes;
+        if (end - group == 2 && (two_sides || run_against(mesh, group->cell, (group + 1)->cell))) add(group->cell, (group + 1)->cell);
+        for (auto a = group; two_sides && end - group > 2 && a != other; ++a) {
+            const auto b = std::find_if(other, end, [&](const PlacedFace& f) { return f.entity == a->entity; });
+            if (b != end) add(a->cell, b->cell);
+        }
+        group = end;
     }
-    std::ranges::sort(pairs);
+    std::ranges::sort(pairs, {}, [&](const Pair& pair) { return rank_of(mesh, pair[0]); });
     return pairs;
 }
 
@@ -173,12 +192,27 @@ std::vector<std::uint32_t> keep_one_side(const CellMesh& mesh, std::span<const P
 
 }  // namespace
 
+std::vector<std::uint32_t> first_at_places(const CellMesh& mesh, std::span<const std::uint32_t> faces) {
+    std::unordered_map<Vec3, std::uint32_t, PlaceHash> first_at;
+    for (const std::uint32_t c : faces) {
+        for (const std::uint32_t node : mesh.cell_nodes(c)) first_at.emplace(mesh.points[node], no_index);
+    }
+    std::vector<std::uint32_t> first(mesh.points.size());
+    for (std::uint32_t p = 0; p < first.size(); ++p) {
+        first[p] = p;
+        const auto at = first_at.find(mesh.points[p]);
+        if (at == first_at.end()) continue;
+        if (at->second == no_index) at->second = p;
+        first[p] = at->second;
+    }
+    return first;
+}
+
 std::vector<std::uint32_t> other_sides(const CellMesh& mesh) {
     if (mesh.cell_entity.size() != mesh.cell_count()) return {};
     const auto faces = faces_of_entities(mesh);
-    const auto first = first_at_position(mesh, faces);
-    if (first.empty()) return {};
-    std::vector<Pair> pairs = pairs_of_faces(mesh, faces, first);
+    std::vector<Pair> pairs = pairs_of_faces(mesh, placed_faces(mesh, faces, first_at_places(mesh, faces)));
+    if (pairs.empty()) return {};
     std::unordered_map<FaceCorners, std::uint32_t, FaceCornersHash> cells_at;
     std::vector<std::uint8_t> marked(mesh.points.size(), 0);
     for (const Pair& pair : pairs) {
@@ -187,13 +221,15 @@ std::vector<std::uint32_t> other_sides(const CellMesh& mesh) {
             for (const std::uint32_t node : mesh.cell_nodes(c)) marked[node] = 1;
         }
     }
-    if (pairs.empty()) return {};
     each_marked_face(mesh, marked, [&](std::size_t, const FaceCorners& corners) {
         if (const auto at = cells_at.find(corners); at != cells_at.end()) ++at->second;
     });
-    std::erase_if(
-        pairs, [&](const Pair& pair) { return cells_at[face_corners(mesh, pair[0])] != 1 || cells_at[face_corners(mesh, pair[1])] != 1; });
-    if (pairs.empty()) return {};
+    const auto has_same_nodes = [&](const Pair& pair) { return face_corners(mesh, pair[0]) == face_corners(mesh, pair[1]); };
+    std::erase_if(pairs, [&](const Pair& pair) {
+        const std::uint32_t cells = has_same_nodes(pair) ? 2 : 1;
+        return cells_at[face_corners(mesh, pair[0])] != cells || cells_at[face_corners(mesh, pair[1])] != cells;
+    });
+    if (std::ranges::all_of(pairs, has_same_nodes)) return {};  // nothing is split
     return keep_one_side(mesh, pairs, faces);
 }
 

@@ -98,13 +98,38 @@ TEST(SplitSides, WithoutFacesThatAreAloneTheFirstSideIsKept) {
     for (std::size_t c = 32; c < side_of.size(); ++c) EXPECT_EQ(side_of[c] == no_index, c < 44);
 }
 
-TEST(SplitSides, FacesOfTwoSurfacesOrOfNoCellsAreNoSides) {
-    SplitBlock two;
-    two.state(two.above);
-    two.state(two.below);
-    two.mesh.entities.push_back(two.mesh.entities[1]);
-    std::fill(two.mesh.cell_entity.begin() + 44, two.mesh.cell_entity.end(), 2);
-    EXPECT_TRUE(other_sides(two.mesh).empty());
+TEST(SplitSides, TwoSurfacesThatAreTheSidesOfASplitAreOneUnderTheFirstName) {
+    for (const bool turned : {false, true}) {
+        SplitBlock block;
+        block.state(block.above);
+        block.state(block.below);
+        block.mesh.entities.push_back(block.mesh.entities[1]);
+        block.mesh.entities[1].name = turned ? "slave" : "master";
+        block.mesh.entities[2].name = turned ? "master" : "slave";
+        std::fill(block.mesh.cell_entity.begin() + 44, block.mesh.cell_entity.end(), 2);
+        const auto side_of = other_sides(block.mesh);
+        ASSERT_EQ(side_of.size(), block.mesh.cell_count());
+        for (std::size_t c = 32; c < side_of.size(); ++c)
+            EXPECT_EQ(side_of[c] == no_index, block.mesh.entities[block.mesh.cell_entity[c]].name == "master") << c;
+    }
+}
+
+TEST(SplitSides, FacesOnTheFreeBorderThatBothSidesStateWithTheSameNodesAreThereOnce) {
+    SplitBlock block;
+    block.state(block.above);
+    block.state(block.below);
+    block.state(block.alone);
+    for (auto face : block.alone) {
+        std::ranges::reverse(face);
+        block.state({face});
+    }
+    const auto side_of = other_sides(block.mesh);
+    ASSERT_EQ(side_of.size(), block.mesh.cell_count());
+    EXPECT_EQ(std::ranges::count(side_of, no_index), 32 + 16);
+    for (std::size_t c = 32; c < side_of.size(); ++c) EXPECT_EQ(side_of[c] == no_index, c < 44 || c >= 60) << "all looking down: " << c;
+}
+
+TEST(SplitSides, FacesOfNoCellsAreNoSides) {
     SplitBlock hollow;
     hollow.mesh.types.clear();
     hollow.mesh.nodes.clear();
