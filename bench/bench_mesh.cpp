@@ -11,8 +11,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "asked.h"
@@ -31,6 +33,7 @@
 #include "volume/fill.h"
 #include "volume/improve.h"
 #include "volume/narrow_cells.h"
+#include "volume/tetrahedra_workers.h"
 
 namespace {
 
@@ -159,10 +162,14 @@ double size_of(const Dataset& dataset) {
     return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 40;
 }
 
+constexpr const char* tetgen_stage = "TetGen, with its process and messages";
+
 /// The cells of a region as fill_regions() makes and proves them; 0: it takes another method. Stages get their times.
-std::size_t fill_by_stages(const RegionFacets& facets, double size, Stages& stages) {
+std::size_t fill_by_stages(const RegionFacets& facets, double size, TetrahedraWorkers& workers, Stages& stages) {
     const std::string switches = "QpYMT1e-14q1.4a" + number_text(most_cell_volume(size));
-    auto all = stages.take("TetGen, with its process and messages", [&] { return tetrahedra_of(facets, {}, switches, {}, {}, nullptr); });
+    ChildLimits limits;
+    limits.workers = &workers;
+    auto all = stages.take(tetgen_stage, [&] { return tetrahedra_of(facets, {}, switches, {}, limits, nullptr); });
     if (!all) return 0;
     auto cells = stages.take("cells checked", [&] { return cells_of_region(facets, std::move(*all)); });
     if (!cells) return 0;
@@ -203,8 +210,10 @@ Figures measure_stages(const std::string& file, double size, const std::filesyst
     });
     const auto facets = stages.take("facets of regions", [&] { return facets_of_regions(model); });
     double own_size = 0;
+    std::optional<TetrahedraWorkers> workers(std::in_place);
+    for (const RegionFacets& region : *facets) figures.cells += fill_by_stages(region, size, *workers, stages);
+    stages.take(tetgen_stage, [&] { workers.reset(); });  // the times of children count when they have ended
     for (const RegionFacets& region : *facets) {
-        figures.cells += fill_by_stages(region, size, stages);
         const std::string switches = "QpYMT1e-14q1.4a" + number_text(most_cell_volume(size));
         own_size += least_alone(region.positions, region.triangles, switches).seconds;
     }
@@ -235,8 +244,8 @@ Figures measure_stages(const std::string& file, double size, const std::filesyst
     const double start = processor_seconds();
     if (!mesh(request)) std::printf("  the command fails\n");
     figures.command = processor_seconds() - start;
-    const double with_messages = sum_of(stages, {"TetGen, with its process and messages"});
-    figures.filling = sum_of(stages, {"TetGen, with its process and messages", "cells checked", "cells improved"});
+    const double with_messages = sum_of(stages, {tetgen_stage});
+    figures.filling = sum_of(stages, {tetgen_stage, "cells checked", "cells improved"});
     double all = 0;
     for (const auto& [name, seconds] : stages.all()) all += seconds;
     figures.own = all - with_messages + (with_messages - figures.tetgen) - sum_of(stages, {"cells improved"});

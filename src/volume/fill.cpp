@@ -19,6 +19,7 @@
 #include "geometry/predicates.h"
 #include "volume/region_cells.h"
 #include "volume/region_facets.h"
+#include "volume/tetrahedra_workers.h"
 #include "volume/well_pieces.h"
 
 namespace geomend::volumes {
@@ -332,7 +333,10 @@ Result<Filled> fill_regions(const BrepData& brep, const topology::FoundRegions& 
     return fill_regions(std::move(*cut), found, options);
 }
 
-Result<Filled> fill_regions(CutByWells cut, const topology::FoundRegions& found, const FillOptions& options) {
+Result<Filled> fill_regions(CutByWells cut, const topology::FoundRegions& found, const FillOptions& asked) {
+    FillOptions options = asked;
+    std::optional<TetrahedraWorkers> workers;
+    if (options.limits.workers == nullptr && options.limits.program.empty()) options.limits.workers = &workers.emplace();
     auto all = facets_with_wells(cut, found, options);
     if (!all) return std::move(all).why();
     const auto* facets = &all->facets;

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <sys/wait.h>
 #include <tetgen.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
+#include <new>
 #include <string>
+#include <vector>
 
 #include "base/input.h"
+#include "base/serving_worker.h"
 #include "base/worker.h"
 #include "volume/tetrahedra.h"
+#include "volume/tetrahedra_workers.h"
 #include "volume/worker_message.h"
 
 namespace geomend::volumes {
@@ -105,24 +111,21 @@ bool write_whole(int descriptor, const std::string& bytes) {
     return true;
 }
 
-}  // namespace
+/// What the program that asked gets to know.
+struct Answer {
+    int status = 1;
+    std::string bytes;
+};
 
-int tetrahedra_worker(const std::vector<std::string>& arguments) {
-    if (arguments.size() != 4) return 1;
-    OwnLimits limits;
-    limits.parent = std::atol(arguments[1].c_str());
-    limits.memory_bytes = std::strtoull(arguments[2].c_str(), nullptr, 10);
-    become_worker(limits);
-    const int result = ::dup(STDOUT_FILENO);  // TetGen prints to standard output
-    ::dup2(STDERR_FILENO, STDOUT_FILENO);
-    auto input = Input::open(arguments[3]);
-    if (!input) return 1;
+Answer answer_to(const TetrahedraRequest& request) {
+    auto input = Input::open(request.path);
+    if (!input) return {};
     const auto facets = worker_facets(input->bytes());
-    if (!facets) return 1;
+    if (!facets) return {};
     try {
         tetgenbehavior behaviour;
-        std::string switches = arguments[0];
-        if (!behaviour.parse_commandline(switches.data())) return 1;
+        std::string switches = request.switches;
+        if (!behaviour.parse_commandline(switches.data())) return {};
         tetgenio in, added, background, out;
         fill_input(*facets, in);
         take_edges(*facets, in);
@@ -133,13 +136,54 @@ int tetrahedra_worker(const std::vector<std::string>& arguments) {
         if (!facets->sizes.empty()) take_sizes(facets->sizes, background);
         ::tetrahedralize(&behaviour, &in, &out, behaviour.insertaddpoints != 0 ? &added : nullptr,
                          facets->sizes.empty() ? nullptr : &background);
-        return write_whole(result, worker_answer(taken(out, facets->positions.size()))) ? 0 : 1;
+        return {0, worker_answer(taken(out, facets->positions.size()))};
     } catch (int number) {
         std::fprintf(stderr, "\n%s", reason(number));
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "\n%s", reason(1));
     }
-    return 1;
+    return {};
+}
+
+/// In the process that is forked for a request: it answers by itself, and ends. \param server the number of its parent
+[[noreturn]] void answer_alone(const TetrahedraRequest& request, pid_t server) {
+    become_worker({0, request.memory_bytes, server});
+    const Answer answer = answer_to(request);
+    std::fflush(stdout);
+    ::_exit(answer_request(answer.status, answer.bytes, false) ? 0 : 1);
+}
+
+/// Where the process of a request ends without an answer, this one does so in the same way: that is what the parent tells.
+int serve(std::int64_t parent) {
+    become_worker({0, 0, parent});
+    std::signal(SIGTERM, SIG_DFL);
+    const pid_t own = ::getpid();
+    while (const auto text = next_request()) {
+        const pid_t child = ::fork();
+        if (child == 0) answer_alone(request_of(*text), own);
+        if (child < 0) return 1;
+        int status = 0;
+        while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+        }
+        if (WIFSIGNALED(status)) {
+            std::signal(WTERMSIG(status), SIG_DFL);
+            ::raise(WTERMSIG(status));
+        }
+        if (status != 0) return 1;
+    }
+    return 0;
+}
+
+}  // namespace
+
+int tetrahedra_worker(const std::vector<std::string>& arguments) {
+    if (arguments.size() == 1) return serve(std::atol(arguments[0].c_str()));
+    if (arguments.size() != 4) return 1;
+    become_worker({0, std::strtoull(arguments[2].c_str(), nullptr, 10), std::atol(arguments[1].c_str())});
+    const int result = ::dup(STDOUT_FILENO);  // TetGen prints to standard output
+    ::dup2(STDERR_FILENO, STDOUT_FILENO);
+    const Answer answer = answer_to({arguments[0], arguments[3], 0});
+    return answer.status == 0 && write_whole(result, answer.bytes) ? 0 : 1;
 }
 
 }  // namespace geomend::volumes

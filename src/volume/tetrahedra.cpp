@@ -13,6 +13,7 @@
 #include "base/vectors.h"
 #include "base/wording.h"
 #include "base/worker.h"
+#include "volume/tetrahedra_workers.h"
 #include "volume/worker_message.h"
 
 namespace geomend::volumes {
@@ -120,6 +121,16 @@ Failure failure_of(const WorkerEnd& end, const ChildLimits& limits) {
     return gave_up("TetGen gave up: " + (why.empty() ? "status " + std::to_string(end.number) : why));
 }
 
+Result<WorkerEnd> ask_child(const std::string& switches, const std::string& path, const ChildLimits& limits, const Monitor* monitor) {
+    WorkerJob job;
+    job.seconds = limits.seconds;
+    job.most_output = std::size_t{1} << 31;
+    if (limits.workers != nullptr) return limits.workers->ask(request_text({switches, path, limits.memory_bytes}), job, monitor);
+    job.command = limits.program.empty() ? std::vector<std::string>{this_program()} : limits.program;
+    job.command.insert(job.command.end(), {worker_word, switches, std::to_string(::getpid()), std::to_string(limits.memory_bytes), path});
+    return run_worker(job, monitor);
+}
+
 }  // namespace
 
 Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const Inside& inside, const std::string& switches, VertexOrder order,
@@ -143,13 +154,7 @@ Result<Tetrahedra> tetrahedra_of(const RegionFacets& facets, const Inside& insid
     const MemoryFile file(
         worker_question({std::move(positions), std::move(triangles), std::move(more), std::move(sizes), std::move(edges)}));
     if (!file.ok()) return failure(FailureKind::limit, "F023", {}, "not enough memory for what TetGen is to fill");
-    WorkerJob job;
-    job.command = limits.program.empty() ? std::vector<std::string>{this_program()} : limits.program;
-    job.command.insert(job.command.end(),
-                       {worker_word, switches, std::to_string(::getpid()), std::to_string(limits.memory_bytes), file.path()});
-    job.seconds = limits.seconds;
-    job.most_output = std::size_t{1} << 31;
-    auto end = run_worker(job, monitor);
+    auto end = ask_child(switches, file.path(), limits, monitor);
     if (!end) return std::move(end).why();
     if (end->how != WorkerEnd::How::exited || end->number != 0) return failure_of(*end, limits);
     auto all = worker_tetrahedra(end->output, vertices.size());
