@@ -89,14 +89,15 @@ bool ends_lines_by_returns(std::string_view bytes) {
     return bytes.substr(0, first).find('\r') != std::string_view::npos && std::ranges::all_of(bytes, is_of_text);
 }
 
-/// The byte behind the end of a text of DOS (Ctrl-Z), which some programs still write: no part of it. Only behind what is text at both of
-/// its ends: in a binary file it is a byte as any other.
+/// The byte behind the end of a text of DOS (Ctrl-Z), which some programs still write, and what fills the file up behind it: no part of
+/// it. Only behind what is text at both of its ends: in a binary file it is a byte as any other.
 std::string_view without_end_mark(std::string_view bytes) {
     constexpr char mark = '\x1a';
     constexpr std::size_t looked_at = 4096;
-    if (!bytes.ends_with(mark)) return bytes;
-    std::string_view text = bytes;
-    while (text.ends_with(mark)) text.remove_suffix(1);
+    constexpr std::string_view filling(" \t\r\n\0\x1a", 6);
+    const std::size_t end = bytes.find_last_not_of(filling) + 1, at = bytes.substr(end).find(mark);  // npos + 1 is 0
+    if (at == std::string_view::npos) return bytes;
+    const std::string_view text = bytes.substr(0, end + at);
     const auto is_of_text = [](char c) { return static_cast<unsigned char>(c) >= ' ' || (c >= '\t' && c <= '\r'); };
     const std::string_view last = text.substr(text.size() - std::min(text.size(), looked_at));
     return std::ranges::all_of(text.substr(0, looked_at), is_of_text) && std::ranges::all_of(last, is_of_text) ? text : bytes;

@@ -134,7 +134,8 @@ void visit_intersections(const TriangleTree& tree, const std::function<PairTaker
         const std::size_t size = std::min(chunks_per_round, chunks - round);
         parallel_for_each_index(size, [&](std::size_t part) {
             PairTaker& taker = taker_of(round + part);
-            if (!taker.is_full) NodeSearch(tree, taker, groups, nodes).run(level, round + part);
+            const bool is_stopped = monitor != nullptr && monitor->stopped();
+            if (!taker.is_full && !is_stopped) NodeSearch(tree, taker, groups, nodes).run(level, round + part);
         });
         after_round(round, round + size);
         if (monitor != nullptr) monitor->progress("intersections", static_cast<double>(round + size) / static_cast<double>(chunks));

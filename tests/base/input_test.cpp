@@ -81,6 +81,9 @@ TEST(Input, TheEndMarkOfDosIsNoPartOfAText) {
     };
     EXPECT_EQ(bytes_of("1 2 3\r\n\x1a"), "1 2 3\r\n");
     EXPECT_EQ(bytes_of("1 2 3\x1a\x1a"), "1 2 3");
+    EXPECT_EQ(bytes_of("1 2 3\n\x1a\r\n"), "1 2 3\n");
+    EXPECT_EQ(bytes_of(std::string("1 2 3\n\x1a\0\0\0", 10)), "1 2 3\n") << "filled up";
+    EXPECT_EQ(bytes_of("1 2\x1a 3\n"), "1 2\x1a 3\n") << "not at the end";
     EXPECT_EQ(bytes_of(std::string("\0\x10 1\x1a", 5)), std::string("\0\x10 1\x1a", 5)) << "binary";
     const std::string long_text(10000, 'a'), binary_end = long_text + std::string(1, '\0') + "\x1a";
     EXPECT_EQ(bytes_of(long_text + "\x1a"), long_text);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Editors on Windows put a byte order mark before text: each file of text that is read is read behind one as well, and is told
-to be the same. Where a simulator stops at the mark, that is reported.
+"""Editors on Windows put a byte order mark before text, and old programs the end mark of DOS behind it: each file of text that is
+read is read with them as well, and is told to be the same. Where a simulator stops at the mark, that is reported.
     byte_order_mark_test.py PROGRAM
 """
 import json
@@ -51,16 +51,23 @@ def clean(value, folder):
     return value.replace(folder, "") if isinstance(value, str) else value
 
 
-class ByteOrderMark(unittest.TestCase):
+class Marks(unittest.TestCase):
     def test_text_is_read_behind_a_mark(self):
+        self.compare(MARK, b"")
+
+    def test_what_stands_behind_the_end_mark_of_dos_is_no_part_of_a_text(self):
+        for end in (b"\x1a", b"\x1a\r\n", b"\x1a\0\0"):
+            self.compare(b"", end)
+
+    def compare(self, start, end):
         compared = 0
         for number, (name, content) in enumerate(texts()):
             with self.subTest(name), tempfile.TemporaryDirectory() as plain, tempfile.TemporaryDirectory() as marked:
                 base = os.path.basename(name)
                 base += EXTENSIONS.get(base, "")
-                for folder, start in ((plain, b""), (marked, MARK)):
+                for folder, whole in ((plain, content), (marked, start + content + end)):
                     with open(os.path.join(folder, base), "wb") as file:
-                        file.write(start + content)
+                        file.write(whole)
                 expected = told(os.path.join(plain, base))
                 if expected is None:
                     continue
