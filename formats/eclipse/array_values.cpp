@@ -9,6 +9,7 @@
 
 #include "base/big_array.h"
 #include "base/fetch_pages.h"
+#include "base/large_pages.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "formats/eclipse/arrays.h"
@@ -85,6 +86,7 @@ Result<void> read_records(const ArrayFile& file, const Array& array, std::vector
     std::array<T, few> some;
     std::uint64_t fetched = 0;
     values.reserve(array.count);
+    ask_for_large_pages(values);
     return for_each_record(file, array, [&](std::uint64_t first, std::uint64_t count, const char* p) {
         for (const std::uint64_t end = first + count; first != end; first = values.size()) {
             const std::uint64_t n = std::min(few, end - first);

@@ -9,17 +9,18 @@
 #include <sys/mman.h>
 #endif
 
+#include "base/large_pages.h"
 #include "base/parallel.h"
 
 namespace geomend {
 
 /// Gives a large array its length, with zeros. The same as resize(), but its pages are fetched by several threads,
-/// since for arrays of hundreds of megabytes that costs more than filling them. Large pages are not asked for: where
-/// memory is in pieces, making them costs several times what they save.
+/// since for arrays of hundreds of megabytes that costs more than filling them. They are large ones where enough are free.
 /// \pre array.empty()
 template <class T>
 void make_big(std::vector<T>& array, std::size_t count) {
     array.reserve(count);
+    ask_for_large_pages(array);
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
     constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
     const std::size_t bytes = count * sizeof(T);
