@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "base/vectors.h"
+#include "base/wording.h"
 #include "formats/drop.h"
 #include "formats/meshes/abaqus_elements.h"
 #include "formats/meshes/abaqus_motion.h"
@@ -339,6 +340,7 @@ private:
         const AbaqusElement* row = abaqus_element_called(type);
         std::uint64_t unknown = 0;
         std::vector<std::int64_t> numbers;  // an element may take several lines
+        std::uint64_t begun = 0;            // on which line it begins
         while ((kind = lines.next()) == DeckLines::Kind::data) {
             if (is_stopped(lines.line())) return stopped(input);
             if (row == nullptr) {
@@ -346,8 +348,16 @@ private:
                 continue;
             }
             for (std::size_t field = 0; field < lines.fields().size(); ++field) {
+                if (numbers.empty()) begun = lines.line();
                 if (auto failed = whole(input, lines, field, "a node of an element", numbers.emplace_back())) return failed;
                 if (numbers.size() <= row->order.size()) continue;
+                const std::size_t left = lines.fields().size() - field - 1;
+                if (begun != lines.line() && left > 0 && !lines.fields()[field + 1].empty()) {
+                    return unreadable("F008", {input.name(), begun},
+                                      "element " + std::to_string(numbers.front()) + " has too few nodes: expected " +
+                                          std::to_string(row->order.size()) + " of " + type + "; the line after it has " +
+                                          counted(left, "number", "numbers") + " more than it lacks, and is the next element");
+                }
                 if (auto failed = element(input, keyword, *row, lines.line(), numbers)) return failed;
                 numbers.clear();
                 break;  // the programs pass over what follows on the line

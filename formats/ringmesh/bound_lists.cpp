@@ -63,6 +63,17 @@ void check_line(const GmArchive& archive, std::size_t l, Misfits& misfits) {
                     entity.line, corner.front());
         return;
     }
+    if (entity.bounds.empty()) return;  // it states none
+    for (const Vec3& end : ends) {
+        const bool is_stated = std::ranges::any_of(entity.bounds, [&](const EntityText::Bound& b) {
+            const auto& corner = archive.meshes[EntityText::corner][b.number]->points;
+            return corner.empty() || corner.front() == end;
+        });
+        if (is_stated) continue;
+        return misfits.add(
+            called(EntityText::line, l) + " ends at " + shown_at(end) + ", where none of the corners lies at which it is stated to end",
+            entity.line, end);
+    }
 }
 
 /// How many triangles have an edge.
@@ -76,14 +87,18 @@ std::map<Segment, int> edges_of_facets(const GeogramMesh& mesh) {
     return edges;
 }
 
-/// Lines that bound a surface run along its edges, and all of its border is on one of them.
+/// Lines that bound a surface run along its edges, those that are named twice not along its border, and all of its border is on one of
+/// them.
 void check_surface(const GmArchive& archive, std::size_t s, Misfits& misfits) {
+    constexpr int border = -1;  // edges of one triangle that a line runs along
     const auto& entity = archive.text.entities[EntityText::surface][s];
     const GeogramMesh& mesh = *archive.meshes[EntityText::surface][s];
     if (entity.bounds.empty() || mesh.facets.size() == 0) return;  // it states none
     std::map<Segment, int> edges = edges_of_facets(mesh);
+    std::map<std::uint32_t, int> named;
     for (const EntityText::Bound& b : entity.bounds) {
         const GeogramMesh& line = *archive.meshes[EntityText::line][b.number];
+        const bool again = ++named[b.number] > 1;
         for (const auto& e : line.edges) {
             const auto at = edges.find(segment(line.points[e[0]], line.points[e[1]]));
             if (at == edges.end()) {
@@ -91,7 +106,14 @@ void check_surface(const GmArchive& archive, std::size_t s, Misfits& misfits) {
                                        ", which does not run along its edges at " + shown_at(line.points[e[0]]),
                                    entity.line, line.points[e[0]]);
             }
-            at->second = 0;
+            if (!again) {
+                at->second = at->second == 1 ? border : 0;
+            } else if (at->second == border) {
+                return misfits.add(called(EntityText::surface, s) + " is stated to lie on both sides of " +
+                                       called(EntityText::line, b.number) + ", which runs along its border at " +
+                                       shown_at(line.points[e[0]]),
+                                   entity.line, line.points[e[0]]);
+            }
         }
     }
     const auto open = std::ranges::find_if(edges, [](const auto& edge) { return edge.second == 1; });

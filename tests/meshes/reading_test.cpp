@@ -7,6 +7,7 @@
 #include <set>
 
 #include "formats/meshes/meshes.h"
+#include "formats/meshes/read_abaqus.h"
 #include "geometry/cell_volume.h"
 #include "geometry/measures.h"
 #include "meshes/cell_samples.h"
@@ -388,6 +389,18 @@ TEST(Abaqus, CollapsedHexahedraAreReadWhicheverWayTheyAreTurned) {
             }
         }
     }
+}
+
+TEST(Abaqus, AnElementWithTooFewNodesDoesNotTakeTheNextOneIn) {
+    const std::string nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n*ELEMENT,TYPE=C3D4,ELSET=a\n";
+    const auto read = [&](const std::string& elements) {
+        return meshes::read_abaqus(Input::from_memory(nodes + elements, "deck.inp"), {});
+    };
+    const auto failed = read("1,1,2,3\n2,2,3,4,5\n");
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.why().error.code, "F008");
+    EXPECT_EQ(failed.why().error.where.line, 8u);
+    EXPECT_TRUE(read("1,1,2,\n3,4\n2,2,3,4,5\n")) << "an element on two lines";
 }
 
 TEST(Abaqus, SurfacesOfBothSidesAreOneAndAreCutWhereRegionsChange) {

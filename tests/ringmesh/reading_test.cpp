@@ -62,6 +62,10 @@ TEST(RingmeshReading, ListsOfLinesAndCornersThatDoNotFitTheGeometryAreReported) 
         {"boundary 0 1 2 \n", "boundary 0 1 8 \n", "Surface 0 is stated to be bounded by Line 8"},
         {"GeogramLineMesh\nboundary 4 2 \n", "GeogramLineMesh\nboundary 4 3 \n",
          "Line 0 is stated to end at Corner 3, which lies at (0, 0, 2)"},
+        {"GeogramLineMesh\nboundary 4 2 \n", "GeogramLineMesh\nboundary 4 4 \n",
+         "Line 0 ends at (0, 2, 0), where none of the corners lies"},
+        {"GeogramLineMesh\nboundary 4 2 \n", "GeogramLineMesh\nboundary 2 \n", "Line 0 ends at (1, 0, 0), where none of the corners lies"},
+        {"boundary 0 1 2 \n", "boundary 0 1 2 0 \n", "Surface 0 is stated to lie on both sides of Line 0"},
     };
     for (const Row& row : rows) {
         TwoHalves model = with_lines();
