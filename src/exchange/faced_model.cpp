@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "exchange/attribute_merge.h"
+#include "exchange/connected_surfaces.h"
 #include "exchange/model_from_brep.h"
 #include "exchange/statements.h"
 
@@ -141,7 +142,8 @@ void list_losses(const BrepData& brep, std::vector<Loss>& losses) {
 
 Dataset faced_model(const Brep& brep, std::vector<Loss>& losses) {
     Dataset result;
-    const BrepData& b = *brep;
+    const auto in_parts = with_connected_surfaces(*brep);
+    const BrepData& b = in_parts ? *in_parts : *brep;
     InterfaceWriter writer(b, losses);
     for (const auto& interface : b.interfaces) result.objects.emplace_back(writer.make(interface));
     std::vector<FacePlace> places;
@@ -149,7 +151,7 @@ Dataset faced_model(const Brep& brep, std::vector<Loss>& losses) {
         std::uint32_t part = 0;
         for (const SurfaceId s : b.interfaces[i].surfaces) places.push_back({s, i, part++});
     }
-    list_losses(b, losses);
+    list_losses(*brep, losses);
     result.models.push_back(stated_model(b, places));
     return result;
 }
