@@ -144,8 +144,8 @@ struct Usual {
     std::size_t points = 0;     ///< most that one of them found
 };
 
-/// Cuts until nothing is found any more, or it is given up. Whether it was since it grew.
-bool cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigned most_rounds, Usual& usual, Snapped& s,
+/// Cuts until nothing is found any more, or it is given up.
+void cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigned most_rounds, Usual& usual, Snapped& s,
          Arrangement& result) {
     result.clean = false;
     constexpr unsigned most_unfoldings = 4;
@@ -158,25 +158,22 @@ bool cut(const TriangleSoup& soup, double share, const Monitor* monitor, unsigne
     const bool is_first = usual.triangles == 0;
     unsigned rounds = 0;
     const auto grows = [&] {
-        if (s.state.found_points > s.state.most_points) return true;
-        return (!is_first || rounds > first_rounds) && s.state.triangles.size() > most_growth * usual.triangles + 1000;
+        if (is_first && rounds <= first_rounds) return false;
+        return s.state.found_points > s.state.most_points || s.state.triangles.size() > most_growth * usual.triangles + 1000;
     };
     while (!result.clean && rounds < most_rounds && !stopped() && !grows()) {
-        if (!is_first || rounds > 0)
-            s.state.most_points = most_growth * (usual.points + (rounds < first_rounds ? usual.triangles : 0)) + 1000;
+        if (rounds >= first_rounds) s.state.most_points = most_growth * usual.points + 1000;
         s.state.reach = reach_of_round(s.grid, share, rounds);
         result.clean = cut_round(s.state, monitor);
         ++rounds;
         ++result.rounds;
-        if (is_first && rounds <= first_rounds && !grows())
-            usual = {s.state.triangles.size(), std::max(usual.points, s.state.found_points)};
+        if (is_first && rounds <= first_rounds) usual = {s.state.triangles.size(), std::max(usual.points, s.state.found_points)};
         if (result.clean && unfoldings < most_unfoldings && unfold(s.state, soup, s.grid.tolerance_steps)) {
             ++unfoldings;
             result.clean = false;
         }
     }
     if (stopped()) result.clean = false;
-    return grows();
 }
 
 /// Notes which triangles of the soup have pieces that were found near others in the last round.
@@ -254,17 +251,15 @@ void cut_in_sheets(const TriangleSoup& soup, const ArrangeOptions& options, std:
     for (const double coarser : {1.0, 4.0, 8.0, 16.0, 1.0}) {
         const double share = std::max(options.reach, std::min(0.5, coarser * options.reach));
         if (coarser != 1 && share == options.reach) continue;
-        unsigned grew = 0;  // one after the other: thicker sheets grow, too
-        constexpr unsigned most_grew = 2;
         for (const double width : sheet_widths) {
-            if (width > thickest_sheet(options) || grew == most_grew) break;
+            if (width > thickest_sheet(options)) break;
             if (options.monitor != nullptr && options.monitor->stopped()) return;
             Snapped anew = snapped(soup, options.tolerance);
             anew.state.reach = reach_of_round(s.grid, share, 0);
             lay_sheets(anew.state, width * s.grid.tolerance_steps, may_lie, options.monitor);
             // Without sheets it is as before, but for the reach.
             if (anew.state.stacks.empty() && (share == options.reach || width != sheet_widths.front())) continue;
-            grew = cut(soup, share, options.monitor, later_patience, usual, anew, result) ? grew + 1 : 0;
+            cut(soup, share, options.monitor, later_patience, usual, anew, result);
             if (result.clean && has_lost_area(soup, anew, options.tolerance, may_lie)) result.clean = false;
             if (result.clean) {
                 s = std::move(anew);

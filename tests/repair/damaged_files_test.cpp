@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <random>
 #include <sstream>
@@ -194,16 +193,6 @@ TEST(DamagedFiles, AreMendedWithoutAnErrorOrNotWritten) {
     for (unsigned seed = first; seed < first + test::seeds(30); ++seed) repair_damaged(files[seed % files.size()], seed, folder, tally);
     std::printf("written %u, left %u, not read %u\n", tally.written, tally.left, tally.unreadable);
     EXPECT_GT(tally.written, 0u);
-}
-
-TEST(DamagedFiles, WhoseCutsGrowWithoutEndAreGivenUp) {
-    const auto file = test::real_data("gocad/modelA1.ml");
-    if (!file) GTEST_SKIP() << "no real data";
-    const test::TemporaryFolder folder;
-    Tally tally;
-    const std::clock_t start = std::clock();
-    repair_damaged(*file, 201789, folder, tally);  // a second round of a weld found without end: 4 GB, 140 s
-    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 60);
 }
 
 }  // namespace
