@@ -515,7 +515,8 @@ private:
                 }
             }
             std::uint64_t added = 0;
-            for (const std::uint32_t element : elements) added += add_face(element, waiting) ? 1 : 0;
+            const std::string surface = surface_of_side(waiting.surface);
+            for (const std::uint32_t element : elements) added += add_face(element, waiting.face, surface) ? 1 : 0;
             if (added > 0 && added == elements.size()) continue;
             if (unknown == 0) first_line = waiting.line;
             unknown += std::max<std::uint64_t>(1, elements.size() - added);
@@ -546,12 +547,11 @@ private:
         return name;
     }
 
-    bool add_face(std::uint32_t element, const WaitingFace& waiting) {
+    bool add_face(std::uint32_t element, std::string_view stated_face, const std::string& surface) {
         const auto collapsed = collapsed_.find(element);
         const AbaqusElement* row = collapsed != collapsed_.end() ? collapsed->second : abaqus_element_of(mesh_.types[element]);
         std::int64_t wanted = 0;
-        if (row == nullptr || !waiting.face.starts_with('S') ||
-            parse_integer(std::string_view(waiting.face).substr(1), wanted) != NumberStatus::ok)
+        if (row == nullptr || !stated_face.starts_with('S') || parse_integer(stated_face.substr(1), wanted) != NumberStatus::ok)
             return false;
         const auto face = std::ranges::find(row->faces, wanted);
         if (face == row->faces.end()) return false;
@@ -564,7 +564,7 @@ private:
             ++faces_again_;
             return true;
         }
-        grown_.add(nodes.size() == 3 ? CellType::triangle : CellType::quad, nodes, entity_of(2, surface_of_side(waiting.surface)));
+        grown_.add(nodes.size() == 3 ? CellType::triangle : CellType::quad, nodes, entity_of(2, surface));
         return true;
     }
 

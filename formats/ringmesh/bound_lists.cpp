@@ -7,15 +7,13 @@
 #include <vector>
 
 #include "base/codes.h"
-#include "base/number_text.h"
+#include "base/place_words.h"
 #include "base/wording.h"
 #include "formats/ringmesh/archive.h"
 
 namespace geomend::ringmesh {
 
 namespace {
-
-std::string shown_at(const Vec3& p) { return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(p[2]) + ")"; }
 
 /// Records of one kind whose list does not fit: the first one is shown.
 struct Misfits {
@@ -58,8 +56,8 @@ void check_line(const GmArchive& archive, std::size_t l, Misfits& misfits) {
                                            : std::ranges::find(ends, corner.front()) != ends.end();
         if (is_there) continue;
         misfits.add(called(EntityText::line, l) + " is stated to end at " + called(EntityText::corner, b.number) + ", which lies at " +
-                        shown_at(corner.front()) + "; it " +
-                        (ends.empty() ? "is closed" : "ends at " + shown_at(ends.front()) + " and " + shown_at(ends.back())),
+                        place_words(corner.front()) + "; it " +
+                        (ends.empty() ? "is closed" : "ends at " + place_words(ends.front()) + " and " + place_words(ends.back())),
                     entity.line, corner.front());
         return;
     }
@@ -71,18 +69,29 @@ void check_line(const GmArchive& archive, std::size_t l, Misfits& misfits) {
         });
         if (is_stated) continue;
         return misfits.add(
-            called(EntityText::line, l) + " ends at " + shown_at(end) + ", where none of the corners lies at which it is stated to end",
+            called(EntityText::line, l) + " ends at " + place_words(end) + ", where none of the corners lies at which it is stated to end",
             entity.line, end);
     }
 }
 
-/// How many triangles have an edge.
-std::map<Segment, int> edges_of_facets(const GeogramMesh& mesh) {
-    std::map<Segment, int> edges;
+struct EdgeUse {
+    Segment edge;
+    int triangles = 0;
+};
+
+/// The edges of triangles, ascending, and how many have each.
+std::vector<EdgeUse> edges_of_facets(const GeogramMesh& mesh) {
+    std::vector<Segment> all;
     for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
         const auto corners = mesh.facets[f];
         for (std::size_t k = 0; k < corners.size(); ++k)
-            ++edges[segment(mesh.points[corners[k]], mesh.points[corners[(k + 1) % corners.size()]])];
+            all.push_back(segment(mesh.points[corners[k]], mesh.points[corners[(k + 1) % corners.size()]]));
+    }
+    std::ranges::sort(all);
+    std::vector<EdgeUse> edges;
+    for (const Segment& edge : all) {
+        if (edges.empty() || edges.back().edge != edge) edges.push_back({edge, 0});
+        ++edges.back().triangles;
     }
     return edges;
 }
@@ -94,33 +103,34 @@ void check_surface(const GmArchive& archive, std::size_t s, Misfits& misfits) {
     const auto& entity = archive.text.entities[EntityText::surface][s];
     const GeogramMesh& mesh = *archive.meshes[EntityText::surface][s];
     if (entity.bounds.empty() || mesh.facets.size() == 0) return;  // it states none
-    std::map<Segment, int> edges = edges_of_facets(mesh);
+    std::vector<EdgeUse> edges = edges_of_facets(mesh);
     std::map<std::uint32_t, int> named;
     for (const EntityText::Bound& b : entity.bounds) {
         const GeogramMesh& line = *archive.meshes[EntityText::line][b.number];
         const bool again = ++named[b.number] > 1;
         for (const auto& e : line.edges) {
-            const auto at = edges.find(segment(line.points[e[0]], line.points[e[1]]));
-            if (at == edges.end()) {
+            const Segment wanted = segment(line.points[e[0]], line.points[e[1]]);
+            const auto at = std::ranges::lower_bound(edges, wanted, {}, &EdgeUse::edge);
+            if (at == edges.end() || at->edge != wanted) {
                 return misfits.add(called(EntityText::surface, s) + " is stated to be bounded by " + called(EntityText::line, b.number) +
-                                       ", which does not run along its edges at " + shown_at(line.points[e[0]]),
+                                       ", which does not run along its edges at " + place_words(line.points[e[0]]),
                                    entity.line, line.points[e[0]]);
             }
             if (!again) {
-                at->second = at->second == 1 ? border : 0;
-            } else if (at->second == border) {
+                at->triangles = at->triangles == 1 ? border : 0;
+            } else if (at->triangles == border) {
                 return misfits.add(called(EntityText::surface, s) + " is stated to lie on both sides of " +
                                        called(EntityText::line, b.number) + ", which runs along its border at " +
-                                       shown_at(line.points[e[0]]),
+                                       place_words(line.points[e[0]]),
                                    entity.line, line.points[e[0]]);
             }
         }
     }
-    const auto open = std::ranges::find_if(edges, [](const auto& edge) { return edge.second == 1; });
+    const auto open = std::ranges::find_if(edges, [](const EdgeUse& use) { return use.triangles == 1; });
     if (open != edges.end())
-        misfits.add(called(EntityText::surface, s) + " has a border at " + shown_at(open->first[0]) +
-                        " along which none of the lines runs " + "that are stated to bound it",
-                    entity.line, open->first[0]);
+        misfits.add(called(EntityText::surface, s) + " has a border at " + place_words(open->edge[0]) +
+                        " along which none of the lines runs that are stated to bound it",
+                    entity.line, open->edge[0]);
 }
 
 void report(const GmArchive& archive, const Misfits& misfits, const char* one, const char* several, Dataset& data) {

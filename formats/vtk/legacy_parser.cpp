@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/file_filling.h"
 #include "base/number_text.h"
 #include "base/text_cursor.h"
 #include "formats/drop.h"
@@ -242,8 +243,7 @@ void Parser::note(const char* code, std::string message, std::uint64_t at) {
 bool Parser::trailing(std::uint64_t at) {
     if (file_.kind == LegacyKind::none && file_.fields.empty()) return s_.fail("F012", at, "a DATASET or FIELD record is expected");
     const std::uint64_t size = s_.bytes().size() - at;
-    constexpr std::string_view nothing(" \t\r\n\0\x1a", 6);  // as the mark that ends a text of DOS
-    if (s_.bytes().substr(at).find_first_not_of(nothing) == std::string_view::npos) {
+    if (s_.bytes().substr(at).find_first_not_of(file_filling) == std::string_view::npos) {
         s_.take_rest();
         return true;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/file_filling.h"
 #include "base/text_cursor.h"
 #include "formats/byte_order_mark.h"
 
@@ -39,8 +40,7 @@ public:
             const XmlElement& last = doc_.elements[open_.back().index];
             return cut("the element <" + std::string(last.name) + "> of line " + std::to_string(doc_.where(last).line) + " is not closed");
         }
-        constexpr std::string_view nothing(" \t\r\n\0\x1a", 6);  // what programs fill files up with, and DOS ends texts with
-        if (doc_.bytes.substr(at_).find_first_not_of(nothing) != std::string_view::npos && !rest_is_misc())
+        if (doc_.bytes.substr(at_).find_first_not_of(file_filling) != std::string_view::npos && !rest_is_misc())
             return unreadable("F012", doc_.where(at_), "expected the end of the file after the root element");
         return std::move(doc_);
     }

@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/file_filling.h"
 #include "base/inflate.h"
 
 namespace geomend {
@@ -94,8 +95,7 @@ bool ends_lines_by_returns(std::string_view bytes) {
 std::string_view without_end_mark(std::string_view bytes) {
     constexpr char mark = '\x1a';
     constexpr std::size_t looked_at = 4096;
-    constexpr std::string_view filling(" \t\r\n\0\x1a", 6);
-    const std::size_t end = bytes.find_last_not_of(filling) + 1, at = bytes.substr(end).find(mark);  // npos + 1 is 0
+    const std::size_t end = bytes.find_last_not_of(file_filling) + 1, at = bytes.substr(end).find(mark);  // npos + 1 is 0
     if (at == std::string_view::npos) return bytes;
     const std::string_view text = bytes.substr(0, end + at);
     const auto is_of_text = [](char c) { return static_cast<unsigned char>(c) >= ' ' || (c >= '\t' && c <= '\r'); };

@@ -33,7 +33,7 @@ public:
         for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
             if (!is_of_a_set(c)) continue;
             const std::uint32_t surface = mesh_.cell_entity[c];
-            Regions between = regions_[places(face_corners(mesh_, c))];
+            Regions between = regions_[face_places(face_corners(mesh_, c), first_)];
             std::ranges::sort(between);
             const auto [at, is_new] = piece_of.try_emplace({surface, between}, surface);
             if (is_new) {
@@ -69,20 +69,14 @@ private:
         first_ = first_at_places(mesh_, faces);
         std::vector<std::uint8_t> is_on_a_set(mesh_.points.size(), 0);
         for (const std::uint32_t c : faces) {
-            regions_[places(face_corners(mesh_, c))] = {no_index, no_index};
+            regions_[face_places(face_corners(mesh_, c), first_)] = {no_index, no_index};
             for (const std::uint32_t node : mesh_.cell_nodes(c)) is_on_a_set[first_[node]] = 1;
         }
         for (std::size_t p = 0; p < first_.size(); ++p) is_on_a_set[p] = is_on_a_set[first_[p]];
         each_marked_face(mesh_, is_on_a_set, [&](std::size_t cell, const FaceCorners& corners) {
-            const auto at = regions_.find(places(corners));
+            const auto at = regions_.find(face_places(corners, first_));
             if (at != regions_.end()) at->second[at->second[0] == no_index ? 0 : 1] = mesh_.cell_entity[cell];
         });
-    }
-
-    FaceCorners places(FaceCorners corners) const {
-        for (std::uint32_t& p : corners) p = p == no_index ? p : first_[p];
-        std::ranges::sort(corners);
-        return corners;
     }
 
     std::uint32_t copy_of(std::uint32_t surface) {

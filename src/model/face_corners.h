@@ -40,6 +40,13 @@ inline FaceCorners face_corners(const CellMesh& mesh, std::size_t cell) {
     return face_corners(mesh.cell_nodes(cell), linear_type(mesh.types[cell]) == CellType::triangle ? 3 : 4);
 }
 
+/// The corners by the places where they lie. \param first per point the first one at its place
+inline FaceCorners face_places(FaceCorners corners, std::span<const std::uint32_t> first) {
+    for (std::uint32_t& p : corners) p = p == no_index ? p : first[p];
+    std::ranges::sort(corners);
+    return corners;
+}
+
 /// Calls visit(cell, corners) for those faces of the cells of a mesh all of whose corners are marked. Linear.
 /// \param marked per point
 template <class Visit>

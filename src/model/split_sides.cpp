@@ -55,10 +55,7 @@ std::vector<PlacedFace> placed_faces(const CellMesh& mesh, std::span<const std::
     std::vector<PlacedFace> placed;
     for (const std::uint32_t c : faces) {
         const FaceCorners nodes = face_corners(mesh, c);
-        FaceCorners places = nodes;
-        for (std::uint32_t& p : places) p = p == no_index ? p : first[p];
-        std::ranges::sort(places);
-        placed.push_back({places, nodes, mesh.cell_entity[c], c});
+        placed.push_back({face_places(nodes, first), nodes, mesh.cell_entity[c], c});
     }
     std::ranges::sort(placed);
     return placed;
